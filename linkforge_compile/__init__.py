@@ -1,0 +1,70 @@
+"""A declarative compiler for robots: YAML specs in, URDF and SRDF out.
+
+    from linkforge_compile import compile_file, render_urdf
+
+    compilation = compile_file("arm.robot.yaml", parameters={"reach": "0.7 m"})
+    for diagnostic in compilation.diagnostics:
+        print(diagnostic)
+    urdf = render_urdf(compilation.result())      # CompileError where the spec has errors
+
+Nothing here prints or exits. The model of a robot is `linkforge_compile.core`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from linkforge_compile._version import __version__
+
+if TYPE_CHECKING:
+    from linkforge_compile.backends import render_srdf, render_urdf
+    from linkforge_compile.core import Robot
+    from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
+    from linkforge_compile.pipeline import Compilation, CompileError, check_file, compile_file, compile_text
+    from linkforge_compile.source import Span
+
+__all__ = [
+    "Compilation",
+    "CompileError",
+    "Diagnostic",
+    "Diagnostics",
+    "Robot",
+    "Severity",
+    "Span",
+    "__version__",
+    "check_file",
+    "compile_file",
+    "compile_text",
+    "render_srdf",
+    "render_urdf",
+]
+
+_HOMES = {
+    "Compilation": "pipeline",
+    "CompileError": "pipeline",
+    "Diagnostic": "diagnostics",
+    "Diagnostics": "diagnostics",
+    "Robot": "core",
+    "Severity": "diagnostics",
+    "Span": "source",
+    "check_file": "pipeline",
+    "compile_file": "pipeline",
+    "compile_text": "pipeline",
+    "render_srdf": "backends",
+    "render_urdf": "backends",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Import what is asked for when it is first asked for, so that `linkforge --help` stays quick."""
+    if name not in _HOMES:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    from importlib import import_module
+
+    value: object = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

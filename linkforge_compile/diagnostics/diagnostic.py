@@ -1,0 +1,83 @@
+"""One thing to tell the user, and the code that names its kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TypeAlias
+
+from linkforge_compile.diagnostics.suggest import did_you_mean
+from linkforge_compile.source import SourceRef, Span
+
+Where: TypeAlias = Span | SourceRef | None
+"""A place: a span of text, an object's reference, or None for a value that was never written (built in Python)."""
+
+
+class Severity(StrEnum):
+    """An error makes the output invalid or other than what was written; a warning and a note let it through."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    NOTE = "note"
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A second place that explains the first, such as where the other of two equal names stands."""
+
+    message: str
+    span: Span | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One fault, told once: `message` is lower case, without full stop, the user's own words in quotes."""
+
+    code: Code
+    message: str
+    span: Span | None
+    notes: tuple[Note, ...] = ()
+
+    @property
+    def severity(self) -> Severity:
+        return self.code.severity
+
+    @property
+    def order(self) -> tuple[int, str, int, int]:
+        """A sort key: reading order; what has no place comes first."""
+        return self.span.order if self.span else (-1, "", 0, 0)
+
+    def __str__(self) -> str:
+        place = f"{self.span}: " if self.span else ""
+        return f"{place}{self.severity}: {self.message} [{self.code.id}]"
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """A kind of fault. `message` is its sentence, with the facts it needs as `{name}` fields.
+
+    Ids are never renumbered nor reused: people write them into ignore comments and CI settings.
+    """
+
+    id: str
+    severity: Severity
+    message: str
+
+    def at(
+        self,
+        where: Where,
+        *path: str | int,
+        near: Iterable[str] = (),
+        notes: Iterable[Note] = (),
+        **facts: object,
+    ) -> Diagnostic:
+        """Make the diagnostic for one place; `path` leads from an object to the field at fault.
+
+        `near` lists the names that would have been right: the one like the fact `name`, if any, is offered.
+        """
+        message = self.message.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
+        if not isinstance(where, SourceRef):
+            return Diagnostic(self, message, where, tuple(notes))
+        trail = (Note("used here", use) for use in where.trail)
+        return Diagnostic(self, message, where.at(*path), (*notes, *trail))

@@ -1,0 +1,76 @@
+"""Diagnostics as text: the line that tools parse, the source line under it, and a caret under the words at fault."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from unicodedata import east_asian_width
+
+from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
+from linkforge_compile.source import Span
+
+_COLOURS = {Severity.ERROR: "\033[1;31m", Severity.WARNING: "\033[1;33m", Severity.NOTE: "\033[1;36m"}
+_BOLD, _RESET = "\033[1m", "\033[0m"
+
+# A spec generated on one line, or a list of a thousand numbers, must not fill the screen.
+_WIDEST_LINE = 160
+_CONTEXT_BEFORE = 60
+
+
+def render_text(diagnostics: Iterable[Diagnostic], *, colour: bool = False) -> str:
+    """Return `file:line:col: error: message [LFnnnn]` with the source under each; empty for none."""
+    return "".join(f"{line}\n" for diagnostic in diagnostics for line in _lines(diagnostic, colour))
+
+
+def summary(diagnostics: Iterable[Diagnostic]) -> str:
+    """Return "2 errors, 1 warning", or "no errors" where there is neither."""
+    severities = [diagnostic.severity for diagnostic in diagnostics]
+    counts = [(severities.count(severity), severity) for severity in (Severity.ERROR, Severity.WARNING)]
+    told = [f"{count} {severity}{'s' if count > 1 else ''}" for count, severity in counts if count]
+    return ", ".join(told) or "no errors"
+
+
+def _lines(diagnostic: Diagnostic, colour: bool) -> Iterator[str]:
+    severity = diagnostic.severity
+    yield _headline(diagnostic.span, severity, f"{diagnostic.message} [{diagnostic.code.id}]", colour)
+    yield from _snippet(diagnostic.span, _COLOURS[severity] if colour else "")
+    for note in diagnostic.notes:
+        yield _headline(note.span, Severity.NOTE, note.message, colour)
+        yield from _snippet(note.span, _COLOURS[Severity.NOTE] if colour else "")
+
+
+def _headline(span: Span | None, severity: Severity, message: str, colour: bool) -> str:
+    place = f"{span}: " if span else ""
+    if not colour:
+        return f"{place}{severity}: {message}"
+    return f"{_BOLD}{place}{_COLOURS[severity]}{severity}:{_RESET}{_BOLD} {message}{_RESET}"
+
+
+def _snippet(span: Span | None, colour: str) -> Iterator[str]:
+    """Yield the first line of the span and the caret line; nothing where the file has no such line."""
+    if span is None or not (line := span.file.line(span.line)).strip():
+        return
+    start, end = span.column - 1, span.end_column - 1 if span.end_line == span.line else len(line)
+    if len(line) > _WIDEST_LINE:
+        cut = max(0, start - _CONTEXT_BEFORE)
+        line = ("…" if cut else "") + line[cut : cut + _WIDEST_LINE] + "…"
+        start, end = (place - cut + bool(cut) for place in (start, end))
+    number = str(span.line)
+    marked = line[start : min(end, len(line))]
+    caret = "^" * max(1, sum(_cells(char) for char in marked))
+    yield f" {number:>5} | {_visible(line)}"
+    yield f" {'':>5} | {_padding(line[:start])}{colour}{caret}{_RESET if colour else ''}"
+
+
+def _cells(char: str) -> int:
+    """Return how many columns of a terminal a character takes."""
+    return 2 if east_asian_width(char) in "WF" else 1
+
+
+def _padding(text: str) -> str:
+    """Return white space as wide as `text`: tabs stay tabs, as wide characters take two columns."""
+    return "".join("\t" if char == "\t" else " " * _cells(char) for char in text)
+
+
+def _visible(line: str) -> str:
+    """Return the line with control characters shown as a mark, so that a spec cannot drive the terminal."""
+    return "".join(char if char == "\t" or char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in line)

@@ -1,0 +1,26 @@
+"""The name that was probably meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+def nearest(name: str, candidates: Iterable[str]) -> str | None:
+    """Return the candidate most like `name`, None where none is like it."""
+    # difflib costs 3 ms to import and most runs never need it.
+    from difflib import get_close_matches
+
+    pool = dict.fromkeys(candidates)
+    if not name or not pool:
+        return None
+    folded = {candidate.casefold(): candidate for candidate in reversed(pool)}
+    if name.casefold() in folded:
+        return folded[name.casefold()]
+    matches = get_close_matches(name, list(pool), n=1, cutoff=0.7)
+    return matches[0] if matches else None
+
+
+def did_you_mean(name: str, candidates: Iterable[str]) -> str:
+    """Return "; did you mean 'forearm'?", or nothing where no candidate is near."""
+    meant = nearest(name, candidates)
+    return f"; did you mean '{meant}'?" if meant is not None and meant != name else ""

@@ -1,0 +1,40 @@
+"""A text that was read, under the name by which its user knows it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from linkforge_compile.source.span import Span
+
+
+@dataclass(frozen=True, eq=False)
+class SourceFile:
+    """A text and its name in messages; two are the same only if they are one object.
+
+    `path` is None for text that is no file: standard input, a string, the command line.
+    `order` counts the files that one compilation read before this one, so that messages keep reading order.
+    """
+
+    name: str
+    text: str
+    path: Path | None = None
+    order: int = 0
+
+    @cached_property
+    def lines(self) -> tuple[str, ...]:
+        """The lines without their ends, split only where YAML and XML split: LF, CR LF, CR."""
+        return tuple(self.text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))
+
+    def line(self, number: int) -> str:
+        """Return line `number`, counted from 1; empty behind the end of the file."""
+        return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
+
+    @property
+    def whole(self) -> Span:
+        """The span to blame where a file as a whole is at fault: its first character."""
+        return Span(self, 1, 1, 1, 1)
+
+    def __deepcopy__(self, memo: object) -> SourceFile:
+        return self

@@ -1,0 +1,19 @@
+"""Numbers as text: the one place where a float is spelled."""
+
+from __future__ import annotations
+
+
+def number_text(value: float) -> str:
+    """Return the shortest decimal text that reads back to the same double.
+
+    Whole numbers carry no ".0", zero no sign, and exponents no padding: 4.0 is "4", -0.0 is "0", 1e-07 is "1e-7".
+    Python's repr is the shortest by digits (David Gay's algorithm); integers keep every digit.
+    """
+    if isinstance(value, int):
+        return str(int(value))
+    if value == 0:
+        return "0"
+    digits, marker, exponent = repr(value).partition("e")
+    if not marker:
+        return digits.removesuffix(".0")
+    return f"{digits}e{int(exponent)}"

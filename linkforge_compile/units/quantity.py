@@ -1,0 +1,50 @@
+"""Dimensions and quantities."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Dimension(StrEnum):
+    """What a number measures; the words are the parameter types of the language (inertia is of fields only)."""
+
+    LENGTH = "length"
+    ANGLE = "angle"
+    MASS = "mass"
+    TIME = "time"
+    FREQUENCY = "frequency"
+    FORCE = "force"
+    TORQUE = "torque"
+    VELOCITY = "velocity"
+    ANGULAR_VELOCITY = "angular_velocity"
+    DENSITY = "density"
+    INERTIA = "inertia"
+
+    @property
+    def si_unit(self) -> str:
+        """The unit that a bare number has."""
+        return _SI_UNITS[self]
+
+
+_SI_UNITS = {
+    Dimension.LENGTH: "m",
+    Dimension.ANGLE: "rad",
+    Dimension.MASS: "kg",
+    Dimension.TIME: "s",
+    Dimension.FREQUENCY: "Hz",
+    Dimension.FORCE: "N",
+    Dimension.TORQUE: "N*m",
+    Dimension.VELOCITY: "m/s",
+    Dimension.ANGULAR_VELOCITY: "rad/s",
+    Dimension.DENSITY: "kg/m^3",
+    Dimension.INERTIA: "kg*m^2",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A number in the SI unit of its dimension."""
+
+    value: float
+    dimension: Dimension

@@ -1,0 +1,138 @@
+"""The units of the language, and reading `90 deg` with them."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+
+from linkforge_compile.units.quantity import Dimension, Quantity
+
+_INCH = Fraction(254, 10_000)
+_POUND = Fraction(45_359_237, 100_000_000)
+_STANDARD_GRAVITY = Fraction(980_665, 100_000)
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit and how many SI units it is: an exact ratio, times pi where `per_pi` is set."""
+
+    name: str
+    dimension: Dimension
+    ratio: Fraction
+    per_pi: bool = False
+
+    def to_si(self, digits: str) -> float:
+        """Return the number written as `digits` in SI units; infinite where it is beyond a double.
+
+        Decimal units are converted exactly and rounded once, so `25 mm` is the double nearest to 0.025 and not
+        25 * 0.001. Angles go through the same product as `radians()`, so `30 deg` equals `radians(30)`.
+        """
+        if self.per_pi:
+            return float(digits) * (math.pi * self.ratio.numerator / self.ratio.denominator)
+        try:
+            return float(Fraction(digits) * self.ratio)
+        except OverflowError:
+            return math.copysign(math.inf, float(digits))
+
+
+def _unit(name: str, dimension: Dimension, ratio: Fraction | int = 1, *, per_pi: bool = False) -> Unit:
+    return Unit(name, dimension, Fraction(ratio), per_pi)
+
+
+_D = Dimension
+_TABLE = (
+    _unit("m", _D.LENGTH),
+    _unit("cm", _D.LENGTH, Fraction(1, 100)),
+    _unit("mm", _D.LENGTH, Fraction(1, 1000)),
+    _unit("um", _D.LENGTH, Fraction(1, 1_000_000)),
+    _unit("km", _D.LENGTH, 1000),
+    _unit("in", _D.LENGTH, _INCH),
+    _unit("ft", _D.LENGTH, 12 * _INCH),
+    _unit("rad", _D.ANGLE),
+    _unit("mrad", _D.ANGLE, Fraction(1, 1000)),
+    _unit("deg", _D.ANGLE, Fraction(1, 180), per_pi=True),
+    _unit("rev", _D.ANGLE, 2, per_pi=True),
+    _unit("kg", _D.MASS),
+    _unit("g", _D.MASS, Fraction(1, 1000)),
+    _unit("mg", _D.MASS, Fraction(1, 1_000_000)),
+    _unit("t", _D.MASS, 1000),
+    _unit("lb", _D.MASS, _POUND),
+    _unit("s", _D.TIME),
+    _unit("ms", _D.TIME, Fraction(1, 1000)),
+    _unit("us", _D.TIME, Fraction(1, 1_000_000)),
+    _unit("min", _D.TIME, 60),
+    _unit("Hz", _D.FREQUENCY),
+    _unit("kHz", _D.FREQUENCY, 1000),
+    _unit("MHz", _D.FREQUENCY, 1_000_000),
+    _unit("N", _D.FORCE),
+    _unit("mN", _D.FORCE, Fraction(1, 1000)),
+    _unit("kN", _D.FORCE, 1000),
+    _unit("kgf", _D.FORCE, _STANDARD_GRAVITY),
+    _unit("lbf", _D.FORCE, _POUND * _STANDARD_GRAVITY),
+    _unit("N*m", _D.TORQUE),
+    _unit("mN*m", _D.TORQUE, Fraction(1, 1000)),
+    _unit("N*mm", _D.TORQUE, Fraction(1, 1000)),
+    _unit("N*cm", _D.TORQUE, Fraction(1, 100)),
+    _unit("kN*m", _D.TORQUE, 1000),
+    _unit("kgf*cm", _D.TORQUE, _STANDARD_GRAVITY / 100),
+    _unit("kgf*m", _D.TORQUE, _STANDARD_GRAVITY),
+    _unit("lbf*in", _D.TORQUE, _POUND * _STANDARD_GRAVITY * _INCH),
+    _unit("lbf*ft", _D.TORQUE, _POUND * _STANDARD_GRAVITY * 12 * _INCH),
+    _unit("m/s", _D.VELOCITY),
+    _unit("cm/s", _D.VELOCITY, Fraction(1, 100)),
+    _unit("mm/s", _D.VELOCITY, Fraction(1, 1000)),
+    _unit("km/h", _D.VELOCITY, Fraction(1000, 3600)),
+    _unit("rad/s", _D.ANGULAR_VELOCITY),
+    _unit("deg/s", _D.ANGULAR_VELOCITY, Fraction(1, 180), per_pi=True),
+    _unit("rpm", _D.ANGULAR_VELOCITY, Fraction(1, 30), per_pi=True),
+    _unit("rev/s", _D.ANGULAR_VELOCITY, 2, per_pi=True),
+    _unit("kg/m^3", _D.DENSITY),
+    _unit("g/cm^3", _D.DENSITY, 1000),
+    _unit("kg*m^2", _D.INERTIA),
+    _unit("kg*cm^2", _D.INERTIA, Fraction(1, 10_000)),
+    _unit("g*cm^2", _D.INERTIA, Fraction(1, 10_000_000)),
+    _unit("kg*mm^2", _D.INERTIA, Fraction(1, 1_000_000)),
+    _unit("g*mm^2", _D.INERTIA, Fraction(1, 1_000_000_000)),
+)
+
+UNITS: dict[str, Unit] = {unit.name: unit for unit in _TABLE}
+"""Every unit by the name that messages use."""
+
+_SPELLINGS = {
+    "Nm": "N*m",
+    "mNm": "mN*m",
+    "Nmm": "N*mm",
+    "Ncm": "N*cm",
+    "kNm": "kN*m",
+    "µm": "um",
+    "μm": "um",
+    "°": "deg",
+}
+"""Other spellings that people use; the product may also be written with a dot, powers as superscripts."""
+
+# Bounded digits: a float needs no more, and Fraction("1e999999999") would fill the memory.
+_QUANTITY = re.compile(r"([+-]?(?:\d{1,400}(?:\.\d{0,400})?|\.\d{1,400})(?:[eE][+-]?\d{1,3})?)\s*([A-Za-zµμ°][^\s]*)")
+_PLAIN = str.maketrans({"·": "*", "⋅": "*", "²": "^2", "³": "^3"})
+
+
+def unit_text(text: str) -> str | None:
+    """Return the word behind the number in text that looks like a quantity, whether or not it is a unit we know."""
+    match = _QUANTITY.fullmatch(text.strip())
+    return match[2] if match else None
+
+
+def parse_quantity(text: str) -> Quantity | None:
+    """Return the quantity that the whole text is, None where it is not a number and a known unit."""
+    match = _QUANTITY.fullmatch(text.strip())
+    if match is None:
+        return None
+    name = match[2].translate(_PLAIN).replace("**", "^")
+    unit = UNITS.get(_SPELLINGS.get(name, name))
+    return Quantity(unit.to_si(match[1]), unit.dimension) if unit else None
+
+
+def units_of(dimension: Dimension) -> tuple[str, ...]:
+    """Return the units of one dimension, SI first."""
+    return tuple(unit.name for unit in _TABLE if unit.dimension is dimension)

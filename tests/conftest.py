@@ -1,0 +1,31 @@
+"""Where the tests find the shared corpus, and how golden files are renewed."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--update-golden", action="store_true", help="write the golden files; look at the diff afterwards")
+
+
+@pytest.fixture
+def update_golden(request: pytest.FixtureRequest) -> bool:
+    return bool(request.config.getoption("--update-golden"))
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """The folder with the corpus of real robots and the tools that judge.
+
+    Skips where it is absent, fails where LINKFORGE_REQUIRE_SHARED is set, as in CI.
+    """
+    folder = Path(os.environ.get("LINKFORGE_SHARED", ROOT.parent / "shared"))
+    if (folder / "corpus").is_dir() and (folder / "tools" / "urdf_equiv.py").is_file():
+        return folder
+    if os.environ.get("LINKFORGE_REQUIRE_SHARED"):
+        pytest.fail(f"LINKFORGE_REQUIRE_SHARED is set and {folder} holds no corpus and tools")
+    pytest.skip(f"no shared corpus at {folder}; LINKFORGE_SHARED says where it is")

@@ -1,0 +1,130 @@
+"""Diagnostics as values, and as the text that a person reads."""
+
+from textwrap import dedent
+
+import pytest
+
+from linkforge_compile.diagnostics import Code, Diagnostics, Gaps, Note, Severity
+from linkforge_compile.diagnostics.render import render_text, summary
+from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
+from linkforge_compile.source import SourceFile, SourceRef, Span
+from linkforge_compile.syntax.nodes import YamlScalar
+
+UNKNOWN = Code("LF4102", Severity.ERROR, "no link named '{name}'")
+HEAVY = Code("LF6001", Severity.WARNING, "{mass} kg is a lot")
+
+MAIN = SourceFile("two.robot.yaml", "modules:\n  left: {use: arm.robot.yaml}\n")
+ARM = SourceFile("arm.robot.yaml", "joints:\n\telbow: {child: hnad}\n", order=1)
+CHILD = Span(ARM, 2, 17, 2, 21)
+USE = Span(MAIN, 2, 15, 2, 29)
+
+
+def test_the_near_name_is_offered():
+    assert UNKNOWN.at(CHILD, name="hnad", near=["hand", "base"]).message == "no link named 'hnad'; did you mean 'hand'?"
+    assert UNKNOWN.at(CHILD, name="hnad", near=["torso"]).message == "no link named 'hnad'"
+
+
+@pytest.mark.parametrize(
+    ("name", "candidates", "meant"),
+    [
+        ("fore_arm", ["forearm", "upper_arm"], "forearm"),
+        ("Base_Link", ["base_link", "base"], "base_link"),
+        ("wheel", [], None),
+        ("", ["base"], None),
+        ("x", ["yaw", "pitch"], None),
+    ],
+)
+def test_nearest(name: str, candidates: list[str], meant: str | None):
+    assert nearest(name, candidates) == meant
+
+
+def test_a_name_is_not_offered_for_itself():
+    assert did_you_mean("base", ["base"]) == ""
+
+
+def test_a_fault_in_a_module_tells_where_the_module_is_used():
+    told = UNKNOWN.at(SourceRef(YamlScalar("hnad", "hnad", CHILD), trail=(USE,)), name="hnad")
+    assert told.span == CHILD
+    assert told.notes == (Note("used here", USE),)
+
+
+def test_the_same_fault_is_kept_once():
+    sink = Diagnostics()
+    sink.report(UNKNOWN.at(CHILD, name="hnad"))
+    sink.report(UNKNOWN.at(CHILD, name="hnad", notes=[Note("used here", USE)]))
+    sink.report(UNKNOWN.at(CHILD, name="other"))
+    assert len(sink) == 2
+
+
+def test_warnings_are_no_errors():
+    sink = Diagnostics()
+    sink.report(HEAVY.at(CHILD, mass=1e6))
+    assert not sink.has_errors
+    sink.report(UNKNOWN.at(None, name="x"))
+    assert sink.has_errors
+
+
+def test_diagnostics_sort_by_file_and_place():
+    sink = Diagnostics()
+    for place in (CHILD, USE, None):
+        sink.report(UNKNOWN.at(place, name="x"))
+    assert [told.span for told in sink.sorted()] == [None, USE, CHILD]
+
+
+def test_the_text_shows_the_line_and_a_caret_under_the_words():
+    told = UNKNOWN.at(CHILD, name="hnad", notes=[Note("used here", USE)])
+    assert render_text([told]) == dedent("""\
+        arm.robot.yaml:2:17: error: no link named 'hnad' [LF4102]
+             2 | \telbow: {child: hnad}
+               | \t               ^^^^
+        two.robot.yaml:2:15: note: used here
+             2 |   left: {use: arm.robot.yaml}
+               |               ^^^^^^^^^^^^^^
+        """)
+
+
+def test_colours_are_only_written_when_asked_for():
+    told = UNKNOWN.at(CHILD, name="hnad")
+    assert "\033[1;31merror:" in render_text([told], colour=True)
+    assert "\033" not in render_text([told])
+
+
+def test_wide_characters_take_two_columns_and_control_characters_never_reach_the_terminal():
+    file = SourceFile("a.yaml", "名前: \x1b[31mrot")
+    lines = render_text([UNKNOWN.at(Span(file, 1, 5, 1, 13), name="x")]).splitlines()
+    assert lines[1] == "     1 | 名前: \N{REPLACEMENT CHARACTER}[31mrot"
+    assert lines[2] == "       |       ^^^^^^^^"
+
+
+def test_a_very_long_line_is_shown_around_the_fault():
+    file = SourceFile("a.yaml", "x" * 5000 + "FAULT" + "y" * 5000)
+    _, line, caret = render_text([UNKNOWN.at(Span(file, 1, 5001, 1, 5006), name="x")]).splitlines()
+    assert len(line) < 200
+    assert line[caret.index("^") : caret.rindex("^") + 1] == "FAULT"
+
+
+def test_a_span_over_lines_is_marked_to_the_end_of_its_first():
+    file = SourceFile("a.yaml", "mesh: {file: a,\n  scale: 2}")
+    _, _, caret = render_text([UNKNOWN.at(Span(file, 1, 7, 2, 12), name="x")]).splitlines()
+    assert caret.count("^") == len("{file: a,")
+
+
+def test_a_fault_without_a_place_is_one_line():
+    assert render_text([UNKNOWN.at(None, name="x")]) == "error: no link named 'x' [LF4102]\n"
+
+
+@pytest.mark.parametrize(
+    ("codes", "text"), [((), "no errors"), ((UNKNOWN,), "1 error"), ((UNKNOWN, HEAVY, HEAVY), "1 error, 2 warnings")]
+)
+def test_the_summary_counts(codes: tuple[Code, ...], text: str):
+    assert summary([code.at(None, name="x", mass=3) for code in codes]) == text
+
+
+def test_gaps_cover_names_and_whole_modules():
+    gaps = Gaps(frozenset({"elbow"}), ("hand_",)).with_prefix("left_") | Gaps(frozenset({"cap"}))
+    assert "left_elbow" in gaps
+    assert "left_hand_finger" in gaps
+    assert "cap" in gaps
+    assert "elbow" not in gaps
+    assert not Gaps()
+    assert "anything" in Gaps(prefixes=("",))
