@@ -3,7 +3,10 @@
 import os
 from pathlib import Path
 
+import hypothesis
 import pytest
+
+pytest.register_assert_rewrite("tests.yaml_case")
 
 ROOT = Path(__file__).parents[1]
 
@@ -29,3 +32,8 @@ def shared() -> Path:
     if os.environ.get("LINKFORGE_REQUIRE_SHARED"):
         pytest.fail(f"LINKFORGE_REQUIRE_SHARED is set and {folder} holds no corpus and tools")
     pytest.skip(f"no shared corpus at {folder}; LINKFORGE_SHARED says where it is")
+
+
+# A loaded machine must not fail a law that holds.
+hypothesis.settings.register_profile("steady", deadline=None)
+hypothesis.settings.load_profile("steady")

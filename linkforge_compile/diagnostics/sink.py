@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
 from linkforge_compile.source import Span
@@ -21,6 +21,10 @@ class Diagnostics:
     def report(self, diagnostic: Diagnostic) -> None:
         key = (diagnostic.code.id, diagnostic.span, diagnostic.message)
         self._reported.setdefault(key, diagnostic)
+
+    def report_all(self, diagnostics: Iterable[Diagnostic]) -> None:
+        for diagnostic in diagnostics:
+            self.report(diagnostic)
 
     @property
     def has_errors(self) -> bool:

@@ -24,8 +24,12 @@ class SourceFile:
 
     @cached_property
     def lines(self) -> tuple[str, ...]:
-        """The lines without their ends, split only where YAML and XML split: LF, CR LF, CR."""
-        return tuple(self.text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))
+        """The lines without their ends, split only where YAML and XML split: LF, CR LF, CR.
+
+        A byte order mark belongs to no line: editors do not count it as a column either.
+        """
+        text = self.text.removeprefix("\ufeff")
+        return tuple(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))
 
     def line(self, number: int) -> str:
         """Return line `number`, counted from 1; empty behind the end of the file."""

@@ -40,6 +40,13 @@ class Span(NamedTuple):
         """A sort key: by file in the order they were read, then by place in the file."""
         return self.file.order, self.file.name, self.line, self.column
 
+    @property
+    def text(self) -> str | None:
+        """What stands there; None for a span over several lines."""
+        if self.line != self.end_line:
+            return None
+        return self.file.line(self.line)[self.column - 1 : self.end_column - 1]
+
     def within(self, offset: int, length: int) -> Span:
         """Return the part that begins `offset` characters in; for a span that lies on one line."""
         return self._replace(column=self.column + offset, end_line=self.line, end_column=self.column + offset + length)

@@ -113,7 +113,9 @@ _SPELLINGS = {
 """Other spellings that people use; the product may also be written with a dot, powers as superscripts."""
 
 # Bounded digits: a float needs no more, and Fraction("1e999999999") would fill the memory.
-_QUANTITY = re.compile(r"([+-]?(?:\d{1,400}(?:\.\d{0,400})?|\.\d{1,400})(?:[eE][+-]?\d{1,3})?)\s*([A-Za-zµμ°][^\s]*)")
+_QUANTITY = re.compile(
+    r"([+-]?(?:[0-9]{1,400}(?:\.[0-9]{0,400})?|\.[0-9]{1,400})(?:[eE][+-]?[0-9]{1,3})?)\s*([A-Za-zµμ°][^\s]*)"
+)
 _PLAIN = str.maketrans({"·": "*", "⋅": "*", "²": "^2", "³": "^3"})
 
 

@@ -1,0 +1,25 @@
+"""The register of every code: one line a code, one file a family, never renumbered, never reused.
+
+Families: LF1 syntax, LF2 schema, LF3 modules and expressions, LF4 names and references, LF5 model,
+LF6 physics and interfaces, LF7 backend limits, LF8 import.
+"""
+
+from linkforge_compile.diagnostics.codes import (
+    backends,
+    expressions,
+    model,
+    modules,
+    names,
+    physics,
+    schema,
+    syntax,
+)
+from linkforge_compile.diagnostics.diagnostic import Code
+
+REGISTER: dict[str, Code] = {
+    code.id: code
+    for family in (syntax, schema, modules, expressions, names, model, physics, backends)
+    for code in vars(family).values()
+    if isinstance(code, Code)
+}
+"""Every code by its id."""

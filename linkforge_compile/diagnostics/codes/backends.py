@@ -1,0 +1,43 @@
+"""LF7xxx: what an output format cannot say."""
+
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+
+UNWRITABLE = Code("LF7001", Severity.ERROR, "this cannot be written as XML: {reason}")
+NEW_GEOMETRY = Code(
+    "LF7002",
+    Severity.WARNING,
+    "a capsule needs a reader of URDF 1.1, such as urdfdom 6 or MuJoCo; older ones refuse the whole file",
+)
+OLD_VERSION = Code(
+    "LF7003",
+    Severity.WARNING,
+    "a robot with a capsule is URDF 1.1 or later, found version '{version}'; leave `version` out to have the right one",
+)
+UNKNOWN_VERSION = Code(
+    "LF7004",
+    Severity.WARNING,
+    "urdfdom reads the versions 1.0, 1.1 and 1.2 of URDF and refuses any other, found '{version}'",
+)
+TWO_MATERIALS = Code(
+    "LF7005",
+    Severity.WARNING,
+    "there are different materials named '{name}', and most viewers show them all as the first; give each its name",
+)
+NO_JOINT_TO_SENSE = Code(
+    "LF7101",
+    Severity.WARNING,
+    "Gazebo senses forces in the joint above a link, and there is none above '{link}'",
+)
+SENSOR_ON_MERGED_JOINT = Code(
+    "LF7102",
+    Severity.WARNING,
+    "Gazebo merges the links of the fixed joint '{joint}' and drops its sensor; "
+    "say `preserveFixedJoint: true` in the joint's `gazebo`",
+)
+NOISELESS_CONTACT = Code("LF7103", Severity.WARNING, "Gazebo's contact sensors have no noise; this one is left out")
+FRAME_OF_PLUGIN = Code(
+    "LF7104",
+    Severity.WARNING,
+    "in Gazebo Classic a sensor's frame is its plugin's affair; '{frame}' is left out",
+)
+FOREIGN_INFO = Code("LF7105", Severity.WARNING, "a sensor of type {type} has no '{info}'; it is left out")

@@ -1,0 +1,30 @@
+"""LF31xx: `$(...)` and the quantities in it."""
+
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+
+UNREADABLE_EXPRESSION = Code("LF3101", Severity.ERROR, "cannot read this expression: {problem}")
+UNCLOSED_EXPRESSION = Code("LF3102", Severity.ERROR, "'$(' has no closing ')'; text that means it is written '$$('")
+UNCLOSED_TEXT = Code("LF3103", Severity.ERROR, "no closing quote for the text that begins here")
+EMPTY_EXPRESSION = Code("LF3104", Severity.ERROR, "expected an expression between '$(' and ')', found nothing")
+EXPRESSION_TOO_LARGE = Code("LF3105", Severity.ERROR, "the expression {fault}; move parts of it into 'variables'")
+NOT_IN_EXPRESSIONS = Code("LF3106", Severity.ERROR, "{what} cannot stand in an expression; {instead}")
+UNKNOWN_NAME = Code("LF3107", Severity.ERROR, "no parameter, variable or 'for' name '{name}' here")
+UNKNOWN_FUNCTION = Code("LF3108", Severity.ERROR, "no function named '{name}'")
+NOT_YET_AVAILABLE = Code("LF3109", Severity.ERROR, "{what} is not available yet")
+FUNCTION_NOT_CALLED = Code("LF3110", Severity.ERROR, "'{function}' is a function; write {signature}")
+WRONG_ARGUMENT_COUNT = Code("LF3111", Severity.ERROR, "expected {signature}, found {count} arguments")
+
+WRONG_KIND = Code("LF3121", Severity.ERROR, "{taker} takes {expected}, found {found}")
+DIMENSIONS_DIFFER = Code("LF3122", Severity.ERROR, "{taker} takes values of one dimension, found {left} and {right}")
+WRONG_DIMENSION = Code("LF3123", Severity.ERROR, "{taker} takes {expected}, found {found}")
+KINDS_DIFFER = Code("LF3124", Severity.ERROR, "{taker} compares values of one kind, found {left} and {right}")
+DIVISION_BY_ZERO = Code("LF3125", Severity.ERROR, "{taker} divides by zero")
+OUTSIDE_DOMAIN = Code("LF3126", Severity.ERROR, "{taker} takes {expected}, found {found}")
+RESULT_TOO_LARGE = Code("LF3127", Severity.ERROR, "the result of {taker} is not a finite number")
+TEXT_TOO_LONG = Code("LF3128", Severity.ERROR, "the text grows beyond {limit} characters")
+UNKNOWN_KEY = Code("LF3129", Severity.ERROR, "no key '{name}' in this map")
+NO_SUCH_ITEM = Code("LF3130", Severity.ERROR, "no item {index} in a list of {length}; the first is 0")
+NOT_TEXT = Code("LF3131", Severity.ERROR, "{found} cannot stand inside text")
+
+CIRCULAR_NAMES = Code("LF3141", Severity.ERROR, "'{first}' is computed from itself: {path}")
+CHAIN_TOO_LONG = Code("LF3142", Severity.ERROR, "'{first}' is computed through too many other names")

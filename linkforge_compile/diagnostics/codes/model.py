@@ -1,0 +1,84 @@
+"""LF5xxx: values that the model refuses."""
+
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+
+_E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
+
+# LF50xx: fields of any object
+WRONG_KIND = Code("LF5001", _E, "{field} takes {expected}, found {found}")
+WRONG_DIMENSION = Code("LF5002", _E, "{field} takes {expected}, found {found}, which is {other}")
+UNKNOWN_UNIT = Code("LF5003", _E, "{field} takes {expected}; there is no unit '{name}'")
+NOT_FINITE = Code("LF5004", _E, "{field} must be a finite number, found {found}")
+MISSING_FIELD = Code("LF5005", _E, "{owner} has no '{field}'; write '{key}: {example}'")
+OUT_OF_RANGE = Code("LF5006", _E, "{field} must be {bound}, found {found}")
+UNKNOWN_CHOICE = Code("LF5007", _E, "{field} is one of {choices}, found '{name}'")
+WRONG_COUNT = Code("LF5008", _E, "{field} takes {expected}, found {count}")
+WIDE_ANGLE = Code(
+    "LF5009", _W, "{field} is {found} radians, more than a whole turn; write '{found} deg' if degrees are meant"
+)
+LONG_LENGTH = Code("LF5010", _W, "{field} is {found} metres; write '{found} mm' if millimetres are meant")
+REFUSED = Code("LF5011", _E, "{owner}: {reason}")
+
+# LF51xx: shapes, materials and inertials
+NO_GEOMETRY = Code("LF5101", _E, "{owner} has no shape; write one of box, cylinder, sphere, capsule or mesh")
+SEVERAL_GEOMETRIES = Code("LF5102", _E, "{owner} has two shapes, '{first}' and '{second}'; write a list of two instead")
+NO_MESH_FILE = Code("LF5103", _E, "{owner} names no mesh file")
+COPY_OF_NOTHING = Code("LF5104", _E, "{owner} has no visual that its collision could copy")
+EMPTY_MATERIAL = Code("LF5105", _E, "{owner} has neither 'color' nor 'texture'")
+NO_MASS = Code("LF5106", _E, "{owner} needs {choices}")
+MASS_AND_DENSITY = Code("LF5107", _E, "{owner} has 'mass' and 'density'; write one of them")
+DENSITY_WITH_INERTIA = Code("LF5108", _E, "{owner} has 'inertia', which goes with 'mass', not with 'density'")
+ORIGIN_WITHOUT_INERTIA = Code(
+    "LF5109", _E, "{owner} has an 'origin' without 'inertia'; give both, or neither to have them computed"
+)
+INERTIA_OF_MESH = Code("LF5110", _E, "{owner} cannot be computed from a mesh yet; give 'inertia'")
+INERTIA_OF_NOTHING = Code("LF5111", _E, "{owner} cannot be computed without a collision or visual; give 'inertia'")
+
+# LF52xx: joints
+NOT_OF_THIS_TYPE = Code("LF5201", _E, "{owner} is {type} and may not have '{field}'")
+UNKNOWN_AXIS = Code("LF5202", _E, "axis is one of x, y, z, -x, -y, -z, or three numbers, found {found}")
+ZERO_AXIS = Code("LF5203", _E, "axis has no direction: all three numbers are 0")
+LIMITS_CROSSED = Code("LF5204", _E, "lower must not be above upper, found {lower} and {upper}")
+JOINT_TO_ITSELF = Code("LF5205", _E, "{owner} joins link '{link}' to itself")
+
+# LF53xx: modules and the semantic part
+MOUNT_WITHOUT_PARENT = Code(
+    "LF5301", _E, "{owner} has '{field}' but no 'parent'; name the link that it hangs on, or leave '{field}' out"
+)
+VIRTUAL_JOINT_LEFT_OUT = Code(
+    "LF5302", _N, "virtual joint '{joint}' is left out: '{link}' hangs on another link where this file is used"
+)
+EMPTY_GROUP = Code("LF5303", _E, "planning group '{group}' has no chain, links, joints or subgroups")
+PAIR_WITH_ITSELF = Code("LF5304", _E, "a collision pair takes two links, found '{link}' twice")
+UNKNOWN_STATE = Code("LF5305", _E, "group '{group}' has no state '{name}'; it has {states}")
+STATE_CIRCLE = Code("LF5306", _E, "group states take their values from one another in a circle: {path}")
+STATE_VALUE_TWICE = Code("LF5307", _E, "joint '{joint}' has two values in state '{state}' of group '{group}'")
+
+# LF54xx: the tree of links
+NO_LINKS = Code("LF5401", _E, "robot '{robot}' has no links; a robot has at least one")
+SECOND_PARENT = Code("LF5402", _E, "link '{link}' has two parents: joint '{first}' hangs it on '{parent}' already")
+LINK_CIRCLE = Code("LF5403", _E, "links hang on one another in a circle: {path}")
+SEVERAL_ROOTS = Code(
+    "LF5404", _E, "{count} links are no joint's child: {roots}; only one may be the root, so hang {strays} on '{root}'"
+)
+
+# LF55xx: joints that follow others
+MIMIC_CIRCLE = Code("LF5501", _E, "joints mimic one another in a circle: {path}")
+MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis")
+
+# LF56xx: groups, states and end effectors
+GROUP_CIRCLE = Code("LF5601", _E, "planning groups contain one another in a circle: {path}")
+CHAIN_UPWARD = Code(
+    "LF5602", _E, "no chain leads from '{base}' down to '{tip}'; '{base}' hangs below '{tip}': swap them"
+)
+CHAIN_ACROSS = Code("LF5603", _W, "'{tip}' does not hang below '{base}'; MoveIt goes up to '{meeting}' and down again")
+STATE_OUTSIDE_GROUP = Code("LF5604", _W, "joint '{joint}' is not in group '{group}', so state '{state}' cannot set it")
+STATE_VALUE_COUNT = Code("LF5605", _W, "state of {type} joint '{joint}' takes {expected}, found {found}")
+STATE_OUTSIDE_LIMITS = Code("LF5606", _W, "joint '{joint}' goes {range}, found {found}")
+OWN_PARENT_GROUP = Code("LF5607", _W, "group '{group}' of this end effector cannot be its own parent group")
+PARENT_LINK_OUTSIDE_GROUP = Code("LF5608", _W, "parent link '{link}' is not in parent group '{group}'")
+VIRTUAL_JOINT_NOT_AT_ROOT = Code(
+    "LF5609", _W, "MoveIt skips a virtual joint to '{link}', which is not the root '{root}'"
+)
+PAIR_TWICE = Code("LF5610", _W, "the pair of '{link1}' and '{link2}' is listed twice")
+PASSIVE_COMMANDED = Code("LF5611", _W, "passive joint '{joint}' is commanded by ros2_control '{control}'")

@@ -1,0 +1,54 @@
+"""LF30xx: files, parameters and modules."""
+
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+
+_E, _N = Severity.ERROR, Severity.NOTE
+
+# LF300x: finding and reading files
+NO_SUCH_FILE = Code("LF3001", _E, "there is no file '{path}'")
+UNREADABLE_FILE = Code("LF3002", _E, "'{path}' cannot be read: {reason}")
+NOT_A_SPEC = Code("LF3003", _E, "a module is a .robot.yaml file, found '{path}'")
+NOT_A_SPEC_YET = Code("LF3004", _E, "{kind} cannot be used as a module yet, only a .robot.yaml; found '{path}'")
+UNKNOWN_PACKAGE = Code(
+    "LF3005", _E, "no package named '{name}'; say where it is with 'packages' or --package {name}=FOLDER"
+)
+USE_OF_NOWHERE = Code("LF3006", _E, "'{path}' leads nowhere: {reason}")
+
+# LF301x: modules
+MODULE_WITHOUT_FILE = Code("LF3010", _E, "module '{name}' has no 'use'; write 'use: FILE.robot.yaml'")
+MODULE_FIELD = Code("LF3011", _E, "'{field}' of module '{name}' takes {expected}, found {found}")
+NOT_A_MODULE = Code("LF3015", _E, "module '{name}' is a map with 'use', found {found}")
+MODULES_NOT_MAP = Code("LF3016", _E, "'modules' is a map of modules by name, found {found}")
+USE_CIRCLE = Code("LF3012", _E, "modules use each other in a circle: {path}")
+USE_TOO_DEEP = Code("LF3013", _E, "modules are used inside modules more than {limit} deep")
+TOO_MANY_MODULES = Code("LF3014", _E, "the robot is made of more than {limit} modules")
+
+# LF302x: parameters and what sets them
+UNKNOWN_PARAMETER = Code("LF3020", _E, "no parameter named '{name}'")
+PARAMETER_NOT_SET = Code("LF3021", _E, "parameter '{name}' has no default and must be set; write '{remedy}'")
+NOT_JUDGED = Code("LF3022", _N, "nothing sets {names} here, so what depends on {pronoun} is not judged")
+PARAMETER_KIND = Code("LF3023", _E, "parameter '{parameter}' takes {expected}, found {found}")
+PARAMETER_TOO_SMALL = Code("LF3024", _E, "parameter '{parameter}' must be at least {bound}, found {found}")
+PARAMETER_TOO_LARGE = Code("LF3025", _E, "parameter '{parameter}' must be at most {bound}, found {found}")
+PARAMETER_CHOICE = Code("LF3026", _E, "parameter '{parameter}' is one of {choices}, found '{name}'")
+PARAMETER_PATTERN = Code("LF3027", _E, "parameter '{parameter}' must match '{pattern}', found {found}")
+NOT_AN_ASSIGNMENT = Code("LF3028", _E, "a parameter is set by NAME=VALUE, found '{text}'")
+SET_TWICE = Code("LF3029", _E, "parameter '{name}' is set twice")
+
+# LF303x: declarations of parameters
+PARAMETER_WITHOUT_TYPE = Code("LF3030", _E, "parameter '{name}' has neither a type nor a default; write 'type: length'")
+UNFIT_CONSTRAINT = Code("LF3031", _E, "'{constraint}' says nothing about a parameter of type {type}")
+BAD_PATTERN = Code("LF3032", _E, "'{pattern}' is no regular expression: {reason}")
+
+# LF304x: names of parameters and variables
+INVALID_VARIABLE_NAME = Code(
+    "LF3040", _E, "'{name}' is no name for a {kind}: letters, digits and '_' make one, and no digit begins it"
+)
+RESERVED_NAME = Code("LF3041", _E, "'{name}' means something in expressions already, so no {kind} can have that name")
+PARAMETER_AND_VARIABLE = Code("LF3042", _E, "'{name}' is both a parameter and a variable")
+
+# LF305x: what expressions make of the tree
+COMPUTED_KEY = Code("LF3050", _E, "a key must be text, found {found}")
+SAME_KEY = Code("LF3051", _E, "the key '{name}' comes twice once the expressions are computed")
+TREE_TOO_LARGE = Code("LF3052", _E, "the expressions give more than {limit} values")
+TEXT_NOT_NUMBER = Code("LF3053", _E, "text with an expression inside is never a number, found '{text}'; {remedy}")

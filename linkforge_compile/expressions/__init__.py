@@ -1,0 +1,24 @@
+"""`$(...)`: from text to a value, by an allow-list over Python's grammar; nothing is ever run."""
+
+from linkforge_compile.expressions.evaluate import evaluate
+from linkforge_compile.expressions.functions import RESERVED_NAMES
+from linkforge_compile.expressions.parse import has_expression, parse_template
+from linkforge_compile.expressions.scope import Lazy, Scope
+from linkforge_compile.expressions.template import Expression, Template
+from linkforge_compile.expressions.types import FAULT, Fault, Value, as_text, kind_name
+
+__all__ = [
+    "FAULT",
+    "RESERVED_NAMES",
+    "Expression",
+    "Fault",
+    "Lazy",
+    "Scope",
+    "Template",
+    "Value",
+    "as_text",
+    "evaluate",
+    "has_expression",
+    "kind_name",
+    "parse_template",
+]

@@ -1,0 +1,140 @@
+"""From a template and the names in scope to a value: one `match` over the parts of the grammar that we have."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TypeVar
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes import expressions as codes
+from linkforge_compile.expressions.access import field, item
+from linkforge_compile.expressions.comparisons import COMPARISONS
+from linkforge_compile.expressions.functions import CONSTANTS, FUNCTIONS
+from linkforge_compile.expressions.operators import ARITHMETIC, MAX_TEXT, signed, truth
+from linkforge_compile.expressions.scope import Scope
+from linkforge_compile.expressions.template import Expression, Template
+from linkforge_compile.expressions.types import FAULT, Fault, RefusedError, Value, as_text, kind_name
+
+T = TypeVar("T")
+
+
+def evaluate(template: Template, scope: Scope, sink: Diagnostics) -> Value | Fault:
+    """Return the value of the expression that is the whole text, else the text with the values of its expressions.
+
+    FAULT where one is at fault, which is reported, or uses a name that is FAULT, which was reported.
+    """
+    match template.parts:
+        case (Expression() as whole,):
+            return _evaluate(whole, scope, sink)
+    texts = [part if isinstance(part, str) else _evaluate_to_text(part, scope, sink) for part in template.parts]
+    if None in texts:
+        return FAULT
+    text = "".join(text for text in texts if text is not None)
+    if len(text) > MAX_TEXT:
+        sink.report(codes.TEXT_TOO_LONG.at(template.span, limit=f"{MAX_TEXT:,}"))
+        return FAULT
+    return text
+
+
+def _evaluate_to_text(expression: Expression, scope: Scope, sink: Diagnostics) -> str | None:
+    value = _evaluate(expression, scope, sink)
+    if isinstance(value, Fault):
+        return None
+    text = as_text(value)
+    if text is None:
+        sink.report(codes.NOT_TEXT.at(expression.span(expression.tree), found=kind_name(value)))
+    return text
+
+
+def _evaluate(expression: Expression, scope: Scope, sink: Diagnostics) -> Value | Fault:
+    unknown = [name for name in expression.names if name.id not in scope]
+    for name in unknown:
+        sink.report(codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, near=[*scope, *CONSTANTS]))
+    if unknown:
+        return FAULT
+    try:
+        return _Evaluation(expression, scope, sink).value(expression.tree)
+    except _FaultError:
+        return FAULT
+
+
+class _FaultError(Exception):
+    """A part of the expression has no value, and that has been reported."""
+
+
+class _Evaluation:
+    """One evaluation of one expression; what is at fault is reported where it stands."""
+
+    def __init__(self, expression: Expression, scope: Scope, sink: Diagnostics) -> None:
+        self._expression = expression
+        self._scope = scope
+        self._sink = sink
+
+    def value(self, node: ast.expr) -> Value:
+        match node:
+            case ast.Constant(value=str() | int() | float() as value):
+                return value
+            case ast.Name(id=name):
+                return CONSTANTS[name] if name in CONSTANTS else self._named(name)
+            case ast.UnaryOp(op=ast.Not(), operand=operand):
+                return not self._truth(operand, "'not'")
+            case ast.UnaryOp(op=sign, operand=operand):
+                return self._apply(partial(signed, sign), node, operand)
+            case ast.BinOp(left=left, op=operator, right=right):
+                return self._apply(ARITHMETIC[type(operator)], node, left, right)
+            case ast.BoolOp(op=ast.And(), values=conditions):
+                return all(self._truth(condition, "'and'") for condition in conditions)
+            case ast.BoolOp(values=conditions):
+                return any(self._truth(condition, "'or'") for condition in conditions)
+            case ast.Compare():
+                return self._compared(node)
+            case ast.IfExp(test=condition, body=chosen, orelse=other):
+                return self.value(chosen if self._truth(condition, "'if'") else other)
+            case ast.Call(func=ast.Name(id=name), args=arguments):
+                return self._apply(FUNCTIONS[name], node, *arguments)
+            case ast.Subscript(value=whole, slice=index):
+                return self._apply(item, node, whole, index)
+            case ast.Attribute(value=whole, attr=key):
+                return self._apply(lambda value: field(value, key), node, whole)
+        raise AssertionError(f"the grammar lets no {type(node).__name__} through")
+
+    def _named(self, name: str) -> Value:
+        value = self._scope.lookup(name, self._sink)
+        if isinstance(value, Fault):
+            raise _FaultError
+        return value
+
+    def _truth(self, node: ast.expr, taker: str) -> bool:
+        return self._apply(lambda value: truth(value, taker), node, node)
+
+    def _compared(self, node: ast.Compare) -> bool:
+        """Compare each two neighbours of a chain, from the left, until one comparison fails."""
+        left_node, left = node.left, self.value(node.left)
+        for operator, right_node in zip(node.ops, node.comparators, strict=True):
+            right = self.value(right_node)
+            if not self._settle(COMPARISONS[type(operator)], node, (left_node, right_node), (left, right)):
+                return False
+            left_node, left = right_node, right
+        return True
+
+    def _apply(self, operation: Callable[..., T], node: ast.expr, *operands: ast.expr) -> T:
+        return self._settle(operation, node, operands, [self.value(operand) for operand in operands])
+
+    def _settle(
+        self, operation: Callable[..., T], node: ast.expr, operands: Sequence[ast.expr], values: Sequence[Value]
+    ) -> T:
+        """Return what an operation makes of its operands' values; report what it refuses at the operand to blame."""
+        try:
+            return operation(*values)
+        except RefusedError as refused:
+            expression = self._expression
+            if refused.operand is None:
+                span = expression.span(node)
+            elif refused.operand < len(operands):
+                span = expression.span(operands[refused.operand])
+            else:
+                span = expression.key_span(node)
+            self._sink.report(refused.code.at(span, near=refused.near, notes=(), **refused.facts))
+            raise _FaultError from None

@@ -1,0 +1,86 @@
+"""Which names an expression may use, and what they are; values are computed when first asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics.codes import expressions as codes
+from linkforge_compile.expressions.types import FAULT, Fault, Value
+from linkforge_compile.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Lazy:
+    """A value that is computed when first used: a variable, or a default that names other parameters.
+
+    `compute` reports what it finds at fault and then returns FAULT; `declared` is the span of the name.
+    """
+
+    compute: Callable[[], Value | Fault]
+    declared: Span
+
+
+class Scope:
+    """Names and their values; a `for` entry's scope lies inside its file's.
+
+    Lazy values may use one another in any order; a circle of them is reported once, as the path round it.
+    """
+
+    def __init__(self, values: Mapping[str, Value | Fault | Lazy], outer: Scope | None = None) -> None:
+        self._values = dict(values)
+        self._outer = outer
+        self._open: list[str] = []  # the lazy values being computed, each for the one before it
+        self._told_of_a_chain = False
+
+    def inside(self, values: Mapping[str, Value | Fault | Lazy]) -> Scope:
+        """Return a scope in which these names are known, too, and hide equal ones of this scope."""
+        return Scope(values, self)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._values or (self._outer is not None and name in self._outer)
+
+    def __iter__(self) -> Iterator[str]:
+        """Yield every name, the innermost scope's first."""
+        yield from self._values
+        if self._outer is not None:
+            yield from self._outer
+
+    def lookup(self, name: str, sink: Diagnostics) -> Value | Fault:
+        """Return the value of a name, FAULT where it has none and that was reported; raise KeyError for no name."""
+        if name not in self._values and self._outer is not None:
+            return self._outer.lookup(name, sink)
+        value = self._values[name]
+        return self._compute(name, value, sink) if isinstance(value, Lazy) else value
+
+    def _compute(self, name: str, lazy: Lazy, sink: Diagnostics) -> Value | Fault:
+        if name in self._open:
+            sink.report(self._circle(name, lazy))
+            return FAULT
+        self._open.append(name)
+        value: Value | Fault = FAULT
+        try:
+            value = lazy.compute()
+        except RecursionError:
+            # A name through a name through a name: only the first of them has the stack to say so.
+            if len(self._open) > 1:
+                raise
+            # What lies further down the chain may be told of, too, once this one is shorter.
+            if not self._told_of_a_chain:
+                sink.report(codes.CHAIN_TOO_LONG.at(lazy.declared, first=name))
+            self._told_of_a_chain = True
+        finally:
+            self._open.pop()
+            self._values[name] = value
+        return value
+
+    def _circle(self, name: str, lazy: Lazy) -> Diagnostic:
+        round_trip = self._open[self._open.index(name) :]
+        notes = [
+            Note(f"'{other}' is computed here", entry.declared)
+            for other in round_trip[1:]
+            if isinstance(entry := self._values[other], Lazy)
+        ]
+        path = " → ".join([*round_trip, name])
+        return codes.CIRCULAR_NAMES.at(lazy.declared, first=name, path=path, notes=notes)

@@ -1,0 +1,74 @@
+"""What expressions compute with: values, the fault that stands for a value, and why a value cannot be had."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from enum import Enum
+from typing import Final, TypeAlias
+
+from linkforge_compile.diagnostics import Code
+from linkforge_compile.units import Dimension, Quantity, number_text
+
+Value: TypeAlias = None | bool | int | float | str | Quantity | tuple["Value", ...] | Mapping[str, "Value"]
+"""What a parameter, a variable or an expression may be; quantities are in SI units."""
+
+
+class Fault(Enum):
+    """Stands where a value would, but that is faulty or unset, and this was reported where it belongs."""
+
+    FAULT = "fault"
+
+
+FAULT: Final = Fault.FAULT
+"""Who meets it gives it on and stays silent."""
+
+
+class RefusedError(Exception):
+    """An operation refuses its operands: which one is to blame (None: all), and the facts of the code's sentence."""
+
+    def __init__(self, code: Code, *, operand: int | None = None, near: Iterable[str] = (), **facts: object) -> None:
+        self.code = code
+        self.operand = operand
+        self.near = tuple(near)
+        self.facts = facts
+        super().__init__(code.id, facts)
+
+
+def dimension_name(dimension: Dimension | None) -> str:
+    """Return "a length", or "a bare number" for none."""
+    if dimension is None:
+        return "a bare number"
+    name = dimension.replace("_", " ")
+    return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
+
+
+def kind_name(value: Value) -> str:
+    """Return what messages call a value of this kind."""
+    match value:
+        case None:
+            return "null"
+        case bool():
+            return "true" if value else "false"
+        case int() | float():
+            return "a number"
+        case Quantity():
+            return dimension_name(value.dimension)
+        case str():
+            return f"the text '{value}'" if len(value) <= 20 else "text"
+        case tuple():
+            return "a list"
+    return "a map"
+
+
+def as_text(value: Value) -> str | None:
+    """Return a value as it stands inside text, a quantity as its SI number; None for null, a list and a map."""
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case int() | float():
+            return number_text(value)
+        case Quantity():
+            return number_text(value.value)
+        case str():
+            return value
+    return None

@@ -1,0 +1,202 @@
+"""What is wrong with text that no YAML parser can read, in the words of who wrote it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from yaml import MarkedYAMLError
+from yaml.events import ScalarEvent
+
+from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics.codes import syntax as codes
+from linkforge_compile.source import Span
+from linkforge_compile.syntax.marks import Marks
+
+_IN_QUOTES = re.compile(r"'[^']*'|\"[^\"]*\"")
+_COMMENT = re.compile(r"(?:^|\s)#.*")
+_KEY_STUCK_TO_VALUE = re.compile(r"\s*(?:-\s+)?([^\s:'\"]+:(?!//)[^\s:]\S*)")
+_WORD = re.compile(r"\w[\w$().-]*")
+_ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
+
+
+def is_cut_expression(text: str) -> bool:
+    """Whether a plain scalar holds `$(` without its `)`: in a flow list a comma or a bracket ended it early."""
+    start = text.find("$(")
+    if start < 0:
+        return False
+    rest = _IN_QUOTES.sub("", text[start:])
+    return rest.count("(") > rest.count(")")
+
+
+@dataclass(frozen=True, slots=True)
+class _Trouble:
+    """Where the parser stopped, as indexes into the text: at `at`, reading what began at `began`."""
+
+    problem: str
+    construct: str
+    at: int
+    began: int
+    marks: Marks
+    last_scalar: ScalarEvent | None
+
+    @property
+    def character(self) -> str:
+        """The character where it stopped, "" at the end of the file."""
+        return self.marks.text[self.at : self.at + 1]
+
+    @property
+    def here(self) -> Span:
+        return self.marks.part(self.at, len(self.character.strip("\r\n")))
+
+    @property
+    def before(self) -> str:
+        """What stands before it on its line."""
+        here = self.here
+        return here.file.line(here.line)[: here.column - 1]
+
+    def found(self, pattern: re.Pattern[str], line: int) -> Span | None:
+        """Return the span of the first group of a pattern that a line begins with."""
+        found = pattern.match(self.marks.file.line(line))
+        return Span(self.marks.file, line, found.start(1) + 1, line, found.end(1) + 1) if found else None
+
+    def line_above(self) -> int:
+        """Return the number of the last line above that says something, 0 for none."""
+        line = self.here.line - 1
+        while line and not _said(self.marks.file.line(line)):
+            line -= 1
+        return line
+
+
+def explain(error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent | None) -> Diagnostic:
+    """Return the diagnostic for a parser's error; `last_scalar` is the last one it could read."""
+    end = len(marks.text)
+    at = min(error.problem_mark.index, end) if error.problem_mark else end
+    began = error.context_mark.index if error.context_mark else at
+    trouble = _Trouble(error.problem or "", error.context or "", at, began, marks, last_scalar)
+    for pattern, tell in _SENTENCES:
+        if re.search(pattern, trouble.problem):
+            return tell(trouble)
+    return codes.MALFORMED_YAML.at(trouble.here, problem=trouble.problem)
+
+
+def _said(line: str) -> str:
+    return _COMMENT.sub("", line).strip()
+
+
+def _tab(trouble: _Trouble) -> Diagnostic:
+    return codes.TAB_INDENTATION.at(trouble.here)
+
+
+def _reserved_character(trouble: _Trouble) -> Diagnostic:
+    if trouble.character == "\t":
+        return _tab(trouble)
+    return codes.RESERVED_START.at(trouble.here, character=trouble.character)
+
+
+def _reserved_start(trouble: _Trouble) -> Diagnostic:
+    return codes.RESERVED_START.at(trouble.marks.part(trouble.began, 1), character=trouble.marks.text[trouble.began])
+
+
+def _colon_not_expected(trouble: _Trouble) -> Diagnostic:
+    """Tell a second `: ` on a line from a fault of the line above that only shows at this one's colon."""
+    if re.search(r":\s", trouble.before):
+        return codes.SECOND_COLON.at(trouble.here)
+    if fault := _faulty_key_above(trouble):
+        return fault
+    indentation = len(trouble.before) - len(trouble.before.lstrip())
+    line = trouble.here.line
+    return codes.TOO_DEEPLY_INDENTED.at(Span(trouble.marks.file, line, indentation + 1, line, trouble.here.column))
+
+
+def _faulty_key_above(trouble: _Trouble) -> Diagnostic | None:
+    above = trouble.line_above()
+    if stuck := trouble.found(_KEY_STUCK_TO_VALUE, above):
+        return codes.SPACE_AFTER_COLON.at(stuck, text=stuck.text)
+    said = _said(trouble.marks.file.line(above))
+    return _missing_colon(trouble, above) if _WORD.fullmatch(said) else None
+
+
+def _missing_colon(trouble: _Trouble, line: int) -> Diagnostic:
+    written = trouble.marks.file.line(line)
+    said = _said(written)
+    begin = written.find(said) + 1
+    return codes.MISSING_COLON.at(Span(trouble.marks.file, line, begin, line, begin + len(said)), text=said)
+
+
+def _colon_expected(trouble: _Trouble) -> Diagnostic:
+    line = trouble.marks.part(trouble.began, 0).line
+    if stuck := trouble.found(_ITEM_STUCK_TO_DASH, line):
+        return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
+    if stuck := trouble.found(_KEY_STUCK_TO_VALUE, line):
+        return codes.SPACE_AFTER_COLON.at(stuck, text=stuck.text)
+    return _missing_colon(trouble, line)
+
+
+def _entry_expected(trouble: _Trouble) -> Diagnostic:
+    """Tell why a line is no entry of the map or list around it."""
+    here = trouble.here
+    if trouble.before.strip():
+        return codes.TEXT_AFTER_VALUE.at(here)
+    if stuck := trouble.found(_ITEM_STUCK_TO_DASH, here.line):
+        return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
+    if fault := _faulty_key_above(trouble):
+        return fault
+    in_map = "mapping" in trouble.construct
+    if in_map and re.match(r"-\s", trouble.marks.text[trouble.at :]):
+        return codes.ITEM_AMONG_KEYS.at(here)
+    if not in_map and here.column == trouble.marks.part(trouble.began, 0).column:
+        return codes.KEY_AMONG_ITEMS.at(here)
+    above = here.file.line(trouble.line_above())
+    deeper = len(trouble.before) > len(above) - len(above.lstrip())
+    return (codes.TOO_DEEPLY_INDENTED if deeper else codes.UNEVEN_INDENTATION).at(here)
+
+
+def _bracket_expected(trouble: _Trouble) -> Diagnostic:
+    last = trouble.last_scalar
+    if last and not last.style and is_cut_expression(last.value):
+        return codes.UNQUOTED_EXPRESSION.at(trouble.marks.scalar(last))
+    opening = trouble.marks.part(trouble.began, 1)
+    closing = "]" if "sequence" in trouble.construct else "}"
+    return codes.UNCLOSED_BRACKET.at(trouble.here, closing=closing, notes=[Note("opened here", opening)])
+
+
+def _unclosed_quote(trouble: _Trouble) -> Diagnostic:
+    return codes.UNCLOSED_QUOTE.at(trouble.marks.part(trouble.began, 1))
+
+
+def _unknown_escape(trouble: _Trouble) -> Diagnostic:
+    backslash = trouble.marks.text.rfind("\\", trouble.began, trouble.at + 1)
+    span = trouble.marks.part(backslash, 2)
+    return codes.UNKNOWN_ESCAPE.at(span, text=span.text)
+
+
+def _value_expected(trouble: _Trouble) -> Diagnostic:
+    found = f"'{trouble.character}'" if trouble.character.strip() else "the end of the file"
+    return codes.MISSING_VALUE.at(trouble.here, found=found)
+
+
+def _document_ended(trouble: _Trouble) -> Diagnostic:
+    """Tell a second document from a first line that is no key, which is a document by itself to the parser."""
+    if _said(trouble.marks.file.line(trouble.line_above())) == "...":
+        return codes.SEVERAL_DOCUMENTS.at(trouble.here)
+    return _faulty_key_above(trouble) or codes.TEXT_AFTER_VALUE.at(trouble.here)
+
+
+_SENTENCES: tuple[tuple[str, Callable[[_Trouble], Diagnostic]], ...] = (
+    (r"\btab\b", _tab),
+    (r"cannot start any token", _reserved_character),
+    (r"alphabetic or numeric|comment or (a )?line break|chomping", _reserved_start),
+    (r"mapping keys are not allowed", lambda trouble: codes.RESERVED_START.at(trouble.here, character="?")),
+    (r"mapping values are not allowed", _colon_not_expected),
+    (r"could not find expected ':'", _colon_expected),
+    (r"sequence entries are not allowed", lambda trouble: codes.LIST_ON_KEY_LINE.at(trouble.here)),
+    (r"expected key|expected '-' indicator|expected <block end>", _entry_expected),
+    (r"expected ',' or", _bracket_expected),
+    (r"unexpected (end of stream|document)", _unclosed_quote),
+    (r"escape|hexdecimal|hexadecimal", _unknown_escape),
+    (r"node content", _value_expected),
+    (r"<document start>", _document_ended),
+)
+"""What libyaml's and PyYAML's own parser say, and who puts it into plain words; the first that fits."""

@@ -1,0 +1,114 @@
+"""The positioned tree: what the text says, with the span of every key and value, frozen.
+
+Every stage up to lowering reads and makes these nodes. Expanding replaces a scalar that holds an expression
+by a node of its value with the expression's span, so a tree without expressions is a tree of the same kind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from linkforge_compile.source import Span
+from linkforge_compile.units import Quantity
+
+ScalarValue: TypeAlias = None | bool | int | float | str | Quantity
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class YamlScalar:
+    """A scalar: its text as written (without quotes) and what that means in YAML 1.2's core schema.
+
+    Only an evaluated expression or a variable gives a Quantity; a quantity that was typed is still a str here.
+    Fields that are text or names take `text`, so that `version: 1.0` stays "1.0"; numbers take `value`.
+    """
+
+    text: str
+    value: ScalarValue
+    span: Span
+
+    def child(self, key: str | int) -> None:
+        return None
+
+    def __deepcopy__(self, memo: object) -> YamlScalar:
+        return self
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class YamlList:
+    """A sequence, in block or flow style."""
+
+    items: tuple[YamlNode, ...]
+    span: Span
+
+    def child(self, key: str | int) -> YamlNode | None:
+        return self.items[key] if isinstance(key, int) and 0 <= key < len(self.items) else None
+
+    def __iter__(self) -> Iterator[YamlNode]:
+        return iter(self.items)
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __deepcopy__(self, memo: object) -> YamlList:
+        return self
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class YamlEntry:
+    """A key and its value; the key is a scalar whose text is the name."""
+
+    key: YamlScalar
+    value: YamlNode
+
+    @property
+    def name(self) -> str:
+        return self.key.text
+
+    def __deepcopy__(self, memo: object) -> YamlEntry:
+        return self
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class YamlMap:
+    """A mapping, keys unique by their text, in the order written."""
+
+    entries: Mapping[str, YamlEntry]
+    span: Span
+
+    def get(self, key: str) -> YamlNode | None:
+        """Return what is said under `key`, None where nothing is: a value of null is as if not written."""
+        entry = self.entries.get(key)
+        if entry is None or (isinstance(entry.value, YamlScalar) and entry.value.value is None):
+            return None
+        return entry.value
+
+    def child(self, key: str | int) -> YamlNode | None:
+        entry = self.entries.get(str(key))
+        return entry.value if entry else None
+
+    def __iter__(self) -> Iterator[YamlEntry]:
+        return iter(self.entries.values())
+
+    def __len__(self) -> int:
+        return len(self.entries)
+
+    def __deepcopy__(self, memo: object) -> YamlMap:
+        return self
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class YamlFault:
+    """Something stood here and its fault has been reported: who meets it stays silent and goes on."""
+
+    span: Span
+
+    def child(self, key: str | int) -> None:
+        return None
+
+    def __deepcopy__(self, memo: object) -> YamlFault:
+        return self
+
+
+YamlNode: TypeAlias = YamlScalar | YamlList | YamlMap | YamlFault

@@ -1,0 +1,279 @@
+"""Reads a spec's text into the positioned tree: libyaml's events straight into our own nodes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import yaml
+from yaml import events
+
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics.codes import syntax as codes
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
+from linkforge_compile.syntax.malformed import explain, is_cut_expression
+from linkforge_compile.syntax.marks import Marks
+from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.scalars import is_overflow, scalar_value
+
+MAX_DEPTH = 100
+"""How deep lists and maps may nest: every later stage walks the tree by recursion."""
+
+MAX_NODES = 1_000_000
+"""How many nodes aliases may make of a tree, each alias counted as a copy of its own."""
+
+# PyYAML may have been built without libyaml; its own parser gives the same events, only slower.
+PARSER: type[yaml.BaseLoader | yaml.CBaseLoader] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+
+_STUCK = re.compile(r"[A-Za-z_]\w*:\S.*")
+
+
+def read(file: SourceFile, sink: Diagnostics) -> YamlMap | None:
+    """Read the one YAML document of a file; None where its text or its top level is at fault, which is reported.
+
+    A node at fault becomes a YamlFault, a repeated key is dropped, and reading goes on; only malformed YAML ends it.
+    """
+    marks = Marks(file, file.text.removeprefix("\ufeff"))
+    if forbidden := FORBIDDEN_CHARACTER.search(marks.text):
+        span = marks.part(forbidden.start(), 1)
+        sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
+        return None
+    reader = _Reader(marks, sink)
+    try:
+        return reader.document()
+    except _UnreadableError as unreadable:
+        sink.report(unreadable.diagnostic)
+    except yaml.MarkedYAMLError as error:
+        sink.report(explain(error, marks, reader.last_scalar))
+    return None
+
+
+class _UnreadableError(Exception):
+    """The rest of the document cannot be read; `diagnostic` says why."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        self.diagnostic = diagnostic
+        super().__init__(str(diagnostic))
+
+
+@dataclass(frozen=True, slots=True)
+class _Anchor:
+    """An anchored node, its size with every alias in it counted as a copy, and how many levels lie below it."""
+
+    node: YamlNode
+    size: int
+    height: int
+
+
+class _Reader:
+    """One pass over the events of one document."""
+
+    def __init__(self, marks: Marks, sink: Diagnostics) -> None:
+        self.last_scalar: events.ScalarEvent | None = None
+        self._marks = marks
+        self._sink = sink
+        self._parser = PARSER(marks.text)
+        self._anchors: dict[str, _Anchor | None] = {}  # None while the anchored node is still being read
+        self._size = 0
+        self._deepest = 0
+        self._latest = marks.file.whole  # what was read last: with it end the block lists and maps around it
+
+    def document(self) -> YamlMap | None:
+        self._next()  # the stream begins
+        if isinstance(self._next(), events.StreamEndEvent):
+            self._sink.report(codes.EMPTY_DOCUMENT.at(self._marks.file.whole))
+            return None
+        root = self._node(self._next(), depth=1, flow=False)
+        self._next()  # the document ends
+        after = self._next()
+        if isinstance(after, events.DocumentStartEvent):
+            self._sink.report(codes.SEVERAL_DOCUMENTS.at(self._marks.event(after)))
+        if isinstance(root, YamlMap):
+            return root
+        self._report_top_level(root)
+        return None
+
+    def _report_top_level(self, root: YamlNode) -> None:
+        if isinstance(root, YamlScalar) and root.value is None:
+            self._sink.report(codes.EMPTY_DOCUMENT.at(self._marks.file.whole))
+        elif isinstance(root, YamlScalar) and _STUCK.fullmatch(root.text):
+            self._sink.report(codes.SPACE_AFTER_COLON.at(root.span, text=root.text))
+        elif not isinstance(root, YamlFault):
+            self._sink.report(codes.TOP_LEVEL_NOT_MAP.at(root.span, found=_kind(root)))
+
+    def _next(self) -> events.Event:
+        event = self._parser.get_event()
+        assert event is not None, "nothing is asked for behind the end of the stream"
+        return event
+
+    def _node(self, event: events.Event, depth: int, flow: bool) -> YamlNode:
+        """Read the node that begins with `event`; `flow` is whether it stands inside [..] or {..}."""
+        if isinstance(event, events.AliasEvent):
+            return self._alias(event, depth)
+        assert isinstance(event, events.ScalarEvent | events.CollectionStartEvent)
+        self._size += 1
+        if event.anchor is None:
+            return self._untagged(event, depth, flow)
+        size_before, deepest_outside = self._size - 1, self._deepest
+        self._anchors[event.anchor] = None
+        self._deepest = depth
+        node = self._untagged(event, depth, flow)
+        self._anchors[event.anchor] = _Anchor(node, self._size - size_before, self._deepest - depth)
+        self._deepest = max(deepest_outside, self._deepest)
+        return node
+
+    def _alias(self, event: events.AliasEvent, depth: int) -> YamlNode:
+        name, span = event.anchor, self._marks.event(event)
+        self._latest = span
+        if name not in self._anchors:
+            self._sink.report(codes.UNKNOWN_ANCHOR.at(span, name=name, near=self._anchors))
+            return YamlFault(span)
+        anchor = self._anchors[name]
+        if anchor is None:
+            self._sink.report(codes.RECURSIVE_ALIAS.at(span, name=name))
+            return YamlFault(span)
+        self._size += anchor.size
+        if self._size > MAX_NODES:
+            raise _UnreadableError(codes.TOO_MANY_NODES.at(span, limit=f"{MAX_NODES:,}"))
+        self._descend(depth + anchor.height, span)
+        return anchor.node
+
+    def _untagged(self, event: events.ScalarEvent | events.CollectionStartEvent, depth: int, flow: bool) -> YamlNode:
+        """Read a node that is no alias; a tag makes a fault of the whole."""
+        if event.tag is not None:
+            span = self._marks.tag(event)
+            self._sink.report(codes.TAG.at(span, tag=span.text))
+        node: YamlNode
+        if isinstance(event, events.ScalarEvent):
+            node = self._scalar(event, flow)
+        elif isinstance(event, events.SequenceStartEvent):
+            node = self._list(event, depth)
+        else:
+            assert isinstance(event, events.MappingStartEvent)
+            node = self._map(event, depth)
+        return node if event.tag is None else YamlFault(node.span)
+
+    def _descend(self, depth: int, span: Span) -> None:
+        if depth > MAX_DEPTH:
+            raise _UnreadableError(codes.TOO_DEEP.at(span, limit=MAX_DEPTH))
+        self._deepest = max(self._deepest, depth)
+
+    def _scalar(self, event: events.ScalarEvent, flow: bool) -> YamlScalar | YamlFault:
+        node = self._text(event, flow)
+        if event.style or isinstance(node, YamlFault):
+            return node
+        value = scalar_value(node.text)
+        if is_overflow(node.text, value):
+            self._sink.report(codes.NUMBER_TOO_LARGE.at(node.span))
+            return YamlFault(node.span)
+        return YamlScalar(node.text, value, node.span)
+
+    def _text(self, event: events.ScalarEvent, flow: bool) -> YamlScalar | YamlFault:
+        """Read a scalar as what quotes make of any, and keys are: text."""
+        self.last_scalar = event
+        text, span = event.value, self._marks.scalar(event)
+        self._latest = span
+        # What stands in the file was looked through; escapes in double quotes can still make anything.
+        if event.style == '"' and (forbidden := FORBIDDEN_CHARACTER.search(text)):
+            self._sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
+            return YamlFault(span)
+        if flow and not event.style and is_cut_expression(text):
+            self._sink.report(codes.UNQUOTED_EXPRESSION.at(span))
+            return _CutExpression(span)
+        return YamlScalar(text, text, span)
+
+    def _list(self, start: events.SequenceStartEvent, depth: int) -> YamlNode:
+        begin, flow = self._marks.event(start), bool(start.flow_style)
+        self._descend(depth, begin)
+        items: list[YamlNode] = []
+        while not isinstance(event := self._next(), events.SequenceEndEvent):
+            items.append(self._node(event, depth + 1, flow))
+        span = self._until(event, begin, flow)
+        if any(isinstance(item, _CutExpression) for item in items):
+            return YamlFault(span)
+        return YamlList(tuple(items), span)
+
+    def _map(self, start: events.MappingStartEvent, depth: int) -> YamlNode:
+        begin, flow = self._marks.event(start), bool(start.flow_style)
+        self._descend(depth, begin)
+        entries: list[tuple[YamlNode, YamlNode]] = []
+        while not isinstance(event := self._next(), events.MappingEndEvent):
+            key = self._key(event, depth + 1, flow)
+            entries.append((key, self._node(self._next(), depth + 1, flow)))
+        span = self._until(event, begin, flow)
+        if any(isinstance(node, _CutExpression) for entry in entries for node in entry):
+            return YamlFault(span)
+        named = [entry for key, value in entries for entry in self._entry(key, value, flow)]
+        return YamlMap(self._merged(self._unique(named)), span)
+
+    def _key(self, event: events.Event, depth: int, flow: bool) -> YamlNode:
+        if isinstance(event, events.ScalarEvent) and event.anchor is None and event.tag is None:
+            self._size += 1
+            return self._text(event, flow)
+        return self._node(event, depth, flow)
+
+    def _until(self, end: events.Event, begin: Span, flow: bool) -> Span:
+        """Return the span of a collection: up to its bracket, or in block style up to the last thing in it."""
+        if flow:
+            self._latest = self._marks.event(end)
+        return begin._replace(end_line=self._latest.end_line, end_column=self._latest.end_column)
+
+    def _entry(self, key: YamlNode, value: YamlNode, flow: bool) -> Iterator[YamlEntry]:
+        """Yield the entry, or report what is wrong with its key."""
+        if isinstance(key, YamlFault):
+            return
+        if not isinstance(key, YamlScalar):
+            self._sink.report(codes.KEY_NOT_SCALAR.at(key.span, found=_kind(key)))
+        elif flow and value.span.start == value.span.end == key.span.end and _STUCK.fullmatch(key.span.text or ""):
+            self._sink.report(codes.SPACE_AFTER_COLON.at(key.span, text=key.text))
+            name = key.text.partition(":")[0]
+            yield YamlEntry(YamlScalar(name, name, key.span), YamlFault(key.span))
+        else:
+            yield YamlEntry(key, value)
+
+    def _unique(self, entries: Iterable[YamlEntry]) -> dict[str, YamlEntry]:
+        """Return the entries by name, the first of each."""
+        first: dict[str, YamlEntry] = {}
+        for entry in entries:
+            if entry is not (kept := first.setdefault(entry.name, entry)):
+                note = Note("first written here", kept.key.span)
+                self._sink.report(codes.DUPLICATE_KEY.at(entry.key.span, key=entry.name, notes=[note]))
+        return first
+
+    def _merged(self, entries: dict[str, YamlEntry]) -> dict[str, YamlEntry]:
+        """Lay what `<<` names where it stands; the map's own entries win, then those of the earlier map."""
+        merge = entries.get("<<")
+        if merge is None or merge.key.span.text != "<<":  # in quotes it is a key as any other
+            return entries
+        merged: dict[str, YamlEntry] = {}
+        for entry in entries.values():
+            for one in self._merge_sources(merge.value) if entry is merge else (entry,):
+                merged.setdefault(one.name, entries.get(one.name, one))
+        return merged
+
+    def _merge_sources(self, value: YamlNode) -> Iterator[YamlEntry]:
+        """Yield the entries of the map or maps that `<<` names, and report what is none."""
+        for source in value if isinstance(value, YamlList) else (value,):
+            if isinstance(source, YamlMap):
+                yield from source
+            elif not isinstance(source, YamlFault):
+                self._sink.report(codes.MERGE_NOT_MAP.at(source.span, found=_kind(source)))
+
+
+class _CutExpression(YamlFault):
+    """An expression that a comma cut in pieces: they are no items, the flow list or map around them is at fault."""
+
+    __slots__ = ()
+
+
+def _kind(node: YamlNode) -> str:
+    match node:
+        case YamlMap():
+            return "a map"
+        case YamlList():
+            return "a list"
+        case YamlScalar(value=None):
+            return "nothing"
+    return "text" if isinstance(node, YamlScalar) and isinstance(node.value, str) else "a plain value"

@@ -1,0 +1,61 @@
+"""What a plain scalar means: YAML 1.2's core schema, not the 1.1 that PyYAML's own loaders read."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from linkforge_compile.syntax.nodes import ScalarValue
+
+_WORDS: dict[str, ScalarValue] = {
+    **dict.fromkeys(("", "~", "null", "Null", "NULL")),
+    **dict.fromkeys(("true", "True", "TRUE"), True),
+    **dict.fromkeys(("false", "False", "FALSE"), False),
+    **dict.fromkeys((sign + word for sign in ("", "+") for word in (".inf", ".Inf", ".INF")), math.inf),
+    **dict.fromkeys(("-.inf", "-.Inf", "-.INF"), -math.inf),
+    **dict.fromkeys((".nan", ".NaN", ".NAN"), math.nan),
+}
+
+_NUMBER = re.compile(
+    r"""(?P<decimal> [-+]? [0-9]+ )
+      | (?P<octal> 0o [0-7]+ )
+      | (?P<hexadecimal> 0x [0-9a-fA-F]+ )
+      | (?P<fraction> [-+]? (?: \.[0-9]+ | [0-9]+ (?: \.[0-9]* )? ) (?: [eE] [-+]? [0-9]+ )? )""",
+    re.VERBOSE,
+)
+_BASES = {"decimal": 10, "octal": 8, "hexadecimal": 16}
+_MOST_DIGITS = 400
+"""A double ends at 309 digits; Python refuses to read integers of more than 4,300."""
+
+
+def scalar_value(text: str) -> ScalarValue:
+    """Return what plain text means: null, a boolean, a number, else the text itself.
+
+    Units are not read here: `90 deg` is text. A number beyond a double is infinite, whole numbers too.
+    """
+    if text in _WORDS:
+        return _WORDS[text]
+    match = _NUMBER.fullmatch(text)
+    if match is None:
+        return text
+    base = _BASES.get(str(match.lastgroup))
+    if base is None:
+        return float(text)
+    return _whole_number(text, base)
+
+
+def is_overflow(text: str, value: ScalarValue) -> bool:
+    """Whether plain text was a number too large for a double; a written `.inf` is not."""
+    return isinstance(value, float) and math.isinf(value) and text not in _WORDS
+
+
+def _whole_number(text: str, base: int) -> int | float:
+    too_large = -math.inf if text.startswith("-") else math.inf
+    if len(text) > _MOST_DIGITS:
+        return too_large
+    number = int(text, base)
+    try:
+        float(number)
+    except OverflowError:
+        return too_large
+    return number

@@ -1,0 +1,107 @@
+"""Units: what people write after a number, converted without loss, and numbers back as text."""
+
+import math
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkforge_compile.units import UNITS, Dimension, Quantity, number_text, parse_quantity, unit_text, units_of
+
+finite = st.floats(allow_nan=False, allow_infinity=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "dimension"),
+    [
+        ("25 mm", 0.025, Dimension.LENGTH),
+        ("25mm", 0.025, Dimension.LENGTH),
+        ("+.5 in", 0.0127, Dimension.LENGTH),
+        ("5. µm", 5e-6, Dimension.LENGTH),
+        ("-90 deg", -math.pi / 2, Dimension.ANGLE),
+        ("90°", math.pi / 2, Dimension.ANGLE),
+        ("60 rpm", 2 * math.pi, Dimension.ANGULAR_VELOCITY),
+        ("1e3 g", 1.0, Dimension.MASS),
+        ("5 N·m", 5.0, Dimension.TORQUE),
+        ("5 Nm", 5.0, Dimension.TORQUE),
+        ("2700 kg/m³", 2700.0, Dimension.DENSITY),
+        ("2.7 g/cm^3", 2700.0, Dimension.DENSITY),
+        ("3 kg*m**2", 3.0, Dimension.INERTIA),
+        ("36 km/h", 10.0, Dimension.VELOCITY),
+    ],
+)
+def test_a_number_and_a_unit_are_a_quantity_in_si(text: str, value: float, dimension: Dimension):
+    assert parse_quantity(text) == Quantity(value, dimension)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "mm", "5", "5 parsec", "1_000 mm", "٣ mm", "² mm", "0x10 mm", "inf m", "nan m", "5 N m", "1,5 mm"]
+)
+def test_anything_else_is_no_quantity(text: str):
+    assert parse_quantity(text) is None
+
+
+def test_an_unknown_unit_is_still_seen_as_one():
+    assert unit_text("5 parsec") == "parsec"
+    assert unit_text("5") is None
+    assert unit_text("left arm") is None
+
+
+@pytest.mark.parametrize(("text", "value"), [("1e999 mm", math.inf), ("-1e400 km", -math.inf), ("1e-999 deg", 0.0)])
+def test_a_number_beyond_a_double_is_infinite_and_quick(text: str, value: float):
+    quantity = parse_quantity(text)
+    assert quantity is not None
+    assert quantity.value == value
+
+
+def test_digits_without_end_are_refused_rather_than_computed():
+    assert parse_quantity("1e999999999 mm") is None
+    assert parse_quantity("9" * 100_000 + " mm") is None
+
+
+@given(finite, st.sampled_from([unit for unit in UNITS.values() if not unit.per_pi]))
+def test_decimal_units_convert_to_the_nearest_double(number: float, unit):
+    quantity = parse_quantity(f"{number!r} {unit.name}")
+    assert quantity is not None
+    exact = Fraction(repr(number)) * unit.ratio
+    try:
+        assert quantity.value == float(exact)
+    except OverflowError:
+        assert quantity.value == math.copysign(math.inf, number)
+
+
+@given(finite)
+def test_degrees_are_what_radians_gives(degrees: float):
+    quantity = parse_quantity(f"{degrees!r} deg")
+    assert quantity is not None
+    assert quantity.value == math.radians(degrees)
+
+
+def test_every_dimension_names_its_si_unit_first():
+    for dimension in Dimension:
+        assert units_of(dimension)[0] == dimension.si_unit
+        assert UNITS[dimension.si_unit].ratio == 1
+
+
+@given(finite)
+def test_number_text_reads_back_to_the_same_double(number: float):
+    text = number_text(number)
+    assert float(text) == number
+    assert len(text) <= len(repr(number))
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (4.0, "4"),
+        (-0.0, "0"),
+        (0.1, "0.1"),
+        (1e-07, "1e-7"),
+        (1.5e300, "1.5e300"),
+        (1e16, "1e16"),
+        (10**20, "100000000000000000000"),
+    ],
+)
+def test_numbers_are_as_short_as_they_can_be(number: float, text: str):
+    assert number_text(number) == text
