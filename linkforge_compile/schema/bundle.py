@@ -1,0 +1,22 @@
+"""The one self-contained schema file that editors want."""
+
+from __future__ import annotations
+
+from linkforge_compile.schema.registry import ROOT, Schema, definitions
+
+IDENTIFIER = "https://linkforge.dev/schema/v1/robot.schema.json"
+"""Names version 1 of the language's schema; an identifier, never fetched."""
+
+
+def bundle() -> Schema:
+    """Return the schema of a whole file, with all that it refers to under `definitions`."""
+    parts = dict(definitions())
+    root = parts.pop(ROOT)
+    return {"$schema": "http://json-schema.org/draft-07/schema#", "$id": IDENTIFIER, **root, "definitions": {**parts}}
+
+
+def bundle_text() -> str:
+    """Return the bundle as JSON text, the same bytes on every run and machine."""
+    import json
+
+    return json.dumps(bundle(), ensure_ascii=False, indent=2) + "\n"

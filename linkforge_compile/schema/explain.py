@@ -1,0 +1,204 @@
+"""One error of jsonschema, in one human sentence at one place: a function a keyword."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.codes.schema import (
+    MISSING_KEY,
+    MISSING_VERSION,
+    NOT_BUILT_YET,
+    OTHER_VERSION,
+    UNKNOWN_KEY,
+    UNKNOWN_WORD,
+    WRONG_KIND,
+    WRONG_LENGTH,
+)
+from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.schema.registry import Json, Schema, mapping
+from linkforge_compile.schema.unbuilt import DECIDES_ITS_OWNER, LONG_FORM, UNBUILT
+from linkforge_compile.schema.words import alternatives, branches, expected, field, found, shortened, takes, words_of
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+
+if TYPE_CHECKING:
+    from jsonschema.exceptions import ValidationError
+
+Path: TypeAlias = tuple[str | int, ...]
+
+_SHOWN_KEYS = 10
+"""More keys than that help nobody who wrote another one."""
+
+
+class Judgement(NamedTuple):
+    """A fault, and the path of the node that must not go on: a YamlFault takes its place."""
+
+    diagnostic: Diagnostic
+    path: Path
+
+
+class Misfit(NamedTuple):
+    """A node, the path to it, and the schema that it does not meet."""
+
+    node: YamlNode
+    path: Path
+    schema: Schema
+
+
+def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
+    """Yield the faults behind one error; none where nothing was said or the reader has reported it already."""
+    path = tuple(error.absolute_path)
+    node = _node_at(tree, path)
+    if isinstance(node, YamlFault) or (_is_null(node) and not isinstance(path[-1], int)):
+        return
+    misfit = Misfit(node, path, mapping(error.schema))
+    if error.validator == "anyOf" and (branch := _branch_meant(misfit)) is not None:
+        for inner in error.context or ():
+            if inner.schema_path[0] == branch:
+                yield from explain(inner, tree)
+    else:
+        yield from _EXPLAIN[str(error.validator)](misfit)
+
+
+def _branch_meant(misfit: Misfit) -> int | None:
+    """Return the branch by which to judge: for a map the one of maps, for a list the one of lists.
+
+    None for text, which all branches judge together, since a word, a quantity and an expression are all text.
+    """
+    if _is_text(misfit.node):
+        return None
+    union = enumerate(branches(misfit.schema))
+    return next((position for position, branch in union if takes(branch, misfit.node)), None)
+
+
+def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:
+    node, path, schema = misfit
+    known, patterns = mapping(schema["properties"]), mapping(schema.get("patternProperties", {}))
+    for entry in node if isinstance(node, YamlMap) else ():
+        if entry.name in known or any(re.search(pattern, entry.name) for pattern in patterns):
+            continue
+        if entry.name in UNBUILT.get(str(schema["title"]), ()):
+            yield _not_built(entry.key, path)
+        else:
+            yield Judgement(_unknown_key(entry.key, schema), (*path, entry.name))
+
+
+def _not_built(key: YamlScalar, owner: Path) -> Judgement:
+    diagnostic = NOT_BUILT_YET.at(key.span, name=key.text)
+    if key.text in DECIDES_ITS_OWNER:
+        return Judgement(diagnostic, owner)
+    return Judgement(diagnostic, (*owner, key.text))
+
+
+def _unknown_key(key: YamlScalar, schema: Schema) -> Diagnostic:
+    """Say where the key belongs, else which was meant, else which there are."""
+    owner, known = str(schema["title"]), mapping(schema["properties"])
+    near = [*known, *sorted(UNBUILT.get(owner, ()))]
+    hint = _HINTS.get(key.text, "")
+    if not hint and (homes := [f"'{name}'" for name, part in known.items() if key.text in _keys_within(part)]):
+        hint = f"it belongs under {alternatives(homes)}"
+    if not hint and nearest(key.text, near) is None and len(known) <= _SHOWN_KEYS:
+        hint = f"its keys are {alternatives(list(known), 'and')}"
+    hinted = f"; {hint}" if hint else ""
+    return UNKNOWN_KEY.at(key.span, name=key.text, owner=owner, hint=hinted, near=() if hint else near)
+
+
+_HINTS = {
+    "geometry": "write the shape itself, such as 'box: [1, 1, 1]'",
+    "name": "its name is the key that it stands under",
+}
+"""Habits from URDF, which puts these words where this language has none."""
+
+
+def _keys_within(schema: Json) -> set[str]:
+    return {key for branch in branches(mapping(schema)) for key in mapping(branch.get("properties", {}))} - {"name"}
+
+
+def _missing_keys(misfit: Misfit) -> Iterator[Judgement]:
+    """Tell of all missing keys: the error does not say which one it is for, and the sink takes equal faults as one."""
+    node, path, schema = misfit
+    required = schema["required"]
+    if not isinstance(node, YamlMap) or not isinstance(required, list):
+        return
+    first = next((entry.key.span for entry in node), node.span)
+    for name in map(str, required):
+        if node.get(name) is None:
+            code = MISSING_VERSION if name == "linkforge" else MISSING_KEY
+            yield Judgement(code.at(first, name=name, owner=schema["title"]), (*path, name))
+
+
+def _other_version(misfit: Misfit) -> Iterator[Judgement]:
+    yield Judgement(OTHER_VERSION.at(misfit.node.span, found=found(misfit.node)), misfit.path)
+
+
+def _wrong_word(misfit: Misfit) -> Iterator[Judgement]:
+    """Say which words there are, of text; of anything else, `type` has told already."""
+    node, path, schema = misfit
+    if isinstance(node, YamlScalar) and isinstance(node.value, str):
+        yield Judgement(
+            UNKNOWN_WORD.at(
+                node.span,
+                field=field(path),
+                expected=expected(schema),
+                name=shortened(node.text),
+                near=words_of(schema),
+            ),
+            path,
+        )
+
+
+def _wrong_kind(misfit: Misfit) -> Iterator[Judgement]:
+    node, path, schema = misfit
+    if isinstance(node, YamlMap) and LONG_FORM in node.entries and (key := node.entries.keys() & {"for", "when"}):
+        yield _not_built(node.entries[min(key)].key, path)
+        return
+    yield Judgement(
+        WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=found(node)),
+        path,
+    )
+
+
+def _no_branch(misfit: Misfit) -> Iterator[Judgement]:
+    word = _is_text(misfit.node) and words_of(misfit.schema)
+    yield from (_wrong_word if word else _wrong_kind)(misfit)
+
+
+def _wrong_length(misfit: Misfit) -> Iterator[Judgement]:
+    node, path, schema = misfit
+    if isinstance(node, YamlList):
+        yield Judgement(
+            WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=len(node)),
+            path,
+        )
+
+
+_EXPLAIN: dict[str, Callable[[Misfit], Iterator[Judgement]]] = {
+    "additionalProperties": _unknown_keys,
+    "required": _missing_keys,
+    "const": _other_version,
+    "enum": _wrong_word,
+    "anyOf": _no_branch,
+    "type": _wrong_kind,
+    "pattern": _wrong_kind,
+    "minItems": _wrong_length,
+    "maxItems": _wrong_length,
+}
+
+
+def _node_at(tree: YamlMap, path: Path) -> YamlNode:
+    node: YamlNode | None = tree
+    for key in path:
+        node = node.child(key) if node else None
+    if node is None:
+        raise LookupError(f"no node at {path}")
+    return node
+
+
+def _is_null(node: YamlNode) -> bool:
+    return isinstance(node, YamlScalar) and node.value is None
+
+
+def _is_text(node: YamlNode) -> bool:
+    return isinstance(node, YamlScalar) and isinstance(node.value, str)

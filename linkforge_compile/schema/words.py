@@ -1,0 +1,105 @@
+"""What a schema takes and what a node is, in words: the parts of sentences about faults."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from linkforge_compile.schema.registry import Schema, mapping
+from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
+
+_SHOWN_KEYS = 4
+_SHOWN_TEXT = 40
+
+_SCALAR_KINDS = {type(None): "null", str: "string", bool: "boolean", int: "number", float: "number"}
+
+
+def alternatives(words: Sequence[str], last: str = "or") -> str:
+    """Return "a", "a or b", "a, b or c"."""
+    return f"{', '.join(words[:-1])} {last} {words[-1]}" if len(words) > 1 else words[0]
+
+
+def branches(schema: Schema) -> list[Schema]:
+    """Return what the schema may be: its `anyOf`, else itself."""
+    union = schema.get("anyOf")
+    return [mapping(branch) for branch in union] if isinstance(union, list) else [schema]
+
+
+def takes(schema: Schema, node: YamlNode) -> bool:
+    """Tell whether the schema, itself no union, takes this kind of node, whatever it says of what is within."""
+    kinds = schema.get("type")
+    return kinds is None or _kind(node) in (kinds if isinstance(kinds, list) else [kinds])
+
+
+def _kind(node: YamlNode) -> str | None:
+    """Return JSON Schema's word for what the node is, None for a fault."""
+    match node:
+        case YamlMap():
+            return "object"
+        case YamlList():
+            return "array"
+        case YamlScalar(value=value):
+            return _SCALAR_KINDS.get(type(value))
+        case _:
+            return None
+
+
+def expected(schema: Schema) -> str:
+    """Return what the schema takes: "a number [kg] or a quantity such as '3 kg'", "'x', 'y' or three numbers".
+
+    That any value may be an expression goes without saying.
+    """
+    if "anyOf" in schema:
+        return alternatives([word for branch in branches(schema) for word in _nouns(branch)])
+    sentence = schema.get("patternErrorMessage")
+    return str(sentence).removeprefix("expected ") if sentence else alternatives(_nouns(schema))
+
+
+def _nouns(schema: Schema) -> list[str]:
+    if "enum" in schema:
+        return [f"'{word}'" for word in words_of(schema)]
+    if schema.get("title") == "an expression":
+        return []
+    keys = list(mapping(schema.get("properties", {})))
+    return [f"a map ({', '.join(keys)})"] if 0 < len(keys) <= _SHOWN_KEYS else [str(schema["title"])]
+
+
+def words_of(schema: Schema) -> list[str]:
+    """Return the words of the enum that the schema is, or holds as a branch."""
+    listed = [branch.get("enum") for branch in branches(schema)]
+    return [str(word) for words in listed if isinstance(words, list) for word in words]
+
+
+def found(node: YamlNode) -> str:
+    """Return what stands there: "a map", "a list", "3", "'three'", "the text '3'"."""
+    match node:
+        case YamlMap():
+            return "a map"
+        case YamlList():
+            return "a list"
+        case YamlScalar(value=None):
+            return "nothing"
+        case YamlScalar(text=text, value=str()):
+            return f"the text '{text}'" if _is_number(text) else f"'{shortened(text)}'"
+        case YamlScalar(text=text):
+            return text
+    raise TypeError("a fault is not judged")
+
+
+def shortened(text: str) -> str:
+    """Return the text as it fits in a sentence: its first line, not too long."""
+    line = text.partition("\n")[0]
+    return line if line == text and len(line) <= _SHOWN_TEXT else f"{line[:_SHOWN_TEXT].rstrip()}…"
+
+
+def field(path: Sequence[str | int]) -> str:
+    """Return the name of a place: "'xyz'", "item 2 of 'xyz'"."""
+    name = next(key for key in reversed(path) if isinstance(key, str))
+    return f"item {path[-1] + 1} of '{name}'" if isinstance(path[-1], int) else f"'{name}'"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

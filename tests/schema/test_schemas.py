@@ -1,0 +1,122 @@
+"""The schema files: documented, closed, sound, and saying the shapes that editors complete well."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from jsonschema import Draft7Validator
+
+from linkforge_compile.schema.registry import Schema, definitions, load_files
+from linkforge_compile.schema.unbuilt import UNBUILT
+from linkforge_compile.units import Dimension, parse_quantity, units_of
+
+WHOLE = definitions()
+
+
+def schemas_in(node: object, path: str = "") -> Iterator[tuple[str, Schema]]:
+    """Yield every object of a schema that holds keywords, with a path to find it by."""
+    if isinstance(node, list):
+        for position, item in enumerate(node):
+            yield from schemas_in(item, f"{path}/{position}")
+    if isinstance(node, dict):
+        yield path, node
+        for key, value in node.items():
+            if key in {"properties", "patternProperties"}:
+                for name, part in value.items():
+                    yield from schemas_in(part, f"{path}/{name}")
+            elif key in {"anyOf", "items", "additionalProperties"}:
+                yield from schemas_in(value, f"{path}/{key}")
+
+
+EVERY = [(f"{name}{path}", schema) for name, whole in WHOLE.items() for path, schema in schemas_in(whole)]
+OBJECTS = [(path, schema) for path, schema in EVERY if "object" in str(schema.get("type"))]
+PROPERTIES = [
+    (f"{path}/{name}", part if "$ref" not in part else WHOLE[part["$ref"].rpartition("/")[2]] | part)
+    for path, schema in OBJECTS
+    for name, part in {**schema.get("properties", {}), **schema.get("patternProperties", {})}.items()
+]
+QUANTITIES = {
+    "length": [Dimension.LENGTH],
+    "angle": [Dimension.ANGLE],
+    "mass": [Dimension.MASS],
+    "density": [Dimension.DENSITY],
+    "moment": [Dimension.INERTIA],
+    "position": [Dimension.ANGLE, Dimension.LENGTH],
+    "effort": [Dimension.TORQUE, Dimension.FORCE],
+    "velocity": [Dimension.ANGULAR_VELOCITY, Dimension.VELOCITY],
+}
+
+
+def params(found: list[tuple[str, Schema]]) -> list[object]:
+    return [pytest.param(schema, id=path) for path, schema in found]
+
+
+@pytest.mark.parametrize("concept", load_files())
+def test_a_file_is_a_schema_of_draft_07(concept: str):
+    schema = load_files()[concept]
+    assert schema["$schema"] == "http://json-schema.org/draft-07/schema#"
+    Draft7Validator.check_schema(schema)
+
+
+@pytest.mark.parametrize("part", params(PROPERTIES))
+def test_a_property_is_described_with_an_example(part: Schema):
+    assert part["description"].endswith(".")
+    assert part["markdownDescription"].replace("`", "'").startswith(part["description"])
+    # The language server shows and inserts `examples`: right for a scalar; a map or list is shown as YAML.
+    assert part.get("examples") or "```yaml" in part["markdownDescription"]
+
+
+@pytest.mark.parametrize("part", params(PROPERTIES))
+def test_an_example_meets_its_own_schema(part: Schema):
+    schema = {**part, "definitions": WHOLE}
+    for example in part.get("examples", ()):
+        Draft7Validator(schema).validate(example)
+
+
+@pytest.mark.parametrize("schema", params(OBJECTS))
+def test_an_object_is_titled_and_closed(schema: Schema):
+    assert schema["title"]
+    free_maps = {"metadata", "variables by name", "the parameters of a module"}
+    assert schema["additionalProperties"] is (schema["title"] in free_maps) or "properties" not in schema
+
+
+@pytest.mark.parametrize("schema", params(OBJECTS))
+def test_nothing_is_required_but_the_header(schema: Schema):
+    assert schema.get("required", []) == (["linkforge", "name"] if schema["title"] == "a robot" else [])
+
+
+@pytest.mark.parametrize("schema", params([(path, schema) for path, schema in EVERY if "pattern" in schema]))
+def test_a_pattern_comes_with_its_sentence_and_admits_expressions(schema: Schema):
+    assert schema["patternErrorMessage"].startswith("expected ")
+    assert re.search(schema["pattern"], "$(reach / 2)")
+
+
+@pytest.mark.parametrize("schema", params([(path, schema) for path, schema in EVERY if "enum" in schema]))
+def test_every_word_of_an_enum_is_explained(schema: Schema):
+    assert len(schema["enum"]) == len(schema["enumDescriptions"]) == len(schema["markdownEnumDescriptions"])
+
+
+@pytest.mark.parametrize(("name", "dimensions"), QUANTITIES.items(), ids=QUANTITIES)
+def test_a_quantity_takes_every_unit_of_its_dimension_and_offers_right_ones(name: str, dimensions: list[Dimension]):
+    schema = WHOLE[name]
+    for dimension in dimensions:
+        for unit in units_of(dimension):
+            assert re.search(schema["pattern"], f"-2.5e-3 {unit}")
+    offered = [parse_quantity(text) for text in re.findall(r"'([^']+)'", schema["patternErrorMessage"])]
+    assert [quantity.dimension for quantity in offered if quantity] == dimensions
+
+
+@pytest.mark.parametrize("text", ["", "mm", "3", "3 mm 4", "three mm", "1,5 mm"])
+def test_what_is_no_number_with_a_unit_is_no_quantity(text: str):
+    assert not re.search(WHOLE["length"]["pattern"], text)
+
+
+def test_keys_that_are_not_built_yet_have_owners_and_no_schema():
+    keys = {schema["title"]: set(schema.get("properties", {})) for _, schema in OBJECTS}
+    assert set(UNBUILT) <= set(keys)
+    assert not [(owner, key) for owner, unbuilt in UNBUILT.items() for key in unbuilt & keys[owner]]
+
+
+def test_owners_are_told_apart_by_their_titles():
+    titles = [schema["title"] for _, schema in OBJECTS if "properties" in schema]
+    assert len(titles) == len(set(titles))

@@ -1,0 +1,209 @@
+"""What is said of a tree that is not shaped as the language, where, and what goes on to the next stage."""
+
+from textwrap import dedent
+
+import pytest
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.schema import validate
+from linkforge_compile.source import SourceFile
+from linkforge_compile.syntax import YamlFault, YamlMap, read
+
+HEADER = "linkforge: 1\nname: arm\n"
+
+
+def judged(text: str) -> tuple[YamlMap, list[str]]:
+    """Return what is left of the tree, and each fault as `line:column message`."""
+    sink = Diagnostics()
+    tree = read(SourceFile("arm.robot.yaml", dedent(text)), sink)
+    assert tree is not None
+    assert not list(sink), "the text itself is faulty"
+    left = validate(tree, sink)
+    told = list(sink)
+    assert [fault.order for fault in told] == sorted(fault.order for fault in told)
+    return left, [f"{fault.span.line}:{fault.span.column} {fault.message}" for fault in told if fault.span]
+
+
+def sentences(text: str) -> list[str]:
+    """Return what is said of a body that follows a faultless header, without the places."""
+    return [fault.split(" ", 1)[1] for fault in judged(HEADER + dedent(text))[1]]
+
+
+SENTENCES = {
+    "links: {arm: {visuals: {}}}": "'visuals' is not a key of a link; did you mean 'visual'?",
+    "links: {arm: {mass: 3}}": "'mass' is not a key of a link; it belongs under 'inertial'",
+    "links: {arm: {box: [1, 1, 1]}}": "'box' is not a key of a link; it belongs under 'visual' or 'collision'",
+    "links: {arm: {name: arm}}": "'name' is not a key of a link; its name is the key that it stands under",
+    "links: {arm: {visual: {geometry: {}}}}": (
+        "'geometry' is not a key of a visual; write the shape itself, such as 'box: [1, 1, 1]'"
+    ),
+    "joints: {a: {dynamics: {stick: 1}}}": (
+        "'stick' is not a key of a joint's dynamics; its keys are damping and friction"
+    ),
+    "sensor: {}": "'sensor' is not a key of a robot; did you mean 'sensors'?",
+    "sensors: {}": "'sensors' is part of the language, but this version does not compile it yet",
+    "links: {arm: {physics: {}}}": "'physics' is part of the language, but this version does not compile it yet",
+    "links: [base, arm]": "'links' takes a map of links by name, found a list",
+    "links: {arm: box}": "'arm' takes a map of visual, collision and inertial, found 'box'",
+    "links: {arm: {inertial: {mass: [3]}}}": "'mass' takes a number [kg] or a quantity such as '3 kg', found a list",
+    "links: {arm: {inertial: {mass: true}}}": "'mass' takes a number [kg] or a quantity such as '3 kg', found true",
+    "links: {arm: {inertial: {mass: '3'}}}": (
+        "'mass' takes a number [kg] or a quantity such as '3 kg', found the text '3'"
+    ),
+    "joints: {a: {limits: {upper: far}}}": (
+        "'upper' takes a number [rad or m] or a quantity such as '90 deg' or '40 mm', found 'far'"
+    ),
+    "joints: {a: {dynamics: {damping: 3 kg}}}": "'damping' takes a number, found '3 kg'",
+    "joints: {a: {parent: {}}}": "'parent' takes a name, found a map",
+    "joints: {a: {type: revolut}}": (
+        "'type' takes 'revolute', 'continuous', 'prismatic', 'fixed', 'floating' or 'planar', found 'revolut'; "
+        "did you mean 'revolute'?"
+    ),
+    "joints: {a: {axis: up}}": "'axis' takes 'x', 'y', 'z', '-x', '-y', '-z' or three numbers, found 'up'",
+    "joints: {a: {axis: [0, 1]}}": "'axis' takes three numbers, found 2",
+    "joints: {a: {origin: {xyz: [0, 0, up]}}}": (
+        "item 3 of 'xyz' takes a number [m] or a quantity such as '25 mm', found 'up'"
+    ),
+    "joints: {a: {origin: 3}}": "'origin' takes a map (xyz, rpy) or three lengths, found 3",
+    "links: {arm: {collision: visuals}}": (
+        "'collision' takes 'visual', a collision or a list of collisions, found 'visuals'; did you mean 'visual'?"
+    ),
+    "links: {arm: {visual: [{sphere: 1}, ]}, tool: {visual: [3]}}": (
+        "item 1 of 'visual' takes a map with a shape (box, cylinder, sphere, capsule or mesh), found 3"
+    ),
+    "joints: {a: {origin: [0, 0, ~]}}": (
+        "item 3 of 'origin' takes a number [m] or a quantity such as '25 mm', found nothing"
+    ),
+    "semantic: {groups: {a: {joints: [{for: {i: 3}, value: joint_$(i)}]}}}": (
+        "'for' is part of the language, but this version does not compile it yet"
+    ),
+}
+
+
+@pytest.mark.parametrize(("body", "sentence"), SENTENCES.items(), ids=SENTENCES)
+def test_a_fault_is_one_sentence(body: str, sentence: str):
+    assert sentences(body) == [sentence]
+
+
+def test_a_long_text_is_shortened():
+    assert sentences("links: {arm: " + "long " * 20 + "}")[0].endswith(
+        "found 'long long long long long long long long…'"
+    )
+
+
+RIGHT = {
+    "an expression stands for any value, list or object": """
+        links: {a: $(a), b: {visual: $(v), collision: $(c), inertial: {mass: -$(m), inertia: $(i)}}}
+        joints: {a: {type: $(t), axis: $(v), origin: $(o), limits: $(v)}, b: {origin: {xyz: [$(x), 0, 0]}}}
+        semantic: {passive_joints: $(p), groups: $(g)}
+    """,
+    "nothing said is as if not written": """
+        version:
+        links: {tool0: , arm: {visual: , inertial: {mass: }}}
+        joints: {shoulder: {limits: , axis: , type: ~}}
+        semantic:
+    """,
+    "text and names are taken as written": """
+        version: 1.0
+        links: {1: , true: }
+        joints: {2: {parent: 1, child: true}}
+    """,
+    "names are for later stages to judge": """
+        links: {wheel_$(side): , "a b": , visuals: }
+    """,
+    "what begins with x- is the author's own": """
+        x-anchors: {visuals: [1, {linkforge: 3}]}
+    """,
+}
+
+
+@pytest.mark.parametrize("body", RIGHT.values(), ids=RIGHT)
+def test_nothing_is_said_where(body: str):
+    assert sentences(body) == []
+
+
+def test_all_faults_are_told_at_once_each_at_its_place():
+    _, told = judged("""\
+        linkforge: 1
+        name: arm
+        link: {}
+        joints:
+          elbow: {type: hinge, limits: {upper: far, efort: 3}}
+    """)
+    assert told == [
+        "3:1 'link' is not a key of a robot; did you mean 'links'?",
+        "5:17 'type' takes 'revolute', 'continuous', 'prismatic', 'fixed', 'floating' or 'planar', found 'hinge'",
+        "5:40 'upper' takes a number [rad or m] or a quantity such as '90 deg' or '40 mm', found 'far'",
+        "5:45 'efort' is not a key of a joint's limits; did you mean 'effort'?",
+    ]
+
+
+def test_every_fault_within_the_meant_branch_of_a_union_is_told():
+    told = sentences("links: {arm: {visual: [{boxx: 1, box: [1]}, {origin: {rpz: 1, xyz: {}}}]}}")
+    assert told == [
+        "'boxx' is not a key of a visual; did you mean 'box'?",
+        "'box' takes three lengths, found 1",
+        "'rpz' is not a key of an origin; its keys are xyz and rpy",
+        "'xyz' takes three lengths, found a map",
+    ]
+
+
+@pytest.mark.parametrize("text", ["name: arm\n", "name: arm\nlinkforge:\n"])
+def test_a_file_that_says_no_version_is_told_to_say_it_first(text: str):
+    _, told = judged(text)
+    assert told == ["1:1 write 'linkforge: 1' first: it says which version of the language the file is in"]
+
+
+def test_another_version_is_told_at_its_number():
+    _, told = judged("linkforge: 2\nname: arm\n")
+    assert told == ["1:12 'linkforge' takes 1, the version of the language, found 2"]
+
+
+def test_a_robot_without_a_name_is_told():
+    assert judged("linkforge: 1\n")[1] == ["1:1 a robot needs a 'name'"]
+
+
+def test_what_is_faulty_does_not_go_on_and_the_rest_does():
+    left, _ = judged(HEADER + "foo: 1\nlinks:\n  arm: {visuals: 1, inertial: {mass: [3], density: 2700}}\n  base:\n")
+    links = left.get("links")
+    assert isinstance(links, YamlMap)
+    assert isinstance(left.get("foo"), YamlFault)
+    assert list(links.entries) == ["arm", "base"]
+    arm = links.get("arm")
+    assert isinstance(arm, YamlMap)
+    assert isinstance(arm.get("visuals"), YamlFault)
+    inertial = arm.get("inertial")
+    assert isinstance(inertial, YamlMap)
+    assert isinstance(inertial.get("mass"), YamlFault)
+    assert not isinstance(inertial.get("density"), YamlFault)
+
+
+def test_an_entry_that_an_unbuilt_key_decides_about_does_not_go_on():
+    left, _ = judged(HEADER + "links:\n  wheel_$(side): {for: {side: [left, right]}}\n  base: {}\n")
+    links = left.get("links")
+    assert isinstance(links, YamlMap)
+    assert isinstance(links.get("wheel_$(side)"), YamlFault)
+    assert isinstance(links.get("base"), YamlMap)
+
+
+def test_nothing_goes_on_of_a_file_that_an_unbuilt_key_decides_about():
+    left, told = judged(HEADER + "include: [control.yaml]\nlinks: {base: }\n")
+    assert told == ["3:1 'include' is part of the language, but this version does not compile it yet"]
+    assert [entry.name for entry in left if isinstance(entry.value, YamlFault)] == ["include", "links"]
+
+
+def test_a_faultless_tree_is_returned_as_it_is():
+    tree = read(SourceFile("arm.robot.yaml", HEADER + "links: {base: }\n"), Diagnostics())
+    assert tree is not None
+    assert validate(tree, Diagnostics()) is tree
+
+
+def test_what_was_a_fault_before_is_not_judged_again():
+    sink = Diagnostics()
+    text = HEADER + "links: {base: {visual: {box: [1, 1], origin: {xyz: 3, rpy: 4}}}}\n"
+    tree = read(SourceFile("arm.robot.yaml", text), sink)
+    assert tree is not None
+    once = validate(tree, sink)
+    again = Diagnostics()
+    assert validate(once, again) is once
+    assert not list(again)
