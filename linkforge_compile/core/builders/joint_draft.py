@@ -1,0 +1,222 @@
+"""The joint by which a link under construction hangs on its parent."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Self
+
+from linkforge_compile.core.builders.draft import LinkDraft
+from linkforge_compile.core.builders.shapes import Triple, pose, unit_axis
+from linkforge_compile.core.constants import (
+    DEFAULT_JOINT_DAMPING,
+    DEFAULT_JOINT_EFFORT,
+    DEFAULT_JOINT_FRICTION,
+    DEFAULT_JOINT_VELOCITY,
+    HW_IF_EFFORT,
+)
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.models.geometry import IDENTITY
+from linkforge_compile.core.models.joint import (
+    Joint,
+    JointCalibration,
+    JointDynamics,
+    JointLimits,
+    JointMimic,
+    JointSafetyController,
+    JointType,
+)
+from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlJoint
+from linkforge_compile.core.models.transmission import Transmission
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.builders.composer import IComposer
+
+
+class JointDraft(LinkDraft):
+    """The calls that describe the joint; without a parent there is none, and they have no effect."""
+
+    def __init__(self, builder: IComposer, name: str, parent: str | None = None, joint_name: str | None = None) -> None:
+        super().__init__(builder, name, parent, joint_name)
+        self._joint_type = JointType.FIXED
+        self._joint_origin = IDENTITY
+        self._joint_parts: dict[str, Any] = {}  # fields of Joint that a fixed one has not
+        self._transmission: dict[str, Any] | None = None  # arguments of Transmission.create_simple
+        self._control: dict[str, Any] | None = None  # fields of Ros2ControlJoint
+        self._control_system: str | None = None
+
+    def at_origin(self, xyz: Triple = (0, 0, 0), rpy: Triple = (0, 0, 0)) -> Self:
+        """Place this link's frame in its parent's, at `xyz` [m] turned by `rpy` [rad]."""
+        self._check_not_committed()
+        self._joint_origin = pose(xyz, rpy)
+        return self
+
+    def fixed(self, name: str | None = None, xyz: Triple | None = None, rpy: Triple | None = None) -> Self:
+        """Fix the link to its parent; here and below, None keeps the name and the pose as they are."""
+        return self._hang(JointType.FIXED, name, xyz, rpy)
+
+    def revolute(  # noqa: PLR0917 the contract's signature
+        self,
+        axis: Triple,
+        limits: tuple[float, float],
+        name: str | None = None,
+        xyz: Triple | None = None,
+        rpy: Triple | None = None,
+        effort: float = DEFAULT_JOINT_EFFORT,
+        velocity: float = DEFAULT_JOINT_VELOCITY,
+    ) -> Self:
+        """Let the link turn about an axis of any length within (lower, upper) [rad], [N·m], [rad/s]."""
+        bounds = JointLimits(lower=limits[0], upper=limits[1], effort=effort, velocity=velocity)
+        return self._hang(JointType.REVOLUTE, name, xyz, rpy, axis=unit_axis(axis), limits=bounds)
+
+    def continuous(  # noqa: PLR0917 the contract's signature
+        self,
+        axis: Triple,
+        name: str | None = None,
+        xyz: Triple | None = None,
+        rpy: Triple | None = None,
+        effort: float = DEFAULT_JOINT_EFFORT,
+        velocity: float = DEFAULT_JOINT_VELOCITY,
+    ) -> Self:
+        """Let the link turn about an axis without end, [N·m], [rad/s]; its limits say 0 to 0, which nobody reads."""
+        bounds = JointLimits(lower=0.0, upper=0.0, effort=effort or 0.0, velocity=velocity or 0.0)
+        return self._hang(JointType.CONTINUOUS, name, xyz, rpy, axis=unit_axis(axis), limits=bounds)
+
+    def prismatic(  # noqa: PLR0917 the contract's signature
+        self,
+        axis: Triple,
+        limits: tuple[float, float],
+        name: str | None = None,
+        xyz: Triple | None = None,
+        rpy: Triple | None = None,
+        effort: float = DEFAULT_JOINT_EFFORT,
+        velocity: float = DEFAULT_JOINT_VELOCITY,
+    ) -> Self:
+        """Let the link slide along an axis of any length within (lower, upper) [m], [N], [m/s]."""
+        bounds = JointLimits(lower=limits[0], upper=limits[1], effort=effort, velocity=velocity)
+        return self._hang(JointType.PRISMATIC, name, xyz, rpy, axis=unit_axis(axis), limits=bounds)
+
+    def floating(self, name: str | None = None, xyz: Triple | None = None, rpy: Triple | None = None) -> Self:
+        """Let the link move freely."""
+        return self._hang(JointType.FLOATING, name, xyz, rpy)
+
+    def planar(
+        self, axis: Triple, name: str | None = None, xyz: Triple | None = None, rpy: Triple | None = None
+    ) -> Self:
+        """Let the link move in the plane whose normal is the axis."""
+        return self._hang(JointType.PLANAR, name, xyz, rpy, axis=unit_axis(axis))
+
+    def dynamics(self, damping: float = DEFAULT_JOINT_DAMPING, friction: float = DEFAULT_JOINT_FRICTION) -> Self:
+        """Let the joint resist: [N·m·s/rad] and [N·m], or [N·s/m] and [N]."""
+        return self._keep(dynamics=JointDynamics(damping, friction))
+
+    def mimic(self, joint: str, multiplier: float = 1.0, offset: float = 0.0) -> Self:
+        """Let the joint follow another: multiplier times its position plus offset [rad] or [m]."""
+        return self._keep(mimic=JointMimic(joint, multiplier, offset))
+
+    def safety(
+        self,
+        soft_lower: float | None = None,
+        soft_upper: float | None = None,
+        k_position: float | None = None,
+        k_velocity: float = 0.0,
+    ) -> Self:
+        """Give the joint a safety controller; see JointSafetyController."""
+        return self._keep(safety_controller=JointSafetyController(soft_lower, soft_upper, k_position, k_velocity))
+
+    def calibration(self, rising: float | None = None, falling: float | None = None) -> Self:
+        """Say where the joint's reference switch changes [rad] or [m]."""
+        return self._keep(calibration=JointCalibration(rising, falling))
+
+    def transmission(
+        self,
+        reduction: float = 1.0,
+        interface: str = HW_IF_EFFORT,
+        actuator: str | None = None,
+        name: str | None = None,
+    ) -> Self:
+        """Drive the joint by an actuator; None for `actuator_LINK` and `trans_JOINT`."""
+        self._check_not_committed()
+        self._transmission = {
+            "name": name,
+            "actuator_name": actuator or f"actuator_{self._link_name}",
+            "mechanical_reduction": reduction,
+            "hardware_interfaces": [interface],
+        }
+        return self
+
+    def ros2_control(
+        self,
+        command_interfaces: list[str],
+        state_interfaces: list[str],
+        parameters: dict[str, Any] | None = None,
+        system_name: str | None = None,
+    ) -> Self:
+        """Let a ros2_control system move the joint; None for the first system that the robot has."""
+        self._check_not_committed()
+        self._control = {
+            "command_interfaces": command_interfaces,
+            "state_interfaces": state_interfaces,
+            "parameters": {name: str(value) for name, value in (parameters or {}).items()},
+        }
+        self._control_system = system_name
+        return self
+
+    def _hang(
+        self, joint_type: JointType, name: str | None, xyz: Triple | None, rpy: Triple | None, **parts: object
+    ) -> Self:
+        self._check_not_committed()
+        self._joint_type = joint_type
+        self._joint_parts.update(parts)
+        self._joint_name = name or self._joint_name
+        if xyz or rpy:
+            self._joint_origin = pose(xyz, rpy)
+        return self
+
+    def _keep(self, **parts: object) -> Self:
+        self._check_not_committed()
+        self._joint_parts.update(parts)
+        return self
+
+    def _made_joint(self) -> Joint | None:
+        if not self._parent:
+            return None
+        return Joint(
+            name=self._joint_name or f"{self._parent}_to_{self._link_name}",
+            type=self._joint_type,
+            parent=self._parent,
+            child=self._link_name,
+            origin=self._joint_origin,
+            **({} if self._joint_type is JointType.FIXED else self._joint_parts),
+        )
+
+    def _made_transmission(self, joint: Joint) -> Transmission | None:
+        if self._transmission is None:
+            return None
+        name = self._transmission["name"] or f"trans_{joint.name}"
+        return Transmission.create_simple(**{**self._transmission, "name": name, "joint_name": joint.name})
+
+    def _made_control(self, joint: Joint) -> Ros2Control | None:
+        """Return the system that is to move the joint, with the joint in it.
+
+        Raises:
+            RobotValidationError: VALUE_EMPTY where the robot has no system, GENERIC_FAILURE where it lacks the one
+                that is named.
+
+        """
+        if self._control is None:
+            return None
+        systems = self._builder.robot.ros2_controls
+        if not systems:
+            raise RobotValidationError(
+                ValidationErrorCode.VALUE_EMPTY,
+                f"Joint '{joint.name}' requested ros2_control interfaces, but no global system exists.",
+                target="Ros2Control",
+            )
+        system = systems.get(self._control_system) if self._control_system else systems[0]
+        if system is None:
+            raise RobotValidationError(
+                ValidationErrorCode.GENERIC_FAILURE,
+                f"Joint '{joint.name}' requested ros2_control system '{self._control_system}', but it was not found.",
+                target="Ros2Control",
+            )
+        return replace(system, joints=(*system.joints, Ros2ControlJoint(joint.name, **self._control)))

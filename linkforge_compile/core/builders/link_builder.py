@@ -1,0 +1,222 @@
+"""Building a link call by call: its shapes, its mass, its sensors, and the joint to its parent."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+from linkforge_compile.core.builders.joint_draft import JointDraft
+from linkforge_compile.core.builders.sensor_draft import SensorDraft
+from linkforge_compile.core.builders.shapes import Triple, pose
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
+from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
+from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.physics import calculate_inertia, inertial_of_shapes
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.builders.composer import IComposer
+    from linkforge_compile.core.models.robot import Robot
+
+_PHYSICS = frozenset(field.name for field in fields(LinkPhysics))
+
+
+class LinkBuilder(JointDraft, SensorDraft):
+    """A link under construction, got from `RobotBuilder.link` or `child`; every call returns it for the next one.
+
+    It joins the robot when it is committed: by `commit`, `root`, `child` or `build`, by the robot's own `build`, or
+    at the end of a `with` block, inside of which it is the parent of the links that name none. A call after that
+    raises RuntimeError.
+    """
+
+    def __init__(self, builder: IComposer, name: str, parent: str | None = None, joint_name: str | None = None) -> None:
+        super().__init__(builder, name, parent, joint_name)
+        self._mass: float | None = None
+        self._inertia: InertiaTensor | None = None
+        self._inertial_origin: Transform | None = None
+        self._visuals: list[Visual] = []
+        self._collisions: list[Collision] = []
+        self._physics = LinkPhysics()
+        self._gazebo: dict[str, Any] = {}  # fields of GazeboElement
+        self._in_context = False
+        builder.register_link_builder(self)
+
+    def __enter__(self) -> Self:
+        # The links inside hang on this one, so the robot must know its name by then.
+        self._builder.robot.add_link(Link(self._link_name))
+        self._in_context = True
+        self._builder.push_parent(self._link_name)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._builder.pop_parent(self._link_name)
+        if error is None:
+            self._commit()
+
+    def visual(
+        self,
+        geometry: Geometry,
+        xyz: Triple = (0, 0, 0),
+        rpy: Triple = (0, 0, 0),
+        material: str | Material | None = None,
+        name: str | None = None,
+    ) -> Self:
+        """Add a shape to look at, at `xyz` [m] turned by `rpy` [rad] in the link frame.
+
+        Raises:
+            RobotValidationError: NOT_FOUND for a material that is named but not defined.
+
+        """
+        self._check_not_committed()
+        self._visuals.append(Visual(geometry, pose(xyz, rpy), self._material(material), name))
+        return self
+
+    def _material(self, material: str | Material | None) -> Material | None:
+        if not isinstance(material, str):
+            return material
+        defined = self._builder.robot.materials.get(material)
+        if defined is None:
+            raise RobotValidationError(
+                ValidationErrorCode.NOT_FOUND,
+                f"Material '{material}' not found. Did you call builder.material('{material}', ...) first?",
+                target="Material",
+                value=material,
+            )
+        return defined
+
+    def collision(
+        self,
+        geometry: Geometry | None = None,
+        xyz: Triple | None = None,
+        rpy: Triple | None = None,
+        name: str | None = None,
+    ) -> Self:
+        """Add a shape to touch; None for that of the last visual, and, with neither xyz nor rpy, for its pose too.
+
+        Raises:
+            RobotValidationError: GENERIC_FAILURE where there is no visual to take the shape from.
+
+        """
+        self._check_not_committed()
+        origin = pose(xyz, rpy)
+        if geometry is None:
+            if not self._visuals:
+                raise RobotValidationError(
+                    ValidationErrorCode.GENERIC_FAILURE,
+                    "Cannot infer collision geometry: no visuals defined",
+                    target="LinkBuilder",
+                    value=self._link_name,
+                )
+            geometry = self._visuals[-1].geometry
+            if xyz is None and rpy is None:
+                origin = self._visuals[-1].origin
+        self._collisions.append(Collision(geometry, origin, name))
+        return self
+
+    def mass(
+        self,
+        value: float,
+        origin_xyz: Triple | None = None,
+        origin_rpy: Triple | None = None,
+        inertia: InertiaTensor | None = None,
+    ) -> Self:
+        """Give the mass [kg], and its centre [m] with the axes of the tensor [rad] in the link frame.
+
+        Where nobody gives an inertia, it is computed from the collisions, or the visuals if there are none; where
+        nobody gives a centre, it is theirs. Without shapes it is the stability floor.
+        """
+        self._check_not_committed()
+        self._mass = value
+        self._inertia = inertia or self._inertia
+        if origin_xyz or origin_rpy:
+            self._inertial_origin = pose(origin_xyz, origin_rpy)
+        return self
+
+    def inertia(  # noqa: PLR0917 the contract's signature
+        self, ixx: float, iyy: float, izz: float, ixy: float = 0, ixz: float = 0, iyz: float = 0
+    ) -> Self:
+        """Give the tensor about the centre of mass [kg·m²]; it counts only together with a mass."""
+        self._check_not_committed()
+        self._inertia = InertiaTensor(ixx, iyy, izz, ixy, ixz, iyz)
+        return self
+
+    def physics(self, **properties: Any) -> Self:  # Any: each field has a type of its own
+        """Set fields of LinkPhysics (self_collide, gravity, mu, mu2, kp, kd); others go to a GazeboElement."""
+        self._check_not_committed()
+        known = {name: value for name, value in properties.items() if name in _PHYSICS}
+        self._physics = replace(self._physics, **known)
+        self._gazebo.update({name: value for name, value in properties.items() if name not in _PHYSICS})
+        return self
+
+    def child(self, name: str, joint_name: str | None = None) -> LinkBuilder:
+        """Commit this link and begin one that hangs on it."""
+        self._commit()
+        return LinkBuilder(self._builder, name, parent=self._link_name, joint_name=joint_name)
+
+    def commit(self) -> IComposer:
+        """Add the link to the robot and return the robot's builder.
+
+        Raises:
+            RobotModelError: What the robot or its parts refuse.
+
+        """
+        self._commit()
+        return self._builder
+
+    def root(self) -> IComposer:
+        """Commit the link as the root.
+
+        Raises:
+            RobotValidationError: GENERIC_FAILURE if it has a parent.
+
+        """
+        if self._parent:
+            raise RobotValidationError(
+                ValidationErrorCode.GENERIC_FAILURE,
+                f"Link '{self._link_name}' has a parent '{self._parent}' and cannot be root",
+                target="LinkBuilder",
+            )
+        return self.commit()
+
+    def build(self) -> Robot:
+        """Commit the link and return the whole robot."""
+        self._commit()
+        return self._builder.build()
+
+    def _commit(self) -> None:
+        if self._committed:
+            return
+        robot = self._builder.robot
+        link = Link(self._link_name, self._inertial(), self._physics, self._visuals, self._collisions)
+        joint = self._made_joint()
+        transmission = self._made_transmission(joint) if joint else None
+        control = self._made_control(joint) if joint else None
+        robot.add_link(link, overwrite=self._in_context)
+        for sensor in self._sensors:
+            robot.add_sensor(sensor)
+        if self._gazebo:
+            robot.add_gazebo_element(GazeboElement(reference=self._link_name, **self._gazebo))
+        if joint:
+            robot.add_joint(joint)
+        if transmission:
+            robot.add_transmission(transmission)
+        if control:
+            robot.update_ros2_control(control)
+        self._committed = True
+
+    def _inertial(self) -> Inertial | None:
+        if self._mass is None:
+            return None
+        shapes = [(shape.geometry, shape.origin) for shape in self._collisions or self._visuals]
+        if self._inertia is not None or not shapes:
+            inertia = self._inertia or InertiaTensor.stability_floor()
+            return Inertial(self._mass, self._inertial_origin or IDENTITY, inertia)
+        if len(shapes) == 1:
+            ((geometry, origin),) = shapes
+            return Inertial(self._mass, self._inertial_origin or origin, calculate_inertia(geometry, self._mass))
+        body = inertial_of_shapes(shapes, mass=self._mass)
+        return replace(body, origin=self._inertial_origin) if self._inertial_origin else body

@@ -1,0 +1,102 @@
+"""Telling planning about a robot under construction, call by call."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from linkforge_compile.core.constants import SRDF_REASON_ADJACENT, SRDF_VJOIN_FIXED
+from linkforge_compile.core.models.semantic_parts import planning_group
+from linkforge_compile.core.models.srdf import (
+    Chain,
+    CollisionPair,
+    EndEffector,
+    GroupState,
+    JointProperty,
+    LinkSphereApproximation,
+    PassiveJoint,
+    SemanticRobotDescription,
+    SrdfSphere,
+    VirtualJoint,
+)
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.builders.composer import IComposer
+
+
+class SemanticBuilder:
+    """What planning is told; links and joints may be named before they are finished, so nobody looks for them.
+
+    Saying anything twice raises DUPLICATE_NAME, except collision pairs and links without default collisions.
+    """
+
+    def __init__(self, builder: IComposer) -> None:
+        self._builder = builder
+
+    def done(self) -> IComposer:
+        """Return to the robot's builder."""
+        return self._builder
+
+    def group(  # noqa: PLR0917 the contract's signature
+        self,
+        name: str,
+        links: list[str] | None = None,
+        joints: list[str] | None = None,
+        chains: list[Chain] | None = None,
+        subgroups: list[str] | None = None,
+        base_link: str | None = None,
+        tip_link: str | None = None,
+    ) -> SemanticBuilder:
+        """Define a planning group; `base_link` and `tip_link`, always both, make one chain more."""
+        group = planning_group(
+            name=name,
+            links=links,
+            joints=joints,
+            chains=chains,
+            subgroups=subgroups,
+            base_link=base_link,
+            tip_link=tip_link,
+        )
+        return self._say(SemanticRobotDescription(groups=(group,)))
+
+    def group_state(self, name: str, group: str, values: dict[str, float | tuple[float, ...]]) -> SemanticBuilder:
+        """Name positions of a group's joints [rad] or [m]; a tuple for joints of several degrees of freedom."""
+        return self._say(SemanticRobotDescription(group_states=(GroupState(name, group, values),)))
+
+    def end_effector(self, name: str, group: str, parent_link: str, parent_group: str | None = None) -> SemanticBuilder:
+        """Declare a group an end effector, on a link of another group."""
+        return self._say(SemanticRobotDescription(end_effectors=(EndEffector(name, group, parent_link, parent_group),)))
+
+    def passive_joint(self, name: str) -> SemanticBuilder:
+        """Declare a joint that nothing drives."""
+        return self._say(SemanticRobotDescription(passive_joints=(PassiveJoint(name),)))
+
+    def virtual_joint(
+        self, name: str, child_link: str, parent_frame: str = "world", joint_type: str = SRDF_VJOIN_FIXED
+    ) -> SemanticBuilder:
+        """Say how the robot's root link stands in a frame outside of it."""
+        joint = VirtualJoint(name, joint_type, parent_frame, child_link)
+        return self._say(SemanticRobotDescription(virtual_joints=(joint,)))
+
+    def disable_collisions(self, link1: str, link2: str, reason: str = SRDF_REASON_ADJACENT) -> SemanticBuilder:
+        """Let planning ignore collisions between two links."""
+        return self._say(SemanticRobotDescription(disabled_collisions=(CollisionPair(link1, link2, reason),)))
+
+    def enable_collisions(self, link1: str, link2: str, reason: str | None = None) -> SemanticBuilder:
+        """Let planning look for collisions between two links in spite of their defaults."""
+        return self._say(SemanticRobotDescription(enabled_collisions=(CollisionPair(link1, link2, reason),)))
+
+    def disable_default_collisions(self, link: str) -> SemanticBuilder:
+        """Let planning ignore all collisions of a link that are not enabled one by one."""
+        return self._say(SemanticRobotDescription(no_default_collision_links=(link,)))
+
+    def joint_property(self, joint_name: str, property_name: str, value: str) -> SemanticBuilder:
+        """Say something about a joint that planners know by name."""
+        return self._say(SemanticRobotDescription(joint_properties=(JointProperty(joint_name, property_name, value),)))
+
+    def approximate_link_collision(self, link: str, spheres: list[SrdfSphere]) -> SemanticBuilder:
+        """Give the spheres that stand for a link's shape in collisions."""
+        return self._say(SemanticRobotDescription(link_sphere_approximations=(LinkSphereApproximation(link, spheres),)))
+
+    def _say(self, description: SemanticRobotDescription) -> SemanticBuilder:
+        self._builder.robot.add_semantic(description)
+        return self

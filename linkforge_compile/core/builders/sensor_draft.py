@@ -1,0 +1,121 @@
+"""The sensors of a link under construction."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Self
+
+from linkforge_compile.core import constants as default
+from linkforge_compile.core.builders.draft import LinkDraft
+from linkforge_compile.core.builders.shapes import Triple, pose
+from linkforge_compile.core.models.sensor import (
+    CameraInfo,
+    ContactInfo,
+    ForceTorqueInfo,
+    GPSInfo,
+    IMUInfo,
+    LidarInfo,
+    Sensor,
+    SensorType,
+)
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.builders.composer import IComposer
+
+
+class SensorDraft(LinkDraft):
+    """The calls that put sensors on the link, at `xyz` [m] turned by `rpy` [rad] in its frame; rates in [Hz]."""
+
+    def __init__(self, builder: IComposer, name: str, parent: str | None = None, joint_name: str | None = None) -> None:
+        super().__init__(builder, name, parent, joint_name)
+        self._sensors: list[Sensor] = []
+
+    def camera(  # noqa: PLR0917 the contract's signature
+        self,
+        name: str,
+        fov: float = default.DEFAULT_CAMERA_FOV,
+        width: int = default.DEFAULT_CAMERA_WIDTH,
+        height: int = default.DEFAULT_CAMERA_HEIGHT,
+        xyz: Triple = (0, 0, 0),
+        rpy: Triple = (0, 0, 0),
+    ) -> Self:
+        """Add a camera by its horizontal field of view [rad] and size [px]."""
+        info = CameraInfo(horizontal_fov=fov, width=width, height=height)
+        return self.sensor(Sensor(name, SensorType.CAMERA, self._link_name, camera_info=info, origin=pose(xyz, rpy)))
+
+    def lidar(  # noqa: PLR0917 the contract's signature
+        self,
+        name: str,
+        range_min: float = default.DEFAULT_LIDAR_RANGE_MIN,
+        range_max: float = default.DEFAULT_LIDAR_RANGE_MAX,
+        samples: int = default.DEFAULT_LIDAR_SAMPLES,
+        xyz: Triple = (0, 0, 0),
+        rpy: Triple = (0, 0, 0),
+    ) -> Self:
+        """Add a lidar of one layer by its range [m] and rays a turn."""
+        info = LidarInfo(range_min=range_min, range_max=range_max, horizontal_samples=samples)
+        return self.sensor(Sensor(name, SensorType.LIDAR, self._link_name, lidar_info=info, origin=pose(xyz, rpy)))
+
+    def gpu_lidar(  # noqa: PLR0917 the contract's signature
+        self,
+        name: str,
+        range_min: float = default.DEFAULT_LIDAR_RANGE_MIN,
+        range_max: float = default.DEFAULT_LIDAR_RANGE_MAX,
+        samples: int = default.DEFAULT_LIDAR_SAMPLES,
+        xyz: Triple = (0, 0, 0),
+        rpy: Triple = (0, 0, 0),
+    ) -> Self:
+        """Add a lidar that the simulator renders, as for `lidar`."""
+        info = LidarInfo(range_min=range_min, range_max=range_max, horizontal_samples=samples)
+        return self.sensor(Sensor(name, SensorType.GPU_LIDAR, self._link_name, lidar_info=info, origin=pose(xyz, rpy)))
+
+    def imu(
+        self,
+        name: str,
+        update_rate: float = default.DEFAULT_UPDATE_RATE_IMU,
+        xyz: Triple = (0, 0, 0),
+        rpy: Triple = (0, 0, 0),
+    ) -> Self:
+        """Add an inertial unit."""
+        origin = pose(xyz, rpy)
+        return self.sensor(
+            Sensor(name, SensorType.IMU, self._link_name, update_rate, imu_info=IMUInfo(), origin=origin)
+        )
+
+    def gps(
+        self,
+        name: str,
+        update_rate: float = default.DEFAULT_UPDATE_RATE_GPS,
+        xyz: Triple = (0, 0, 0),
+        rpy: Triple = (0, 0, 0),
+    ) -> Self:
+        """Add a satellite receiver."""
+        origin = pose(xyz, rpy)
+        return self.sensor(
+            Sensor(name, SensorType.GPS, self._link_name, update_rate, gps_info=GPSInfo(), origin=origin)
+        )
+
+    def force_torque(
+        self,
+        name: str,
+        update_rate: float = default.DEFAULT_UPDATE_RATE_FORCE_TORQUE,
+        xyz: Triple = (0, 0, 0),
+        rpy: Triple = (0, 0, 0),
+    ) -> Self:
+        """Add a force and torque sensor."""
+        info = ForceTorqueInfo()
+        origin = pose(xyz, rpy)
+        return self.sensor(
+            Sensor(name, SensorType.FORCE_TORQUE, self._link_name, update_rate, force_torque_info=info, origin=origin)
+        )
+
+    def contact(self, name: str, collision: str, update_rate: float = default.DEFAULT_UPDATE_RATE_CONTACT) -> Self:
+        """Add a touch sensor that feels with a collision of that name."""
+        info = ContactInfo(collision)
+        return self.sensor(Sensor(name, SensorType.CONTACT, self._link_name, update_rate, contact_info=info))
+
+    def sensor(self, sensor: Sensor) -> Self:
+        """Add a sensor as it is, but on this link."""
+        self._check_not_committed()
+        self._sensors.append(replace(sensor, link_name=self._link_name))
+        return self

@@ -1,0 +1,92 @@
+"""Gazebo: what a simulator wants to know about a link, a joint or the robot, and its plugins."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.part import Element, freeze
+from linkforge_compile.core.rules import require_finite, require_not_blank
+
+
+@dataclass(frozen=True, slots=True)
+class GazeboPlugin(Element):
+    """A plugin of a simulator: `<plugin name filename>`.
+
+    `filename` is the library, `parameters` the texts of its child elements by tag. `raw_xml` is its whole content
+    as XML where that was read, and is written in place of the parameters; None if there is none. It is not compared.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for a blank name, VALUE_EMPTY for a blank filename.
+
+    """
+
+    PREFIXED = ("name",)
+
+    name: str
+    filename: str
+    parameters: Mapping[str, str] = FrozenMap()
+    raw_xml: str | None = field(default=None, compare=False)
+
+    def __post_init__(self) -> None:
+        freeze(self, mappings=("parameters",))
+        require_not_blank(self.name, "plugin name", "PluginName")
+        if not self.filename.strip():
+            raise RobotValidationError(
+                ValidationErrorCode.VALUE_EMPTY,
+                f"filename of plugin '{self.name}' cannot be empty or blank",
+                target="PluginFilename",
+                field=("filename",),
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class GazeboElement(Element):
+    """Settings of a simulator: `<gazebo reference>`.
+
+    `reference` names a link or joint, None the robot as a whole. `properties` are the texts of child elements by
+    tag. `material` and `static` belong to links, the rest to joints: `stop_cfm` (constraint force mixing at the
+    joint's stops, 0 or above) and `stop_erp` (share of the error that a step corrects, 0 to 1). None for what is
+    not said.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for a blank reference, INVALID_VALUE for stop_cfm or stop_erp out of range.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    PREFIXED = ("reference", "plugins")
+
+    reference: str | None = None
+    properties: Mapping[str, str] = FrozenMap()
+    plugins: Sequence[GazeboPlugin] = ()
+    material: str | None = None
+    static: bool | None = None
+    stop_cfm: float | None = None
+    stop_erp: float | None = None
+    provide_feedback: bool | None = None
+    implicit_spring_damper: bool | None = None
+
+    def __post_init__(self) -> None:
+        freeze(self, "plugins", mappings=("properties",))
+        if self.reference is not None:
+            require_not_blank(self.reference, "gazebo reference", "GazeboReference", ("reference",))
+        if self.stop_cfm is not None and self.stop_cfm < 0:
+            raise RobotValidationError(
+                ValidationErrorCode.INVALID_VALUE,
+                f"stop_cfm must be >= 0, found {self.stop_cfm}",
+                target="GazeboStopCFM",
+                value=str(self.stop_cfm),
+                field=("stop_cfm",),
+            )
+        if self.stop_erp is not None and not 0 <= self.stop_erp <= 1:
+            raise RobotValidationError(
+                ValidationErrorCode.INVALID_VALUE,
+                f"stop_erp must be in [0.0, 1.0], found {self.stop_erp}",
+                target="GazeboStopERP",
+                value=str(self.stop_erp),
+                field=("stop_erp",),
+            )
+        require_finite(self, "stop_cfm")

@@ -1,0 +1,247 @@
+"""Geometry: vectors, poses, and the shapes that links are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TypeAlias
+
+from linkforge_compile.core.constants import PI
+from linkforge_compile.core.exceptions import FieldPath, RobotPhysicsError, ValidationErrorCode
+from linkforge_compile.core.part import Element, Part, freeze
+from linkforge_compile.core.rules import is_finite, not_finite, require_finite
+
+
+class GeometryType(StrEnum):
+    """The shapes, by the tag that each becomes inside `<geometry>`."""
+
+    BOX = "box"
+    CYLINDER = "cylinder"
+    SPHERE = "sphere"
+    MESH = "mesh"
+    CAPSULE = "capsule"
+
+
+@dataclass(frozen=True, slots=True)
+class Vector3(Part):
+    """Three numbers along x, y, z; the unit is that of the field which holds them. Integers stay integers.
+
+    An attribute of three numbers, such as `xyz`, `rpy`, `size` or `scale`.
+
+    Raises:
+        RobotMathError: INVALID_VALUE for NaN or infinity; the field is the position, 0 to 2.
+
+    """
+
+    x: float
+    y: float
+    z: float
+
+    def __post_init__(self) -> None:
+        if is_finite(self.x) and is_finite(self.y) and is_finite(self.z):
+            return
+        for position, (name, value) in enumerate(zip("xyz", self, strict=True)):
+            if not is_finite(value):
+                raise not_finite(value, name, f"Vector3.{name}", (position,))
+
+    def __iter__(self) -> Iterator[float]:
+        yield self.x
+        yield self.y
+        yield self.z
+
+    def to_tuple(self) -> tuple[float, float, float]:
+        return (self.x, self.y, self.z)
+
+    def __str__(self) -> str:
+        return f"{self.x} {self.y} {self.z}"
+
+
+_ZERO = Vector3(0.0, 0.0, 0.0)
+_ONE = Vector3(1.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Transform(Element):
+    """A pose in the frame of the thing that holds it: `<origin xyz rpy>`.
+
+    `xyz` is the position [m], `rpy` the rotation about the fixed axes x, then y, then z [rad].
+    """
+
+    xyz: Vector3 = _ZERO
+    rpy: Vector3 = _ZERO
+
+    @classmethod
+    def identity(cls) -> Transform:
+        """Return the pose that moves nothing."""
+        return cls()
+
+    def __str__(self) -> str:
+        return f"xyz: {self.xyz}, rpy: {self.rpy}"
+
+
+IDENTITY = Transform()
+"""The pose that moves nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box(Element):
+    """A cuboid centred on its origin: `<box size>`; `size` is its full extent along x, y, z [m].
+
+    Raises:
+        RobotPhysicsError: PHYSICS_VIOLATION unless every extent is above 0.
+
+    """
+
+    size: Vector3
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        for position, extent in enumerate(self.size):
+            if extent <= 0:
+                raise RobotPhysicsError(
+                    ValidationErrorCode.PHYSICS_VIOLATION,
+                    f"box dimensions must be positive [m], found {self.size}",
+                    target="BoxSize",
+                    value=self.size,
+                    field=(position,),
+                )
+
+    @property
+    def type(self) -> GeometryType:
+        return GeometryType.BOX
+
+    def volume(self) -> float:
+        """Return the volume [m³]."""
+        return self.size.x * self.size.y * self.size.z
+
+
+@dataclass(frozen=True, slots=True)
+class Cylinder(Element):
+    """A cylinder about its z axis, centred on its origin: `<cylinder radius length>`, both [m].
+
+    Raises:
+        RobotPhysicsError: PHYSICS_VIOLATION unless radius and length are above 0.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    radius: float
+    length: float
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        _require_extent(self.radius, "cylinder radius", "CylinderRadius", ("radius",))
+        _require_extent(self.length, "cylinder length", "CylinderLength", ("length",))
+        require_finite(self, "radius", "length")
+
+    @property
+    def type(self) -> GeometryType:
+        return GeometryType.CYLINDER
+
+    def volume(self) -> float:
+        """Return the volume [m³]."""
+        return PI * (self.radius * self.radius) * self.length
+
+
+@dataclass(frozen=True, slots=True)
+class Sphere(Element):
+    """A sphere about its origin: `<sphere radius>` [m].
+
+    Raises:
+        RobotPhysicsError: PHYSICS_VIOLATION unless the radius is above 0.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    radius: float
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        _require_extent(self.radius, "sphere radius", "SphereRadius", ("radius",))
+        require_finite(self, "radius")
+
+    @property
+    def type(self) -> GeometryType:
+        return GeometryType.SPHERE
+
+    def volume(self) -> float:
+        """Return the volume [m³]."""
+        return 4 / 3 * PI * (self.radius * self.radius * self.radius)
+
+
+@dataclass(frozen=True, slots=True)
+class Capsule(Element):
+    """A cylinder about its z axis with a half sphere on either end: `<capsule radius length>`, both [m].
+
+    `length` is that of the cylinder alone, so the whole is `length + 2 * radius` long. Centred on its origin.
+
+    Raises:
+        RobotPhysicsError: PHYSICS_VIOLATION unless radius and length are above 0.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    radius: float
+    length: float
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        _require_extent(self.radius, "capsule radius", "CapsuleRadius", ("radius",))
+        _require_extent(self.length, "capsule length", "CapsuleLength", ("length",))
+        require_finite(self, "radius", "length")
+
+    @property
+    def type(self) -> GeometryType:
+        return GeometryType.CAPSULE
+
+    def volume(self) -> float:
+        """Return the volume [m³]."""
+        return PI * (self.radius * self.radius) * (self.length + 4 / 3 * self.radius)
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh(Element):
+    """A shape from a file: `<mesh filename scale>`.
+
+    `resource` is the file, as a URI or a path, and may be empty; `scale` the factors along x, y, z, where a
+    negative one mirrors. Nothing is read, so a mesh has no volume here.
+
+    Raises:
+        RobotPhysicsError: PHYSICS_VIOLATION for a factor of 0.
+
+    """
+
+    resource: str
+    scale: Vector3 = _ONE
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        for position, factor in enumerate(self.scale):
+            if factor == 0:
+                raise RobotPhysicsError(
+                    ValidationErrorCode.PHYSICS_VIOLATION,
+                    f"mesh scale must not be 0 along any axis, found {self.scale}",
+                    target="MeshScale",
+                    value=self.scale,
+                    field=("scale", position),
+                )
+
+    @property
+    def type(self) -> GeometryType:
+        return GeometryType.MESH
+
+
+Geometry: TypeAlias = Box | Cylinder | Sphere | Capsule | Mesh
+"""Any shape; the one child of `<geometry>`."""
+
+
+def _require_extent(extent: float, what: str, target: str, field: FieldPath) -> None:
+    if extent <= 0:
+        raise RobotPhysicsError(
+            ValidationErrorCode.PHYSICS_VIOLATION,
+            f"{what} must be positive [m], found {extent}",
+            target=target,
+            value=extent,
+            field=field,
+        )

@@ -1,0 +1,92 @@
+"""Interfaces of ros2_control: names of what may be commanded or read, with parameters where they have some."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NoReturn
+
+from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.part import attribute_pairs
+from linkforge_compile.source import SourceRef
+
+
+class Interface(str):
+    """The name of an interface, `position` say: `<command_interface name>` or `<state_interface name>`.
+
+    It is that name to whoever compares, sorts, hashes or prints it; two interfaces are equal if their parameters and
+    extras are so, too. `parameters` are texts by name (`min`, `max`, `initial_value`): `<param name>`.
+    `source` says where it was written, None if nowhere.
+    """
+
+    __slots__ = ("extra_attributes", "extra_elements", "parameters", "source")
+
+    parameters: Mapping[str, str]
+    source: SourceRef | None
+    extra_attributes: tuple[tuple[str, str], ...]
+    extra_elements: tuple[str, ...]
+
+    def __new__(
+        cls,
+        name: str,
+        parameters: Mapping[str, str] = FrozenMap(),
+        *,
+        source: SourceRef | None = None,
+        extra_attributes: Sequence[tuple[str, str]] = (),
+        extra_elements: Sequence[str] = (),
+    ) -> Interface:
+        interface = super().__new__(cls, name)
+        facts = {
+            "parameters": FrozenMap(parameters),
+            "source": source,
+            "extra_attributes": attribute_pairs(extra_attributes),
+            "extra_elements": tuple(extra_elements),
+        }
+        for fact, value in facts.items():
+            object.__setattr__(interface, fact, value)
+        return interface
+
+    @classmethod
+    def of(cls, name: str) -> Interface:
+        """Return the interface itself, or the one without parameters that a bare name means."""
+        return name if isinstance(name, Interface) else cls(name)
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Interface):
+            return str.__eq__(self, other) and self._facts == other._facts
+        return str.__eq__(self, other) if isinstance(other, str) else NotImplemented
+
+    def __ne__(self, other: object) -> bool:
+        # str has an unequal of its own, which would not ask `__eq__`.
+        equal = self.__eq__(other)
+        return equal if equal is NotImplemented else not equal
+
+    __hash__ = str.__hash__
+
+    @property
+    def _facts(self) -> tuple[object, ...]:
+        return self.parameters, self.extra_attributes, self.extra_elements
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"an Interface cannot be changed: {name}")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"an Interface cannot be changed: {name}")
+
+    def __copy__(self) -> Interface:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Interface:
+        return self
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _revive, (str(self), self.parameters, self.source, self.extra_attributes, self.extra_elements)
+
+
+def _revive(
+    name: str,
+    parameters: Mapping[str, str],
+    source: SourceRef | None,
+    extra_attributes: tuple[tuple[str, str], ...],
+    extra_elements: tuple[str, ...],
+) -> Interface:
+    return Interface(name, parameters, source=source, extra_attributes=extra_attributes, extra_elements=extra_elements)

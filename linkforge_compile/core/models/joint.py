@@ -1,0 +1,240 @@
+"""Joints: how one link may move relative to another, its limits and its friction."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from linkforge_compile.core.constants import (
+    DEFAULT_JOINT_DAMPING,
+    DEFAULT_JOINT_EFFORT,
+    DEFAULT_JOINT_FRICTION,
+    DEFAULT_JOINT_VELOCITY,
+    EPSILON,
+)
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
+from linkforge_compile.core.part import Element, freeze
+from linkforge_compile.core.rules import (
+    require_finite,
+    require_name,
+    require_not_negative,
+    require_valid_characters,
+)
+
+
+class JointType(StrEnum):
+    """The ways in which a child link may move, by the `type` of `<joint>`."""
+
+    REVOLUTE = "revolute"
+    CONTINUOUS = "continuous"
+    PRISMATIC = "prismatic"
+    FIXED = "fixed"
+    FLOATING = "floating"
+    PLANAR = "planar"
+
+
+_DEGREES_OF_FREEDOM = {
+    JointType.FIXED: 0,
+    JointType.REVOLUTE: 1,
+    JointType.CONTINUOUS: 1,
+    JointType.PRISMATIC: 1,
+    JointType.PLANAR: 2,
+    JointType.FLOATING: 6,
+}
+_MOVE_ALONG_AN_AXIS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC, JointType.PLANAR)
+_HAVE_NO_AXIS = (JointType.FIXED, JointType.FLOATING)
+_NEED_LIMITS = (JointType.REVOLUTE, JointType.PRISMATIC)
+
+
+@dataclass(frozen=True, slots=True)
+class JointLimits(Element):
+    """How far, how hard and how fast a joint may move: `<limit>`.
+
+    `lower` and `upper` are positions [rad], None for no bound on that side, `effort` [N·m], `velocity` [rad/s];
+    for prismatic joints [m], [N], [m/s].
+
+    Raises:
+        RobotValidationError: OUT_OF_RANGE if lower is above upper, or effort or velocity below 0.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    lower: float | None = None
+    upper: float | None = None
+    effort: float = DEFAULT_JOINT_EFFORT
+    velocity: float = DEFAULT_JOINT_VELOCITY
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        if self.lower is not None and self.upper is not None and self.lower > self.upper:
+            raise RobotValidationError(
+                ValidationErrorCode.OUT_OF_RANGE,
+                f"lower limit must not be above upper, found {self.lower} and {self.upper}",
+                target="JointLimitRange",
+                value=(self.lower, self.upper),
+                field=("lower",),
+            )
+        require_not_negative(self.effort, "effort limit", "JointEffort", "effort")
+        require_not_negative(self.velocity, "velocity limit", "JointVelocity", "velocity")
+        require_finite(self, "lower", "upper", "effort", "velocity")
+
+
+@dataclass(frozen=True, slots=True)
+class JointDynamics(Element):
+    """What a joint resists with: `<dynamics>`.
+
+    `damping` [N·m·s/rad] and static `friction` [N·m]; [N·s/m] and [N] for prismatic joints.
+
+    Raises:
+        RobotValidationError: OUT_OF_RANGE if one is below 0.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    damping: float = DEFAULT_JOINT_DAMPING
+    friction: float = DEFAULT_JOINT_FRICTION
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_not_negative(self.damping, "damping", "JointDamping", "damping")
+        require_not_negative(self.friction, "friction", "JointFriction", "friction")
+        require_finite(self, "damping", "friction")
+
+
+@dataclass(frozen=True, slots=True)
+class JointMimic(Element):
+    """A joint that follows another: `<mimic>`; its position is `multiplier` times that of `joint`, plus `offset`.
+
+    `offset` is [rad], or [m] for a prismatic joint.
+
+    Raises:
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    PREFIXED = ("joint",)
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_finite(self, "multiplier", "offset")
+
+
+@dataclass(frozen=True, slots=True)
+class JointSafetyController(Element):
+    """Where a controller begins to hold a joint back: `<safety_controller>`.
+
+    The soft limits are positions [rad] or [m]; `k_position` bounds the velocity by the distance to them,
+    `k_velocity` the effort by the distance to that velocity. None for what is not written.
+
+    Raises:
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    soft_lower_limit: float | None = None
+    soft_upper_limit: float | None = None
+    k_position: float | None = None
+    k_velocity: float = 0.0
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_finite(self, "soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
+
+
+@dataclass(frozen=True, slots=True)
+class JointCalibration(Element):
+    """Positions at which a reference switch goes up or down: `<calibration>`; [rad] or [m], None for no such edge.
+
+    Raises:
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    rising: float | None = None
+    falling: float | None = None
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_finite(self, "rising", "falling")
+
+
+@dataclass(frozen=True, slots=True)
+class Joint(Element):
+    """A joint: `<joint name type>` with `<parent>`, `<child>`, `<origin>`, `<axis>` and the rest.
+
+    `parent` and `child` are names of links. `origin` is the pose of the child link in the frame of the parent
+    link while the joint is at 0. `axis` is a unit vector in the joint's own frame (for planar, the normal of the
+    plane), and None exactly for fixed and floating joints. `limits` may be None unless the joint is revolute or
+    prismatic, and is None if it is fixed. None for the other parts if the joint has none.
+    `axis_as_written` is the vector that was read where that was not a unit vector, else None; it is not compared.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for an empty name, parent or child; INVALID_NAME for a name with other
+            characters than letters, digits and `_ - . /`; INVALID_VALUE for a joint from a link to itself, an axis
+            or limits that the type lacks or may not have, and an axis that is not of length 1.
+
+    """
+
+    PREFIXED = ("name", "parent", "child", "mimic")
+
+    name: str
+    type: JointType
+    parent: str
+    child: str
+    origin: Transform = IDENTITY
+    axis: Vector3 | None = None
+    limits: JointLimits | None = None
+    dynamics: JointDynamics | None = None
+    mimic: JointMimic | None = None
+    safety_controller: JointSafetyController | None = None
+    calibration: JointCalibration | None = None
+    axis_as_written: Vector3 | None = field(default=None, kw_only=True, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_name(self.name, "joint name", "JointName")
+        require_valid_characters(self.name, "joint name", "JointName")
+        require_name(self.parent, "parent link name", "ParentLink", ("parent",))
+        require_name(self.child, "child link name", "ChildLink", ("child",))
+        if self.parent == self.child:
+            raise self._invalid(
+                f"parent and child link cannot be the same, found '{self.child}'", "JointTopology", self.child, "child"
+            )
+        self._check_parts_of_type()
+        if self.axis is not None:
+            self._check_axis(self.axis)
+
+    def _check_parts_of_type(self) -> None:
+        kind = f"{self.type}"
+        if self.type in _MOVE_ALONG_AN_AXIS and self.axis is None:
+            raise self._invalid(f"axis required for joint type '{kind}'", "JointAxis", kind, "axis")
+        if self.type in _HAVE_NO_AXIS and self.axis is not None:
+            raise self._invalid(f"axis not allowed for joint type '{kind}'", "JointAxis", kind, "axis")
+        if self.type in _NEED_LIMITS and self.limits is None:
+            raise self._invalid(f"limits required for joint type '{kind}'", "JointLimits", kind, "limits")
+        if self.type == JointType.FIXED and self.limits is not None:
+            raise self._invalid(f"limits not allowed for joint type '{kind}'", "JointLimits", kind, "limits")
+
+    def _check_axis(self, axis: Vector3) -> None:
+        length = math.hypot(*axis)
+        if length < EPSILON:
+            raise self._invalid("joint axis cannot be a zero vector", "JointAxis", axis, "axis")
+        if abs(length - 1) > EPSILON:
+            raise self._invalid(
+                f"joint axis must be a unit vector, found length {length}", "JointAxisNormalization", length, "axis"
+            )
+
+    @staticmethod
+    def _invalid(message: str, target: str, value: object, at: str) -> RobotValidationError:
+        return RobotValidationError(ValidationErrorCode.INVALID_VALUE, message, target=target, value=value, field=(at,))
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """How many numbers say where the child is: 0 fixed, 1 for one axis, 2 planar, 6 floating."""
+        return _DEGREES_OF_FREEDOM[self.type]

@@ -1,0 +1,198 @@
+"""Links: rigid bodies with their mass, their looks and their shape in contact."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from linkforge_compile.core.constants import (
+    DEFAULT_CONTACT_KD,
+    DEFAULT_CONTACT_KP,
+    DEFAULT_FRICTION_MU,
+    DEFAULT_FRICTION_MU2,
+    DEFAULT_SELF_COLLIDE,
+    GRAVITY_ENABLED,
+    MIN_REASONABLE_INERTIA,
+)
+from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
+from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
+from linkforge_compile.core.models.index import Renamable
+from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.naming import prefixed
+from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze
+from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
+from linkforge_compile.source import SourceRef
+
+
+@dataclass(frozen=True, slots=True)
+class InertiaTensor(Element):
+    """Entries of the tensor itself, so ixy = -∫ x·y dm [kg·m²], as URDF writes them: `<inertia>`.
+
+    Any finite numbers are held, the diagonal first; whether a body can have them is a check of its own.
+
+    Raises:
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    ixx: float
+    iyy: float
+    izz: float
+    ixy: float = 0.0
+    ixz: float = 0.0
+    iyz: float = 0.0
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_finite(self, "ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+
+    @classmethod
+    def stability_floor(cls) -> InertiaTensor:
+        """Return 1e-9 kg·m² about every axis: small enough not to matter, large enough for a solver."""
+        return cls(MIN_REASONABLE_INERTIA, MIN_REASONABLE_INERTIA, MIN_REASONABLE_INERTIA)
+
+
+_STABILITY_FLOOR = InertiaTensor.stability_floor()
+
+
+@dataclass(frozen=True, slots=True)
+class Inertial(Element):
+    """How a link resists being moved: `<inertial>`.
+
+    `mass` [kg], 0 or above. `origin` is the centre of mass with the axes of the tensor, in the link frame.
+    `inertia` is about the centre of mass in those axes; where nobody states it, the stability floor.
+
+    Raises:
+        RobotPhysicsError: OUT_OF_RANGE if the mass is below 0.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    mass: float
+    origin: Transform = IDENTITY
+    inertia: InertiaTensor = _STABILITY_FLOOR
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        if self.mass < 0:
+            raise RobotPhysicsError(
+                ValidationErrorCode.OUT_OF_RANGE,
+                f"mass must be 0 or above [kg], found {self.mass}",
+                target="Mass",
+                value=self.mass,
+                field=("mass",),
+            )
+        require_finite(self, "mass")
+
+
+@dataclass(frozen=True, slots=True)
+class LinkPhysics(Part):
+    """How a simulator treats a link in contact; becomes tags of its `<gazebo reference>`, defaults left out.
+
+    `mu` and `mu2` are Coulomb coefficients along the first and second friction direction, `kp` the contact
+    stiffness [N/m], `kd` the contact damping [N·s/m].
+
+    Raises:
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    self_collide: bool = DEFAULT_SELF_COLLIDE
+    gravity: bool = GRAVITY_ENABLED
+    mu: float = DEFAULT_FRICTION_MU
+    mu2: float = DEFAULT_FRICTION_MU2
+    kp: float = DEFAULT_CONTACT_KP
+    kd: float = DEFAULT_CONTACT_KD
+
+    def __post_init__(self) -> None:
+        require_finite(self, "mu", "mu2", "kp", "kd")
+
+
+@dataclass(frozen=True, slots=True)
+class Visual(Element):
+    """A shape to look at: `<visual>`; `origin` is its pose in the link frame, None a material or name it lacks."""
+
+    PREFIXED = ("material", "name")
+
+    geometry: Geometry
+    origin: Transform = IDENTITY
+    material: Material | None = None
+    name: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Collision(Element):
+    """A shape to touch: `<collision>`; `origin` is its pose in the link frame, None a name it lacks."""
+
+    PREFIXED = ("name",)
+
+    geometry: Geometry
+    origin: Transform = IDENTITY
+    name: str | None = None
+
+
+@dataclass
+class Link(Renamable):
+    """A rigid body, or a frame if `inertial` is None and it has no shapes: `<link name>`. It may be changed in place.
+
+    `source` says where it was written, None if nowhere; it is not compared. `extra_attributes` and
+    `extra_elements` are as on `Element`.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for an empty name, INVALID_NAME for one with other characters than
+            letters, digits and `_ - . /`.
+
+    """
+
+    name: str
+    inertial: Inertial | None = None
+    physics: LinkPhysics = LinkPhysics()
+    visuals: Sequence[Visual] = ()
+    collisions: Sequence[Collision] = ()
+    extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False, kw_only=True)
+    extra_elements: Sequence[str] = field(default=(), repr=False, kw_only=True)
+    source: SourceRef | None = field(default=None, compare=False, repr=False, kw_only=True)
+
+    def __post_init__(self) -> None:
+        require_name(self.name, "link name", "LinkName")
+        require_valid_characters(self.name, "link name", "LinkName")
+        self.visuals = tuple(self.visuals)
+        self.collisions = tuple(self.collisions)
+        self.extra_attributes = attribute_pairs(self.extra_attributes)
+        self.extra_elements = tuple(self.extra_elements)
+
+    def add_visual(self, visual: Visual) -> None:
+        """Put a visual behind those that are there."""
+        self.visuals = (*self.visuals, visual)
+
+    def add_collision(self, collision: Collision) -> None:
+        """Put a collision behind those that are there."""
+        self.collisions = (*self.collisions, collision)
+
+    @property
+    def mass(self) -> float:
+        """The mass [kg]; 0 for a link without inertial."""
+        return self.inertial.mass if self.inertial else 0.0
+
+    @property
+    def inertia(self) -> InertiaTensor:
+        """The tensor about the centre of mass [kg·m²]; the stability floor for a link without inertial."""
+        return self.inertial.inertia if self.inertial else _STABILITY_FLOOR
+
+    @property
+    def inertial_origin(self) -> Transform:
+        """The centre of mass and the tensor's axes in the link frame; identity for a link without inertial."""
+        return self.inertial.origin if self.inertial else IDENTITY
+
+    def with_prefix(self, prefix: str) -> Link:
+        """Return a new link with its name and those of its visuals and collisions prefixed."""
+        name = prefixed(prefix, self.name)
+        require_valid_characters(name, "link name", "LinkName")
+        link = object.__new__(type(self))
+        vars(link).update(
+            vars(self),
+            name=name,
+            visuals=tuple([visual.with_prefix(prefix) for visual in self.visuals]),
+            collisions=tuple([collision.with_prefix(prefix) for collision in self.collisions]),
+        )
+        return link

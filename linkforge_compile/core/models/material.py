@@ -1,0 +1,83 @@
+"""Materials: how a visual looks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from linkforge_compile.core.constants import DEFAULT_MATERIAL_RGBA
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.part import Element, freeze
+
+
+@dataclass(frozen=True, slots=True)
+class Color(Element):
+    """Red, green, blue and opacity, each from 0 to 1: `<color rgba>`.
+
+    Raises:
+        RobotValidationError: OUT_OF_RANGE for a component outside of [0, 1]; the field is its position, 0 to 3.
+
+    """
+
+    r: float
+    g: float
+    b: float
+    a: float = 1.0
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        for position, component in enumerate(self.to_tuple()):
+            if not 0 <= component <= 1:
+                raise RobotValidationError(
+                    ValidationErrorCode.OUT_OF_RANGE,
+                    f"color component must be in range [0.0, 1.0], found {component}",
+                    target="ColorComponent",
+                    value=component,
+                    field=(position,),
+                )
+
+    @classmethod
+    def white(cls) -> Color:
+        return cls(1.0, 1.0, 1.0, 1.0)
+
+    @classmethod
+    def black(cls) -> Color:
+        return cls(0.0, 0.0, 0.0, 1.0)
+
+    @classmethod
+    def grey(cls) -> Color:
+        """Return the grey of a shape that nobody coloured: 0.7, opaque."""
+        return cls(*DEFAULT_MATERIAL_RGBA)
+
+    def to_tuple(self) -> tuple[float, float, float, float]:
+        return (self.r, self.g, self.b, self.a)
+
+    def __str__(self) -> str:
+        return f"{self.r} {self.g} {self.b} {self.a}"
+
+
+@dataclass(frozen=True, slots=True)
+class Material(Element):
+    """A color, a texture or both, under a name that may be empty: `<material name>`.
+
+    `texture` is the file of the image, as a URI or a path: `<texture filename>`; None for none.
+
+    Raises:
+        RobotValidationError: VALUE_EMPTY if it has neither color nor texture.
+
+    """
+
+    PREFIXED = ("name",)
+
+    name: str
+    color: Color | None = None
+    texture: str | None = None
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        if self.color is None and self.texture is None:
+            raise RobotValidationError(
+                ValidationErrorCode.VALUE_EMPTY,
+                f"material '{self.name}' must have a color or a texture",
+                target="MaterialDefinition",
+                value=self.name,
+            )

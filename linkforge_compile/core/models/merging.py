@@ -1,0 +1,93 @@
+"""What joining one robot to another needs to know beforehand, so that it happens as a whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.part import attribute_pairs
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.gazebo import GazeboElement
+    from linkforge_compile.core.models.inventory import Inventory
+    from linkforge_compile.core.models.joint import Joint
+    from linkforge_compile.core.models.link import Link
+    from linkforge_compile.core.models.material import Material
+    from linkforge_compile.core.models.ros2_control import Ros2Control
+    from linkforge_compile.core.models.sensor import Sensor
+    from linkforge_compile.core.models.srdf import SemanticRobotDescription
+    from linkforge_compile.core.models.transmission import Transmission
+
+
+@dataclass(frozen=True, slots=True)
+class PrefixedParts:
+    """The parts of a robot under a prefix, its own no longer; `semantic` is None where it says nothing semantic."""
+
+    materials: Mapping[str, Material]
+    links: Sequence[Link]
+    joints: Sequence[Joint]
+    sensors: Sequence[Sensor]
+    transmissions: Sequence[Transmission]
+    ros2_controls: Sequence[Ros2Control]
+    gazebo_elements: Sequence[GazeboElement]
+    semantic: SemanticRobotDescription | None
+    extra_elements: Sequence[str]
+    extra_attributes: Sequence[tuple[str, str]]
+
+    @classmethod
+    def of(cls, robot: Inventory, prefix: str) -> PrefixedParts:
+        """Return every part of the robot with the prefix on its name and on the names that it refers to.
+
+        Raises:
+            RobotModelError: INVALID_NAME where the prefix makes a name that no part may have.
+
+        """
+        return cls(
+            materials={prefix + name: material.with_prefix(prefix) for name, material in robot.materials.items()},
+            # Links may be changed in place: two robots never share one, and `with_prefix` makes a new one always.
+            links=[link.with_prefix(prefix) for link in robot.links],
+            joints=[joint.with_prefix(prefix) for joint in robot.joints],
+            sensors=[sensor.with_prefix(prefix) for sensor in robot.sensors],
+            transmissions=[transmission.with_prefix(prefix) for transmission in robot.transmissions],
+            ros2_controls=[control.with_prefix(prefix) for control in robot.ros2_controls],
+            gazebo_elements=[element.with_prefix(prefix) for element in robot.gazebo_elements],
+            semantic=robot.semantic.with_prefix(prefix) if robot.says_semantic else None,
+            extra_elements=robot.extra_elements,
+            extra_attributes=attribute_pairs(robot.extra_attributes),
+        )
+
+
+def new_materials(own: Mapping[str, Material], added: Mapping[str, Material]) -> dict[str, Material]:
+    """Return those of the added materials that are new.
+
+    Raises:
+        RobotValidationError: DUPLICATE_NAME for two different materials of one name.
+
+    """
+    for name, material in added.items():
+        if own.get(name, material) != material:
+            raise RobotValidationError(
+                ValidationErrorCode.DUPLICATE_NAME,
+                f"Duplicate material name: '{name}', for two different materials",
+                target="Material",
+                value=name,
+            )
+    return {name: material for name, material in added.items() if name not in own}
+
+
+def with_rest_of(joint: Joint | None, connecting: Joint) -> Joint:
+    """Return the connecting joint with those fields of `joint`, if any, for which merging has no argument."""
+    if joint is None:
+        return connecting
+    return replace(
+        joint,
+        name=connecting.name,
+        type=connecting.type,
+        parent=connecting.parent,
+        child=connecting.child,
+        origin=connecting.origin,
+        axis=connecting.axis,
+        limits=connecting.limits,
+    )

@@ -1,0 +1,200 @@
+"""What motion planning knows about a robot: groups of joints, their named poses, end effectors, passive joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from linkforge_compile.core.constants import SRDF_VJOIN_FIXED, SRDF_VJOIN_FLOATING, SRDF_VJOIN_PLANAR
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.part import Element, freeze, set_field
+from linkforge_compile.core.rules import is_finite, not_finite, require_not_blank
+
+_VIRTUAL_JOINT_TYPES = (SRDF_VJOIN_FIXED, SRDF_VJOIN_PLANAR, SRDF_VJOIN_FLOATING)
+
+
+@dataclass(frozen=True, slots=True)
+class VirtualJoint(Element):
+    """How the robot stands in the world: `<virtual_joint name type parent_frame child_link>`.
+
+    `type` is `fixed`, `planar` or `floating`; `parent_frame` belongs to the world and takes no prefix.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for a blank name, INVALID_VALUE for another type.
+
+    """
+
+    PREFIXED = ("name", "child_link")
+
+    name: str
+    type: str
+    parent_frame: str
+    child_link: str
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_not_blank(self.name, "virtual joint name", "VirtualJointName")
+        if self.type not in _VIRTUAL_JOINT_TYPES:
+            raise RobotValidationError(
+                ValidationErrorCode.INVALID_VALUE,
+                f"virtual joint type must be one of {', '.join(_VIRTUAL_JOINT_TYPES)}, found '{self.type}'",
+                target="VirtualJointType",
+                value=self.type,
+                field=("type",),
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class Chain(Element):
+    """The joints from one link to another: `<chain base_link tip_link>`; both ends may be the same link.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for a blank end.
+
+    """
+
+    PREFIXED = ("base_link", "tip_link")
+
+    base_link: str
+    tip_link: str
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_not_blank(self.base_link, "base_link of a chain", "ChainBaseLink", ("base_link",))
+        require_not_blank(self.tip_link, "tip_link of a chain", "ChainTipLink", ("tip_link",))
+
+
+@dataclass(frozen=True, slots=True)
+class PlanningGroup(Element):
+    """Joints that are planned together: `<group name>`; said by links, joints, chains or other groups.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for a blank name, VALUE_EMPTY for a group of nothing.
+
+    """
+
+    PREFIXED = ("name", "links", "joints", "chains", "subgroups")
+
+    name: str
+    links: Sequence[str] = ()
+    joints: Sequence[str] = ()
+    chains: Sequence[Chain] = ()
+    subgroups: Sequence[str] = ()
+
+    def __post_init__(self) -> None:
+        freeze(self, "links", "joints", "chains", "subgroups")
+        require_not_blank(self.name, "planning group name", "PlanningGroupName")
+        if not (self.links or self.joints or self.chains or self.subgroups):
+            raise RobotValidationError(
+                ValidationErrorCode.VALUE_EMPTY,
+                f"planning group '{self.name}' must have at least one link, joint, chain or subgroup",
+                target="PlanningGroup",
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class GroupState(Element):
+    """A named pose of a group: `<group_state name group>`.
+
+    `joint_values` are positions [rad] or [m] by joint, each a tuple with a number for every degree of freedom.
+    A number given alone becomes a tuple of one float, another collection a tuple, anything else a tuple of itself.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for a blank name or group.
+        RobotMathError: INVALID_VALUE for NaN or infinity; the field is the joint and the position in its tuple.
+
+    """
+
+    PREFIXED = ("name", "group", "joint_values")
+
+    name: str
+    group: str
+    joint_values: Mapping[str, Any] = FrozenMap()  # Any: a number may go in, a tuple comes out
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_not_blank(self.name, "group state name", "GroupStateName")
+        require_not_blank(self.group, "group of a state", "GroupName", ("group",))
+        values = {joint: _position_tuple(given) for joint, given in self.joint_values.items()}
+        for joint, positions in values.items():
+            for index, position in enumerate(positions):
+                if isinstance(position, int | float) and not is_finite(position):
+                    raise not_finite(position, f"position of '{joint}'", "GroupState", (joint, index))
+        set_field(self, "joint_values", FrozenMap(values))
+
+
+def _position_tuple(given: object) -> tuple[object, ...]:
+    if isinstance(given, list | set | tuple):
+        return tuple(given)
+    return (float(given),) if isinstance(given, int | float) else (given,)
+
+
+@dataclass(frozen=True, slots=True)
+class EndEffector(Element):
+    """A group that works as a hand: `<end_effector name group parent_link parent_group>`.
+
+    `parent_link` is the link of the arm that carries it, `parent_group` the group of the arm, None if not said.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for a blank name or group.
+
+    """
+
+    PREFIXED = ("name", "group", "parent_link", "parent_group")
+
+    name: str
+    group: str
+    parent_link: str
+    parent_group: str | None = None
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_not_blank(self.name, "end effector name", "EndEffectorName")
+        require_not_blank(self.group, "group of an end effector", "GroupName", ("group",))
+
+
+@dataclass(frozen=True, slots=True)
+class PassiveJoint(Element):
+    """A joint that nothing drives: `<passive_joint name>`.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for a blank name.
+
+    """
+
+    PREFIXED = ("name",)
+
+    name: str
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        require_not_blank(self.name, "passive joint name", "PassiveJointName")
+
+
+@dataclass(frozen=True, slots=True)
+class JointProperty(Element):
+    """A remark on a joint that a planner reads: `<joint_property joint_name property_name value>`.
+
+    Raises:
+        RobotValidationError: VALUE_EMPTY if one of the three is blank.
+
+    """
+
+    PREFIXED = ("joint_name",)
+
+    joint_name: str
+    property_name: str
+    value: str
+
+    def __post_init__(self) -> None:
+        freeze(self)
+        for name in ("joint_name", "property_name", "value"):
+            if not getattr(self, name).strip():
+                raise RobotValidationError(
+                    ValidationErrorCode.VALUE_EMPTY,
+                    f"{name} of a joint property cannot be empty or blank",
+                    target="JointProperty",
+                    field=(name,),
+                )

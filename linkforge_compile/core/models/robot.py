@@ -1,0 +1,268 @@
+"""Robots: putting one together from parts and from other robots, copying it, and writing it out."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.models.geometry import IDENTITY
+from linkforge_compile.core.models.graph import refuse_cycles, refuse_loose_joints, single_root
+from linkforge_compile.core.models.index import NAME, Index
+from linkforge_compile.core.models.inventory import require_robot_name
+from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.merging import PrefixedParts, new_materials, with_rest_of
+from linkforge_compile.core.models.semantic_parts import SemanticParts
+from linkforge_compile.core.models.semantic_robot import SemanticRobot
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.gazebo import GazeboElement
+    from linkforge_compile.core.models.geometry import Transform, Vector3
+    from linkforge_compile.core.models.joint import JointLimits
+    from linkforge_compile.core.models.link import Link
+    from linkforge_compile.core.models.ros2_control import Ros2Control
+    from linkforge_compile.core.models.sensor import Sensor
+    from linkforge_compile.core.models.transmission import Transmission
+
+
+class Robot(SemanticRobot):
+    """A robot: `<robot name>` of URDF, and `semantic` for that of SRDF.
+
+    A container that changes, of parts that do not (a Link alone may). Every method that adds something either
+    does so as a whole or raises and leaves the robot as it was.
+    """
+
+    def add_link(self, link: Link, overwrite: bool = False) -> None:
+        """Add a link; with `overwrite` it takes the place of one of the same name.
+
+        Raises:
+            RobotValidationError: DUPLICATE_NAME without `overwrite`.
+
+        """
+        if overwrite and self.has_link(link.name):
+            self.links = self.links.replaced(link)
+        else:
+            self.links = self.links.extended((link,))
+
+    def add_joint(self, joint: Joint) -> None:
+        """Add a joint between two links that are there.
+
+        Raises:
+            RobotValidationError: DUPLICATE_NAME; NOT_FOUND for its parent or child.
+
+        """
+        joints = self.joints.extended((joint,))
+        _require(self.links, joint.parent, f"Parent link '{joint.parent}'", "ParentLink", "parent")
+        _require(self.links, joint.child, f"Child link '{joint.child}'", "ChildLink", "child")
+        self.joints = joints
+
+    def add_sensor(self, sensor: Sensor) -> None:
+        """Add a sensor to a link that is there.
+
+        Raises:
+            RobotValidationError: DUPLICATE_NAME; NOT_FOUND for its link.
+
+        """
+        sensors = self.sensors.extended((sensor,))
+        _require(self.links, sensor.link_name, f"Link '{sensor.link_name}'", "LinkName", "link")
+        self.sensors = sensors
+
+    def add_transmission(self, transmission: Transmission) -> None:
+        """Add a transmission for joints that are there; actuators are names of its own.
+
+        Raises:
+            RobotValidationError: DUPLICATE_NAME; NOT_FOUND for one of its joints.
+
+        """
+        transmissions = self.transmissions.extended((transmission,))
+        for joint in transmission.joints:
+            _require(self.joints, joint.name, f"Joint '{joint.name}'", "JointName", "joints", joint.name)
+        self.transmissions = transmissions
+
+    def add_ros2_control(self, ros2_control: Ros2Control) -> None:
+        """Add a hardware component for joints that are there.
+
+        Raises:
+            RobotValidationError: DUPLICATE_NAME; NOT_FOUND for one of its joints.
+
+        """
+        ros2_controls = self.ros2_controls.extended((ros2_control,))
+        for joint in ros2_control.joints:
+            _require(self.joints, joint.name, f"Joint '{joint.name}'", "JointName", "joints", joint.name)
+        self.ros2_controls = ros2_controls
+
+    def update_ros2_control(self, ros2_control: Ros2Control) -> None:
+        """Put a hardware component in the place of the one of its name, unseen; add it if there is none.
+
+        Raises:
+            RobotValidationError: NOT_FOUND for one of its joints, where it is added.
+
+        """
+        if self.has_ros2_control(ros2_control.name):
+            self.ros2_controls = self.ros2_controls.replaced(ros2_control)
+        else:
+            self.add_ros2_control(ros2_control)
+
+    def add_gazebo_element(self, element: GazeboElement) -> None:
+        """Add settings of a simulator about a link or joint that is there, or about the robot.
+
+        Raises:
+            RobotValidationError: NOT_FOUND for its reference.
+
+        """
+        reference = element.reference
+        if reference is not None and not self.has_link(reference):
+            _require(self.joints, reference, f"Gazebo reference '{reference}'", "GazeboReference", "reference")
+        self.gazebo_elements = self.gazebo_elements.extended((element,))
+
+    def merge(  # noqa: PLR0917 the contract's signature
+        self,
+        component: Robot,
+        at_link: str | None,
+        joint_name: str | None,
+        prefix: str = "",
+        joint_type: JointType = JointType.FIXED,
+        origin: Transform | None = None,
+        axis: Vector3 | None = None,
+        limits: JointLimits | None = None,
+        *,
+        joint: Joint | None = None,
+    ) -> Robot:
+        """Add all parts of another robot under a prefix, and the joint from `at_link` to its root link.
+
+        The joint's own name takes no prefix; `origin` is identity where it is None. From `joint` it takes what
+        has no argument here: dynamics, mimic, safety controller, calibration, source, the axis as written, extras.
+        Without `at_link` nothing connects the two, and the arguments about the joint are not read.
+        The component stays as it is. Its name, version, metadata and resolver are not taken over.
+
+        Raises:
+            RobotValidationError: NOT_FOUND for `at_link` or for a joint of the component without its links;
+                NO_ROOT, MULTIPLE_ROOTS or HAS_CYCLE for its tree; DUPLICATE_NAME for two parts of one name or two
+                different materials of one name; what Joint raises for the connecting one.
+
+        """
+        if at_link is not None:
+            _require(self.links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
+        parts = PrefixedParts.of(component, prefix)
+        if at_link is None:
+            refuse_loose_joints({link.name for link in parts.links}, parts.joints)
+        else:
+            root = single_root(parts.links, parts.joints).name
+            connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
+            parts = replace(parts, joints=(*parts.joints, with_rest_of(joint, connecting)))
+        refuse_cycles(parts.joints)
+        self._take_in(parts)
+        return self
+
+    def _take_in(self, parts: PrefixedParts) -> None:
+        materials = new_materials(self.materials, parts.materials)
+        links = self.links.extended(parts.links)
+        joints = self.joints.extended(parts.joints)
+        sensors = self.sensors.extended(parts.sensors)
+        transmissions = self.transmissions.extended(parts.transmissions)
+        ros2_controls = self.ros2_controls.extended(parts.ros2_controls)
+        semantic = self._semantic.joined(parts.semantic) if parts.semantic else self._semantic
+        # Whatever can fail has not failed: from here on the robot changes.
+        self.materials.update(materials)
+        self.links, self.joints = links, joints
+        self.sensors, self.transmissions, self.ros2_controls = sensors, transmissions, ros2_controls
+        self.gazebo_elements = self.gazebo_elements.extended(parts.gazebo_elements)
+        self.extra_elements = self.extra_elements.extended(parts.extra_elements)
+        self.extra_attributes = tuple((dict(parts.extra_attributes) | dict(self.extra_attributes)).items())
+        self._semantic = semantic
+
+    def prefix_all(self, prefix: str) -> None:
+        """Put a prefix before the robot's name, those of all its parts, and wherever they refer to one another.
+
+        Extra elements, metadata and files stay as they are; an empty prefix changes nothing.
+
+        Raises:
+            RobotModelError: INVALID_NAME where the prefix makes a name that nothing may have.
+
+        """
+        if not prefix:
+            return
+        require_robot_name(prefix + self.name)
+        parts = PrefixedParts.of(self, prefix)
+        self.links = parts.links  # first, for they alone can be refused: two may have been renamed to one name
+        self.joints = parts.joints
+        self.sensors = parts.sensors
+        self.transmissions = parts.transmissions
+        self.ros2_controls = parts.ros2_controls
+        self.gazebo_elements = parts.gazebo_elements
+        self.materials = dict(parts.materials)
+        self._semantic = SemanticParts(parts.semantic)
+        self.name = prefix + self.name
+
+    def clone(self) -> Robot:
+        """Return a robot of its own with equal parts, metadata and resolver."""
+        return deepcopy(self)
+
+    def normalized(self) -> Robot:
+        """Return a clone with every kind of part sorted by name, so that equality does not depend on their order.
+
+        Gazebo elements are sorted by reference and then by what they say; materials and metadata are mappings,
+        and the order of visuals and collisions is kept, for it has a meaning.
+        """
+        robot = self.clone()
+        robot.links = sorted(robot.links, key=NAME)
+        robot.joints = sorted(robot.joints, key=NAME)
+        robot.sensors = sorted(robot.sensors, key=NAME)
+        robot.transmissions = sorted((part.normalized() for part in robot.transmissions), key=NAME)
+        robot.ros2_controls = sorted((part.normalized() for part in robot.ros2_controls), key=NAME)
+        robot.gazebo_elements = sorted(robot.gazebo_elements, key=_gazebo_order)
+        if robot.says_semantic:
+            robot.semantic = robot.semantic.normalized()
+        return robot
+
+    def export_urdf(self, validate: bool = True, pretty_print: bool = True) -> str:
+        """Return the robot as URDF; with `validate`, only if no check finds an error.
+
+        Raises:
+            RobotGeneratorError: With `validate`, the errors that were found, a line each.
+
+        """
+        # The contract makes exporting a method: here alone the core reaches up to the rooms that use it.
+        from linkforge_compile.backends import render_urdf
+
+        if validate:
+            self._refuse_errors()
+        return render_urdf(self, pretty=pretty_print)
+
+    def export_srdf(self, validate: bool = True, pretty_print: bool = True) -> str:
+        """Return what the robot says semantically as SRDF; with `validate`, only if no check finds an error.
+
+        Raises:
+            RobotGeneratorError: With `validate`, the errors that were found, a line each.
+
+        """
+        from linkforge_compile.backends import render_srdf
+
+        if validate:
+            self._refuse_errors()
+        return render_srdf(self, pretty=pretty_print)
+
+    def _refuse_errors(self) -> None:
+        from linkforge_compile.checks import check
+        from linkforge_compile.diagnostics import Gaps, Severity
+
+        errors = [found.message for found in check(self, Gaps()) if found.severity is Severity.ERROR]
+        if errors:
+            raise RobotGeneratorError("\n".join(errors))
+
+
+def _require(parts: Index[Link] | Index[Joint], name: str, what: str, target: str, *field: str) -> None:
+    if parts.get(name) is None:
+        raise RobotValidationError(ValidationErrorCode.NOT_FOUND, f"{what} not found", target, name, field=field)
+
+
+def _gazebo_order(element: GazeboElement) -> tuple[str, str]:
+    """By reference, then by content: several elements may speak of one part."""
+    plugins = [(plugin.name, plugin.filename, sorted(plugin.parameters.items())) for plugin in element.plugins]
+    said = {
+        name: value
+        for name in ("material", "static", "stop_cfm", "stop_erp", "provide_feedback", "implicit_spring_damper")
+        if (value := getattr(element, name)) is not None
+    }
+    return element.reference or "", repr((sorted(element.properties.items()), plugins, said, element.extra_elements))

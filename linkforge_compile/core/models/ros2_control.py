@@ -1,0 +1,193 @@
+"""ros2_control: which hardware moves the joints, reads the sensors and switches the pins, and by which interfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from operator import attrgetter
+from typing import ClassVar, Self
+
+from linkforge_compile.core.constants import CONTROL_TYPE_ACTUATOR, CONTROL_TYPE_SENSOR, CONTROL_TYPE_SYSTEM
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.part import Element, freeze
+from linkforge_compile.core.rules import require_name, require_unique_names
+
+__all__ = ["Interface", "Ros2Control", "Ros2ControlGpio", "Ros2ControlJoint", "Ros2ControlSensor"]
+
+_TYPES = (CONTROL_TYPE_SYSTEM, CONTROL_TYPE_ACTUATOR, CONTROL_TYPE_SENSOR)
+
+
+@dataclass(frozen=True, slots=True)
+class _CommandedComponent(Element):
+    """What joints and gpios have in common: they may be commanded as well as read."""
+
+    PREFIXED = ("name",)
+
+    name: str
+    command_interfaces: Sequence[str] = ()
+    state_interfaces: Sequence[str] = ()
+    parameters: Mapping[str, str] = FrozenMap()
+
+    what: ClassVar[str]
+    name_target: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        freeze(self, "command_interfaces", "state_interfaces", mappings=("parameters",))
+        require_name(self.name, f"{self.what} name", self.name_target)
+
+    def normalized(self) -> Self:
+        """Return it with its interfaces sorted."""
+        return replace(
+            self,
+            command_interfaces=tuple(sorted(self.command_interfaces)),
+            state_interfaces=tuple(sorted(self.state_interfaces)),
+        )
+
+
+class Ros2ControlJoint(_CommandedComponent):
+    """A joint that hardware moves or reads: `<joint name>` in `<ros2_control>`.
+
+    Interfaces are names, or Interface where they have parameters; `parameters` are texts by name: `<param name>`.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for an empty name, VALUE_EMPTY without any interface.
+
+    """
+
+    __slots__ = ()
+    what = "ros2_control joint"
+    name_target = "JointName"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not self.command_interfaces and not self.state_interfaces:
+            raise RobotValidationError(
+                ValidationErrorCode.VALUE_EMPTY,
+                f"ros2_control joint '{self.name}' must have at least one command or state interface",
+                target="Ros2ControlInterfaces",
+                value=self.name,
+            )
+
+
+class Ros2ControlGpio(_CommandedComponent):
+    """Pins that hardware switches or reads: `<gpio name>` in `<ros2_control>`; interfaces and parameters as of a joint.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for an empty name.
+
+    """
+
+    __slots__ = ()
+    what = "ros2_control gpio"
+    name_target = "GpioName"
+
+
+@dataclass(frozen=True, slots=True)
+class Ros2ControlSensor(Element):
+    """A sensor that hardware reads: `<sensor name>` in `<ros2_control>`; interfaces and parameters as of a joint.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for an empty name.
+
+    """
+
+    PREFIXED = ("name",)
+
+    name: str
+    state_interfaces: Sequence[str] = ()
+    parameters: Mapping[str, str] = FrozenMap()
+
+    def __post_init__(self) -> None:
+        freeze(self, "state_interfaces", mappings=("parameters",))
+        require_name(self.name, "ros2_control sensor name", "SensorName")
+
+    def normalized(self) -> Ros2ControlSensor:
+        """Return it with its interfaces sorted."""
+        return replace(self, state_interfaces=tuple(sorted(self.state_interfaces)))
+
+
+@dataclass(frozen=True, slots=True)
+class Ros2Control(Element):
+    """One piece of hardware: `<ros2_control name type>`.
+
+    `type` is `system`, `actuator` or `sensor`; `hardware_plugin` the class that talks to it, `<plugin>` in
+    `<hardware>`, where `parameters` go as well. `extra_elements` stand in `<ros2_control>` itself.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for an empty name; INVALID_VALUE for another type, a command interface in a
+            sensor, or an actuator without exactly one joint; VALUE_EMPTY without plugin; DUPLICATE_NAME for two
+            joints, two sensors or two gpios of one name.
+
+    """
+
+    PREFIXED = ("name", "joints", "sensors", "gpios")
+
+    name: str
+    type: str = CONTROL_TYPE_SYSTEM
+    hardware_plugin: str = ""
+    joints: Sequence[Ros2ControlJoint] = ()
+    sensors: Sequence[Ros2ControlSensor] = ()
+    parameters: Mapping[str, str] = FrozenMap()
+    gpios: Sequence[Ros2ControlGpio] = field(default=(), kw_only=True)
+
+    def __post_init__(self) -> None:
+        freeze(self, "joints", "sensors", "gpios", mappings=("parameters",))
+        require_name(self.name, "ros2_control name", "Ros2ControlName")
+        if self.type not in _TYPES:
+            raise _invalid(
+                f"ros2_control type must be one of {', '.join(_TYPES)}, found '{self.type}'",
+                "Ros2ControlType",
+                self.type,
+                "type",
+            )
+        if not self.hardware_plugin:
+            raise RobotValidationError(
+                ValidationErrorCode.VALUE_EMPTY,
+                "hardware_plugin cannot be empty",
+                target="HardwarePlugin",
+                value=self.hardware_plugin,
+                field=("hardware_plugin",),
+            )
+        owner = f"ros2_control '{self.name}'"
+        require_unique_names(self.joints, owner, "Ros2ControlJoints", "joints")
+        require_unique_names(self.sensors, owner, "Ros2ControlSensors", "sensors")
+        require_unique_names(self.gpios, owner, "Ros2ControlGpios", "gpios")
+        self._check_joints_of_type()
+
+    def _check_joints_of_type(self) -> None:
+        if self.type == CONTROL_TYPE_SENSOR:
+            for joint in self.joints:
+                if joint.command_interfaces:
+                    raise _invalid(
+                        f"a ros2_control sensor cannot have command interfaces, found them in joint '{joint.name}'",
+                        "Ros2ControlMode",
+                        self.type,
+                        "joints",
+                        joint.name,
+                        "command_interfaces",
+                    )
+        if self.type == CONTROL_TYPE_ACTUATOR and len(self.joints) != 1:
+            raise _invalid(
+                f"a ros2_control actuator must have exactly one joint, found {len(self.joints)}",
+                "Ros2ControlJoints",
+                len(self.joints),
+                "joints",
+            )
+
+    def normalized(self) -> Ros2Control:
+        """Return it with joints, sensors and gpios sorted by name, and their interfaces sorted."""
+        by_name = attrgetter("name")
+        return replace(
+            self,
+            joints=tuple(joint.normalized() for joint in sorted(self.joints, key=by_name)),
+            sensors=tuple(sensor.normalized() for sensor in sorted(self.sensors, key=by_name)),
+            gpios=tuple(gpio.normalized() for gpio in sorted(self.gpios, key=by_name)),
+        )
+
+
+def _invalid(message: str, target: str, value: object, *field_path: str) -> RobotValidationError:
+    return RobotValidationError(
+        ValidationErrorCode.INVALID_VALUE, message, target=target, value=value, field=field_path
+    )

@@ -1,0 +1,217 @@
+"""Transmissions: how actuators move joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from operator import attrgetter
+from typing import ClassVar, Self
+
+from linkforge_compile.core.constants import EPSILON, HW_IF_POSITION
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.part import Element, freeze
+from linkforge_compile.core.rules import (
+    require_finite,
+    require_name,
+    require_unique_names,
+    require_valid_characters,
+)
+
+
+class TransmissionType(StrEnum):
+    """The transmissions that ros2_control brings along; other plugins are named by plain text."""
+
+    SIMPLE = "transmission_interface/SimpleTransmission"
+    DIFFERENTIAL = "transmission_interface/DifferentialTransmission"
+    FOUR_BAR_LINKAGE = "transmission_interface/FourBarLinkageTransmission"
+    CUSTOM = "custom"
+
+
+_JOINTS_AND_ACTUATORS: dict[str, int] = {
+    TransmissionType.SIMPLE: 1,
+    TransmissionType.DIFFERENTIAL: 2,
+    TransmissionType.FOUR_BAR_LINKAGE: 2,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class _TransmissionEnd(Element):
+    """What a joint and an actuator of a transmission have in common."""
+
+    PREFIXED = ("name",)
+
+    name: str
+    hardware_interfaces: Sequence[str] = (HW_IF_POSITION,)
+    mechanical_reduction: float | None = 1.0
+    offset: float = 0.0
+
+    what: ClassVar[str]
+    name_target: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        freeze(self, "hardware_interfaces")
+        require_name(self.name, f"{self.what} name", self.name_target)
+        if not self.hardware_interfaces:
+            raise _empty(
+                f"{self.what} '{self.name}' must have at least one interface",
+                "HardwareInterfaces",
+                self.name,
+                "hardware_interfaces",
+            )
+        if self.mechanical_reduction is not None and abs(self.mechanical_reduction) < EPSILON:
+            raise RobotValidationError(
+                ValidationErrorCode.INVALID_VALUE,
+                f"mechanical_reduction of {self.what} '{self.name}' cannot be 0",
+                target="MechanicalReduction",
+                value=self.mechanical_reduction,
+                field=("mechanical_reduction",),
+            )
+        require_finite(self, "mechanical_reduction", "offset")
+
+    def normalized(self) -> Self:
+        """Return it with its interfaces sorted."""
+        return replace(self, hardware_interfaces=tuple(sorted(self.hardware_interfaces)))
+
+
+class TransmissionJoint(_TransmissionEnd):
+    """A joint that a transmission moves: `<joint name>`.
+
+    `mechanical_reduction` is actuator over joint, negative to turn the other way, None if not written. `offset` is
+    added to the joint's position [rad], or [m] if it is prismatic.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY for an empty name, VALUE_EMPTY without interfaces, INVALID_VALUE for a
+            reduction of 0.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+
+    __slots__ = ()
+    what = "transmission joint"
+    name_target = "JointName"
+
+
+class TransmissionActuator(_TransmissionEnd):
+    """An actuator that drives a transmission: `<actuator name>`; fields and refusals as for TransmissionJoint."""
+
+    __slots__ = ()
+    what = "transmission actuator"
+    name_target = "ActuatorName"
+
+
+@dataclass(frozen=True, slots=True)
+class Transmission(Element):
+    """Joints and the actuators that move them: `<transmission name>`.
+
+    `type` is a TransmissionType or the name of another plugin, `parameters` the texts of further child elements.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY or INVALID_NAME for the name; VALUE_EMPTY without type, joint or actuator;
+            INVALID_VALUE where the type wants another number of them; DUPLICATE_NAME for two joints or two
+            actuators of one name.
+
+    """
+
+    PREFIXED = ("name", "joints", "actuators")
+
+    name: str
+    type: str
+    joints: Sequence[TransmissionJoint] = ()
+    actuators: Sequence[TransmissionActuator] = ()
+    parameters: Mapping[str, str] = FrozenMap()
+
+    def __post_init__(self) -> None:
+        freeze(self, "joints", "actuators", mappings=("parameters",))
+        require_name(self.name, "transmission name", "TransmissionName")
+        if not self.type:
+            raise _empty("transmission type cannot be empty", "TransmissionType", self.type, "type")
+        require_valid_characters(self.name, "transmission name", "TransmissionName")
+        if not self.joints:
+            raise _empty("transmission must have at least one joint", "TransmissionJoints", self.name, "joints")
+        if not self.actuators:
+            raise _empty(
+                "transmission must have at least one actuator", "TransmissionActuators", self.name, "actuators"
+            )
+        self._check_count()
+        require_unique_names(self.joints, f"transmission '{self.name}'", "DuplicateJoints", "joints")
+        require_unique_names(self.actuators, f"transmission '{self.name}'", "DuplicateActuators", "actuators")
+
+    def _check_count(self) -> None:
+        count = _JOINTS_AND_ACTUATORS.get(self.type)
+        if count and (len(self.joints), len(self.actuators)) != (count, count):
+            raise RobotValidationError(
+                ValidationErrorCode.INVALID_VALUE,
+                f"{self.type} must have exactly {count} joint{'s' * (count > 1)} and {count} "
+                f"actuator{'s' * (count > 1)}, found {len(self.joints)} and {len(self.actuators)}",
+                target="TransmissionComponents",
+                field=("actuators" if len(self.joints) == count else "joints",),
+            )
+
+    def normalized(self) -> Transmission:
+        """Return it with joints and actuators sorted by name, and their interfaces sorted."""
+        return replace(
+            self,
+            joints=tuple(joint.normalized() for joint in sorted(self.joints, key=attrgetter("name"))),
+            actuators=tuple(actuator.normalized() for actuator in sorted(self.actuators, key=attrgetter("name"))),
+        )
+
+    @classmethod
+    def create_simple(
+        cls,
+        name: str,
+        joint_name: str,
+        actuator_name: str | None = None,
+        mechanical_reduction: float = 1.0,
+        hardware_interfaces: Sequence[str] | None = None,
+    ) -> Transmission:
+        """Return a transmission of one joint, which takes the reduction, and one actuator, which has 1.
+
+        The actuator is called `JOINT_motor` unless named; both have the interfaces given, `position` for None.
+        """
+        return cls._create(
+            name, TransmissionType.SIMPLE, ((joint_name, actuator_name),), mechanical_reduction, hardware_interfaces
+        )
+
+    @classmethod
+    def create_differential(  # noqa: PLR0917 - the order is that of LinkForge
+        cls,
+        name: str,
+        joint1_name: str,
+        joint2_name: str,
+        actuator1_name: str | None = None,
+        actuator2_name: str | None = None,
+        mechanical_reduction: float = 1.0,
+        hardware_interfaces: Sequence[str] | None = None,
+    ) -> Transmission:
+        """Return a transmission of two joints, which take the reduction, and two actuators, which have 1.
+
+        An actuator is called `JOINT_motor` unless named; all have the interfaces given, `position` for None.
+        """
+        pairs = ((joint1_name, actuator1_name), (joint2_name, actuator2_name))
+        return cls._create(name, TransmissionType.DIFFERENTIAL, pairs, mechanical_reduction, hardware_interfaces)
+
+    @classmethod
+    def _create(
+        cls,
+        name: str,
+        kind: TransmissionType,
+        pairs: Sequence[tuple[str, str | None]],
+        reduction: float,
+        hardware_interfaces: Sequence[str] | None,
+    ) -> Transmission:
+        interfaces = tuple(hardware_interfaces or (HW_IF_POSITION,))
+        return cls(
+            name,
+            kind.value,
+            tuple(TransmissionJoint(joint, interfaces, reduction) for joint, _ in pairs),
+            tuple(
+                TransmissionActuator(f"{joint}_motor" if actuator is None else actuator, interfaces)
+                for joint, actuator in pairs
+            ),
+        )
+
+
+def _empty(message: str, target: str, value: str, at: str) -> RobotValidationError:
+    return RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, target=target, value=value, field=(at,))

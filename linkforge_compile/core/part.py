@@ -1,0 +1,83 @@
+"""What every frozen part of the IR has: where it was written, what no field says, and copies that are itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, ClassVar, Self
+
+from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.prefixing import prefixed_copy
+from linkforge_compile.source import Sourced
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part(Sourced):
+    """A frozen value: nothing in it ever changes, so a copy of it, deep or not, is the part itself."""
+
+    PREFIXED: ClassVar[tuple[str, ...]] = ()
+    """The fields that hold names which a prefix goes before: of the part, of others it refers to, of parts in it."""
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Self:
+        return self
+
+    def with_prefix(self, prefix: str) -> Self:
+        """Return the part with the prefix before all its names; a name that is empty or None stays so.
+
+        Raises:
+            RobotModelError: What the constructor raises, where the prefix makes a name that it refuses.
+
+        """
+        if not self.PREFIXED or not prefix:
+            return self
+        return prefixed_copy(self, prefix)
+
+    if TYPE_CHECKING:
+        # Every part gets one from dataclass. Seen here, it lets `name in robot.joints` pass for what it is: an Index
+        # holds names as well as parts, which mypy would otherwise call a comparison that is never true.
+        def __eq__(self, other: object) -> bool: ...
+        def __hash__(self) -> int: ...
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Element(Part):
+    """A part that becomes an XML element.
+
+    `extra_attributes` are (name, value) pairs and `extra_elements` the texts of child elements, both for what no
+    field says; they are written as they stand and take no prefix. They are compared, but not shown by `repr`.
+    """
+
+    extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False)
+    extra_elements: Sequence[str] = field(default=(), repr=False)
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+
+def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) -> None:
+    """Make tuples of the named sequences and FrozenMaps of the named mappings, and both kinds of extras tuples.
+
+    For `__post_init__` only. An element without collections of its own inherits it; one that has them calls it.
+    """
+    for name in sequences:
+        set_field(element, name, tuple(getattr(element, name)))
+    for name in mappings:
+        set_field(element, name, FrozenMap(getattr(element, name)))
+    if element.extra_elements != ():
+        set_field(element, "extra_elements", tuple(element.extra_elements))
+    if element.extra_attributes != ():
+        set_field(element, "extra_attributes", attribute_pairs(element.extra_attributes))
+
+
+def attribute_pairs(attributes: Sequence[tuple[str, str]] | Mapping[str, str]) -> tuple[tuple[str, str], ...]:
+    """Return (name, value) pairs in the order given."""
+    pairs = attributes.items() if isinstance(attributes, Mapping) else attributes
+    return tuple((name, value) for name, value in pairs)
+
+
+def set_field(part: Part, name: str, value: object) -> None:
+    """Give a field its final value while the part is being made."""
+    object.__setattr__(part, name, value)

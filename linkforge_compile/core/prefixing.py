@@ -1,0 +1,64 @@
+"""Copies of frozen parts under a prefix, which is most of what joining robots costs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import Field, fields, replace
+from functools import lru_cache
+from typing import Any, TypeVar
+
+from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.naming import is_valid_name
+
+P = TypeVar("P")
+
+_Copier = Callable[[Any, str], Any]  # Any: it takes a part of one class and returns another of that class
+
+
+def prefixed_copy(part: P, prefix: str) -> P:
+    """Return a frozen dataclass with the prefix before what stands in the fields that its class calls PREFIXED.
+
+    A prefix that could be a name itself makes nothing wrong that was right before, so nobody looks again; any other
+    one goes through the constructor, which says what is wrong with it.
+    """
+    kind = part.__class__
+    if kind not in _COPIERS:
+        _COPIERS[kind] = _written_copier(kind)
+    copy: P = _COPIERS[kind](part, prefix)
+    return copy if _is_harmless(prefix) else replace(copy)  # type: ignore[type-var]  # P is a dataclass, see above
+
+
+@lru_cache
+def _is_harmless(prefix: str) -> bool:
+    return is_valid_name(prefix)
+
+
+_COPIERS: dict[type, _Copier] = {}
+
+
+def _written_copier(kind: type[Any]) -> _Copier:
+    """Return a function that copies slot by slot, written out as dataclass does for `__init__`: a loop is slower."""
+    any_name = " or ".join(f"part.{name}" for name in kind.PREFIXED)
+    lines = ["def copy(part, prefix):", f"    if not ({any_name}):", "        return part", "    copy = new(kind)"]
+    scope: dict[str, Any] = {"new": object.__new__, "kind": kind, "FrozenMap": FrozenMap}
+    for field in fields(kind):
+        scope[f"set_{field.name}"] = getattr(kind, field.name).__set__
+        lines.append(f"    value = part.{field.name}")
+        lines.append(f"    set_{field.name}(copy, {_prefixed(field) if field.name in kind.PREFIXED else 'value'})")
+    exec("\n".join([*lines, "    return copy"]), scope)
+    copier: _Copier = scope["copy"]
+    return copier
+
+
+def _prefixed(field: Field[Any]) -> str:
+    """Return the Python for a field's value under a prefix; what is empty or None stays so."""
+    kind = str(field.type)
+    if kind.startswith("str"):
+        return "value and prefix + value"
+    if kind == "Sequence[str]":
+        return "value and tuple([prefix + name for name in value])"
+    if kind.startswith("Sequence["):
+        return "value and tuple([each.with_prefix(prefix) for each in value])"
+    if kind.startswith("Mapping[str"):
+        return "FrozenMap({prefix + name: each for name, each in value.items()})"
+    return "value and value.with_prefix(prefix)"

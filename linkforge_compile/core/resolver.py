@@ -1,0 +1,93 @@
+"""From a URI in a robot description to the file on this machine."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+from typing import Protocol, runtime_checkable
+
+_PACKAGE_URI = re.compile(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
+_PACKAGE_NAME = re.compile(r"<name>\s*([^<]*?)\s*</name>")
+_WINDOWS_DRIVE = re.compile(r"^/(?=[A-Za-z]:)")
+_LEVELS_UP = 10
+
+
+@runtime_checkable
+class IResourceResolver(Protocol):
+    """Whatever finds the file behind a URI."""
+
+    def resolve(self, uri: str, relative_to: Path | None = None) -> Path:
+        """Return the absolute path of an existing file or folder.
+
+        `relative_to` is the folder that relative paths start from; None for nowhere in particular.
+
+        Raises:
+            FileNotFoundError: There is no such file.
+
+        """
+        ...
+
+
+class FileSystemResolver:
+    """Finds `package://`, `file://`, absolute and relative paths in the file system.
+
+    Packages are looked for in `additional_search_paths`, then in those of ROS_PACKAGE_PATH, then under
+    `share` of those of AMENT_PREFIX_PATH, then from `relative_to` up to ten folders outwards, where a package
+    is a folder of its name or with a package.xml that says the name. The first of them that holds the file
+    wins. Relative paths are looked for in `relative_to`, then in the current folder.
+    """
+
+    def __init__(self, additional_search_paths: list[Path] | None = None) -> None:
+        self.additional_search_paths = additional_search_paths
+
+    def resolve(self, uri: str, relative_to: Path | None = None) -> Path:
+        """Return the absolute path of an existing file or folder.
+
+        Raises:
+            FileNotFoundError: There is no such file.
+
+        """
+        for candidate in self._candidates(uri, relative_to):
+            if candidate.exists():
+                return candidate.absolute()
+        raise FileNotFoundError(uri)
+
+    def _candidates(self, uri: str, relative_to: Path | None) -> Iterator[Path]:
+        if package_uri := _PACKAGE_URI.fullmatch(uri):
+            for folder in self._package_folders(package_uri["package"], relative_to or Path.cwd()):
+                yield folder / package_uri["path"]
+        elif uri.startswith("file://"):
+            yield Path(_WINDOWS_DRIVE.sub("", uri.removeprefix("file://")))
+        elif uri:
+            if relative_to is not None:
+                yield (relative_to / uri).resolve()
+            yield Path(uri)
+
+    def _package_folders(self, package: str, start: Path) -> Iterator[Path]:
+        ros = _folders_of("ROS_PACKAGE_PATH")
+        ament = (prefix / "share" for prefix in _folders_of("AMENT_PREFIX_PATH"))
+        for folder in (*(self.additional_search_paths or ()), *ros, *ament):
+            yield Path(folder) / package
+            if Path(folder).name == package:
+                yield Path(folder)
+        start = start.resolve()
+        for folder in islice((start, *start.parents), _LEVELS_UP):
+            if folder.name == package or _declared_package(folder) == package:
+                yield folder
+
+
+def _folders_of(variable: str) -> list[Path]:
+    return [Path(entry) for entry in os.environ.get(variable, "").split(os.pathsep) if entry.strip()]
+
+
+def _declared_package(folder: Path) -> str | None:
+    """Return the name in the folder's package.xml, None where there is no readable one."""
+    try:
+        text = (folder / "package.xml").read_text("utf-8", errors="replace")
+    except OSError:
+        return None
+    name = _PACKAGE_NAME.search(text)
+    return name[1] if name else None

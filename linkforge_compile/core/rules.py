@@ -1,0 +1,138 @@
+"""What constructors refuse, said once: empty names, names with odd characters, numbers that are none."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Protocol
+
+from linkforge_compile.core.exceptions import FieldPath, RobotMathError, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.naming import is_valid_name
+
+
+class Named(Protocol):
+    """Anything with a name."""
+
+    @property
+    def name(self) -> str: ...
+
+
+def require_name(name: str, what: str, target: str, field: FieldPath = ("name",)) -> None:
+    """Refuse an empty name.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY.
+
+    """
+    if not name:
+        raise RobotValidationError(
+            ValidationErrorCode.NAME_EMPTY, f"{what} cannot be empty", target=target, value=name, field=field
+        )
+
+
+def require_not_blank(name: str, what: str, target: str, field: FieldPath = ("name",)) -> None:
+    """Refuse a name without a visible character.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY.
+
+    """
+    if not name.strip():
+        raise RobotValidationError(
+            ValidationErrorCode.NAME_EMPTY, f"{what} cannot be empty or blank", target=target, field=field
+        )
+
+
+def require_valid_characters(name: str, what: str, target: str) -> None:
+    """Refuse characters that URDF readers refuse in names.
+
+    Raises:
+        RobotValidationError: INVALID_NAME.
+
+    """
+    if not is_valid_name(name):
+        raise RobotValidationError(
+            ValidationErrorCode.INVALID_NAME,
+            f"{what} may hold letters, digits and '_', '-', '.', '/', found '{name}'",
+            target=target,
+            value=name,
+            field=("name",),
+        )
+
+
+def require_unique_names(named: Iterable[Named], owner: str, target: str, field: str) -> None:
+    """Refuse two things of one name in one collection; the path of the field ends in that name.
+
+    Raises:
+        RobotValidationError: DUPLICATE_NAME.
+
+    """
+    seen: set[str] = set()
+    for thing in named:
+        if thing.name in seen:
+            raise RobotValidationError(
+                ValidationErrorCode.DUPLICATE_NAME,
+                f"{owner} names '{thing.name}' twice in its {field}",
+                target=target,
+                value=thing.name,
+                field=(field, thing.name),
+            )
+        seen.add(thing.name)
+
+
+def require_not_negative(value: float, what: str, target: str, field: str) -> None:
+    """Refuse a number below zero.
+
+    Raises:
+        RobotValidationError: OUT_OF_RANGE.
+
+    """
+    if value < 0:
+        raise _out_of_range(f"{what} must be 0 or above, found {value}", target, value, field)
+
+
+def require_positive(value: float, what: str, target: str, field: str) -> None:
+    """Refuse a number that is not above zero.
+
+    Raises:
+        RobotValidationError: OUT_OF_RANGE.
+
+    """
+    if value <= 0:
+        raise _out_of_range(f"{what} must be positive, found {value}", target, value, field)
+
+
+def _out_of_range(message: str, target: str, value: float, field: str) -> RobotValidationError:
+    return RobotValidationError(ValidationErrorCode.OUT_OF_RANGE, message, target=target, value=value, field=(field,))
+
+
+def require_finite(part: object, *names: str) -> None:
+    """Refuse NaN and infinity in the named fields; None is no number and passes.
+
+    Raises:
+        RobotMathError: INVALID_VALUE.
+
+    """
+    for name in names:
+        value: float | None = getattr(part, name)
+        if value is not None and not is_finite(value):
+            raise not_finite(value, name, f"{type(part).__name__}.{name}", (name,))
+
+
+def is_finite(value: float) -> bool:
+    """Tell whether a double holds the number: NaN, infinity and an integer beyond 1e308 are no numbers here."""
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def not_finite(value: float, what: str, target: str, field: FieldPath) -> RobotMathError:
+    """Return the error for a number that is not finite."""
+    return RobotMathError(
+        ValidationErrorCode.INVALID_VALUE,
+        f"{what} must be a finite number, found {value}",
+        target=target,
+        value=value,
+        field=field,
+    )

@@ -1,0 +1,107 @@
+"""Links and their parts."""
+
+import copy
+import math
+
+import pytest
+
+from linkforge_compile.core.exceptions import (
+    RobotMathError,
+    RobotPhysicsError,
+    RobotValidationError,
+    ValidationErrorCode,
+)
+from linkforge_compile.core.models.geometry import Box, Sphere, Transform, Vector3
+from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
+from linkforge_compile.core.models.material import Color, Material
+
+BALL = Sphere(0.1)
+
+
+@pytest.mark.parametrize(
+    "entries", [(0, 0, 0), (-1, 1, 1), (1, 1, 100), (1, 1, 1, 5, 5, 5)], ids=["zero", "negative", "triangle", "mixed"]
+)
+def test_a_tensor_holds_any_finite_numbers_for_real_robots_have_them(entries):
+    assert InertiaTensor(*entries).ixx == entries[0]
+
+
+def test_a_tensor_takes_its_diagonal_first():
+    tensor = InertiaTensor(1, 2, 3, 0.1, 0.2, 0.3)
+    assert (tensor.ixx, tensor.iyy, tensor.izz) == (1, 2, 3)
+    assert (tensor.ixy, tensor.ixz, tensor.iyz) == (0.1, 0.2, 0.3)
+    assert InertiaTensor.stability_floor() == InertiaTensor(1e-9, 1e-9, 1e-9)
+
+
+def test_a_mass_may_be_zero_but_not_less():
+    assert Inertial(0).inertia == InertiaTensor.stability_floor()
+    with pytest.raises(RobotPhysicsError) as caught:
+        Inertial(-1e-9)
+    assert caught.value.code is ValidationErrorCode.OUT_OF_RANGE
+    assert caught.value.field == ("mass",)
+
+
+@pytest.mark.parametrize(
+    ("make", "field"),
+    [
+        (lambda bad: InertiaTensor(1, 1, 1, ixz=bad), "ixz"),
+        (Inertial, "mass"),
+        (lambda bad: LinkPhysics(kp=bad), "kp"),
+    ],
+)
+def test_nan_and_infinity_are_refused(make, field):
+    for bad in (math.nan, math.inf):
+        with pytest.raises(RobotMathError) as caught:
+            make(bad)
+        assert caught.value.field == (field,)
+
+
+def test_a_link_without_inertial_weighs_nothing():
+    frame = Link("tool0")
+    assert frame.mass == 0
+    assert frame.inertia == InertiaTensor.stability_floor()
+    assert frame.inertial_origin == Transform.identity()
+
+
+def test_a_link_answers_for_its_inertial():
+    inertial = Inertial(2, Transform(Vector3(1, 2, 3)), InertiaTensor(1, 2, 3))
+    link = Link("base", inertial)
+    assert (link.mass, link.inertial_origin, link.inertia) == (2, inertial.origin, inertial.inertia)
+
+
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [("", ValidationErrorCode.NAME_EMPTY), ("base link", ValidationErrorCode.INVALID_NAME)],
+)
+def test_a_link_needs_a_name_that_urdf_readers_read(name, code):
+    with pytest.raises(RobotValidationError) as caught:
+        Link(name)
+    assert caught.value.code is code
+    assert caught.value.field == ("name",)
+    assert Link("2nd.base/link").name == "2nd.base/link"
+
+
+def test_shapes_are_added_behind_those_that_are_there():
+    link = Link("base", visuals=[Visual(BALL)], collisions=[Collision(BALL)])
+    link.add_visual(Visual(Box(Vector3(1, 1, 1))))
+    link.add_collision(Collision(BALL, name="touch"))
+    assert [visual.geometry.type for visual in link.visuals] == ["sphere", "box"]
+    assert [collision.name for collision in link.collisions] == [None, "touch"]
+    assert isinstance(link.visuals, tuple)
+
+
+def test_a_copy_of_a_link_changes_alone():
+    link = Link("base")
+    twin = copy.deepcopy(link)
+    twin.name = "other"
+    assert link.name == "base"
+
+
+def test_a_prefix_reaches_names_and_materials():
+    paint = Material("red", Color(1, 0, 0))
+    link = Link("base", visuals=[Visual(BALL, material=paint, name="v")], collisions=[Collision(BALL, name="c")])
+    prefixed = link.with_prefix("left_")
+    assert prefixed.name == "left_base"
+    assert (prefixed.visuals[0].name, prefixed.visuals[0].material.name) == ("left_v", "left_red")
+    assert prefixed.collisions[0].name == "left_c"
+    assert link.name == "base"
+    assert Visual(BALL).with_prefix("left_").name is None

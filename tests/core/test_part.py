@@ -1,0 +1,122 @@
+"""What every part of the IR does alike: prefixes, copies, extras, and where it was written."""
+
+import copy
+import dataclasses
+import inspect
+import pickle
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkforge_compile.core.models import (
+    collision_rules,
+    gazebo,
+    geometry,
+    joint,
+    link,
+    material,
+    planning,
+    ros2_control,
+    sensor,
+    srdf,
+    transmission,
+)
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.part import Element, Part
+from linkforge_compile.source import SourceFile, SourceRef, Span
+from tests.strategies import PREFIXED, parts, prefixes
+
+MODULES = (
+    collision_rules,
+    gazebo,
+    geometry,
+    joint,
+    link,
+    material,
+    planning,
+    ros2_control,
+    sensor,
+    srdf,
+    transmission,
+)
+PART_CLASSES = {
+    cls
+    for module in MODULES
+    for name, cls in vars(module).items()
+    if inspect.isclass(cls) and issubclass(cls, Part) and cls not in {Part, Element} and not name.startswith("_")
+}
+
+
+class Node:
+    """A node in a tree, as a part's source points at it."""
+
+    span = Span(SourceFile("arm.robot.yaml", "base:"), 1, 1, 1, 5)
+
+    def child(self, key: str | int) -> None:
+        return None
+
+
+WRITTEN = SourceRef(Node())
+
+
+@given(st.one_of(*PREFIXED), prefixes, prefixes)
+def test_prefixing_composes(part, inner, outer):
+    assert part.with_prefix(inner).with_prefix(outer) == part.with_prefix(outer + inner)
+
+
+@given(st.one_of(*PREFIXED))
+def test_an_empty_prefix_changes_nothing(part):
+    assert part.with_prefix("") == part
+
+
+@given(parts)
+def test_copies_and_pickles_are_equal(part):
+    assert copy.copy(part) == part
+    assert copy.deepcopy(part) == part
+    assert pickle.loads(pickle.dumps(part)) == part
+
+
+@given(parts)
+def test_frozen_parts_hash_by_what_they_say(part):
+    if isinstance(part, Link):
+        return
+    assert hash(pickle.loads(pickle.dumps(part))) == hash(part)
+
+
+@given(st.one_of(*PREFIXED), prefixes)
+def test_a_prefix_keeps_where_a_part_was_written(part, prefix):
+    marked = dataclasses.replace(part, source=WRITTEN)
+    assert marked == part
+    assert marked.with_prefix(prefix).source is WRITTEN
+
+
+@pytest.mark.parametrize("cls", sorted(PART_CLASSES, key=lambda cls: cls.__name__), ids=lambda cls: cls.__name__)
+def test_what_is_ours_stands_behind_the_contract_and_only_by_keyword(cls):
+    parameters = inspect.signature(cls).parameters
+    assert parameters["source"].kind is inspect.Parameter.KEYWORD_ONLY
+    assert "source" not in cls.__match_args__
+    if issubclass(cls, Element):
+        assert parameters["extra_elements"].kind is inspect.Parameter.KEYWORD_ONLY
+
+
+@given(parts)
+def test_extras_become_tuples_and_are_compared(part):
+    if not isinstance(part, Element | Link):
+        return
+    extended = dataclasses.replace(part, extra_attributes={"a": "1"}, extra_elements=["<b/>"])
+    assert extended.extra_attributes == (("a", "1"),)
+    assert extended.extra_elements == ("<b/>",)
+    assert extended != part
+
+
+def test_nothing_can_be_added_to_a_part_on_the_side():
+    for cls in PART_CLASSES:
+        assert "__dict__" not in dir(cls), cls
+
+
+@given(parts)
+def test_a_part_takes_where_it_was_written_to_another_process(part):
+    there = pickle.loads(pickle.dumps(dataclasses.replace(part, source=WRITTEN)))
+    assert there == part
+    assert str(there.source.span) == "arm.robot.yaml:1:1"
