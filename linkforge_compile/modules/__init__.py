@@ -1,0 +1,18 @@
+"""Many files and their parameters to one assembly: every use of every file, with every expression computed."""
+
+from linkforge_compile.modules.arguments import Arguments, arguments_from_text, arguments_from_values
+from linkforge_compile.modules.assembly import Instance
+from linkforge_compile.modules.expand import expand
+from linkforge_compile.modules.given import Unset
+from linkforge_compile.modules.loader import Loader, SpecFile
+
+__all__ = [
+    "Arguments",
+    "Instance",
+    "Loader",
+    "SpecFile",
+    "Unset",
+    "arguments_from_text",
+    "arguments_from_values",
+    "expand",
+]

@@ -1,0 +1,190 @@
+"""Computes the expressions of a tree: each becomes a node of its value, where the expression stands."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TEXT_NOT_NUMBER, TREE_TOO_LARGE
+from linkforge_compile.expressions import (
+    FAULT,
+    Fault,
+    Scope,
+    Template,
+    Value,
+    as_text,
+    evaluate,
+    has_expression,
+    kind_name,
+    parse_template,
+)
+from linkforge_compile.modules.values import node_of, plain_value, size_of
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
+from linkforge_compile.units import parse_quantity
+
+MAX_COMPUTED_NODES = 1_000_000
+"""How many nodes the expressions of all files together may give."""
+
+_TEXT_KEYS = frozenset(
+    {"name", "version", "description", "metadata", "joint_properties"}
+    | {"use", "prefix", "parent", "child", "file", "texture", "base_link", "tip_link", "child_link", "parent_link"}
+)
+"""Keys under which text may look like a number: names, paths, and the free parts with all that is in them."""
+
+_NEGATED = re.compile(r"-\s*\$\(\s*([A-Za-z_][\w.]*)\s*\)")
+
+
+class Expressions:
+    """What all uses of all files of one compile share: each expression parsed once, and how much they gave so far."""
+
+    def __init__(self) -> None:
+        self._templates: dict[YamlScalar, Template | None] = {}
+        self._live: dict[YamlList | YamlMap, bool] = {}
+        self._computed_nodes = 0
+
+    def template(self, scalar: YamlScalar, sink: Diagnostics) -> Template | None:
+        """Return a scalar's text with its expressions parsed; None where they cannot be, which is reported once."""
+        if scalar not in self._templates:
+            self._templates[scalar] = parse_template(scalar.text, scalar.span, sink)
+        return self._templates[scalar]
+
+    def are_in(self, node: YamlNode) -> bool:
+        """Whether a node or anything in it, keys too, holds an expression."""
+        if isinstance(node, YamlScalar):
+            return has_expression(node.text)
+        if isinstance(node, YamlFault):
+            return False
+        if node not in self._live:
+            if isinstance(node, YamlList):
+                self._live[node] = any(self.are_in(item) for item in node)
+            else:
+                self._live[node] = any(has_expression(entry.name) or self.are_in(entry.value) for entry in node)
+        return self._live[node]
+
+    def admit(self, value: Value) -> bool | None:
+        """Count a value's nodes; None for the one that goes beyond the bound, False for all behind it."""
+        within = self._computed_nodes <= MAX_COMPUTED_NODES
+        self._computed_nodes += size_of(value, MAX_COMPUTED_NODES)
+        return within and (True if self._computed_nodes <= MAX_COMPUTED_NODES else None)
+
+    def tell_made_number(self, node: YamlNode, value: Value, sink: Diagnostics) -> bool:
+        """Report text that an expression inside it makes look like a number or quantity; True where it does.
+
+        Fields read numbers and units only where a person typed them, or where the whole is one expression.
+        """
+        if not isinstance(node, YamlScalar) or not has_expression(node.text) or not _looks_like_number(value):
+            return False
+        template = self.template(node, sink)
+        if template is None or len(template.parts) == 1:
+            return False
+        negated = _NEGATED.fullmatch(node.text.strip())
+        remedy = f"write '$(-{negated[1]})'" if negated else "make the whole one expression, such as '$(-a)'"
+        sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=remedy))
+        return True
+
+
+@dataclass(frozen=True, slots=True)
+class TreeEvaluator:
+    """Evaluates nodes of one file in one scope."""
+
+    scope: Scope
+    expressions: Expressions
+    sink: Diagnostics
+
+    def value(self, node: YamlNode) -> Value | Fault:
+        """Return what a node means in an expression; FAULT if anything in it is at fault, which is reported."""
+        if not self.expressions.are_in(node):
+            return plain_value(node)
+        match node:
+            case YamlScalar():
+                return self._computed(node)
+            case YamlList():
+                items = [self.value(item) for item in node]
+                sound = tuple(item for item in items if item is not FAULT)
+                return sound if len(sound) == len(items) else FAULT
+            case YamlMap():
+                return self._map_value(node)
+        return FAULT
+
+    def node(self, node: YamlNode, *, is_text: bool = False) -> YamlNode:
+        """Return the tree with every expression computed; what holds none is the same object.
+
+        What is at fault becomes a YamlFault; an entry whose key is keeps the key as written. `is_text` says that
+        nothing in the node is read as a number.
+        """
+        if not self.expressions.are_in(node):
+            return node
+        match node:
+            case YamlScalar():
+                return self._scalar(node, is_text)
+            case YamlList():
+                return YamlList(tuple(self.node(item, is_text=is_text) for item in node), node.span)
+            case YamlMap():
+                return self._map(node, is_text)
+        return node
+
+    def key(self, key: YamlScalar) -> YamlScalar | None:
+        """Return a key with its expressions computed; None where it is at fault, which is reported."""
+        if not has_expression(key.text):
+            return key
+        value = self._computed(key)
+        if value is FAULT:
+            return None
+        text = as_text(value)
+        if text is None:
+            self.sink.report(COMPUTED_KEY.at(key.span, found=kind_name(value)))
+            return None
+        return YamlScalar(text, text, key.span)
+
+    def _map(self, node: YamlMap, is_text: bool) -> YamlMap:
+        entries: dict[str, YamlEntry] = {}
+        for written in node:
+            # The key of what is faulty stays as it is: its names may be those of the fault itself.
+            key = written.key if isinstance(written.value, YamlFault) else self.key(written.key)
+            if key is None:
+                entries[written.name] = YamlEntry(written.key, YamlFault(written.value.span))
+            elif key.text in entries:
+                self._tell_same_key(key, entries[key.text])
+            else:
+                value = self.node(written.value, is_text=is_text or key.text in _TEXT_KEYS)
+                unchanged = key is written.key and value is written.value
+                entries[key.text] = written if unchanged else YamlEntry(key, value)
+        return YamlMap(entries, node.span)
+
+    def _map_value(self, node: YamlMap) -> Value | Fault:
+        values: dict[str, Value] = {}
+        keys: dict[str, YamlEntry] = {}
+        is_sound = True
+        for written in node:
+            key, value = self.key(written.key), self.value(written.value)
+            if key is None or value is FAULT:
+                is_sound = False
+            elif key.text in values:
+                self._tell_same_key(key, keys[key.text])
+            else:
+                values[key.text], keys[key.text] = value, written
+        return values if is_sound else FAULT
+
+    def _tell_same_key(self, key: YamlScalar, first: YamlEntry) -> None:
+        self.sink.report(SAME_KEY.at(key.span, name=key.text, notes=[Note("the first is here", first.key.span)]))
+
+    def _computed(self, scalar: YamlScalar) -> Value | Fault:
+        template = self.expressions.template(scalar, self.sink)
+        return FAULT if template is None else evaluate(template, self.scope, self.sink)
+
+    def _scalar(self, scalar: YamlScalar, is_text: bool) -> YamlNode:
+        value = self._computed(scalar)
+        if value is FAULT or (not is_text and self.expressions.tell_made_number(scalar, value, self.sink)):
+            return YamlFault(scalar.span)
+        admitted = self.expressions.admit(value)
+        if admitted is None:
+            self.sink.report(TREE_TOO_LARGE.at(scalar.span, limit=f"{MAX_COMPUTED_NODES:,}"))
+        return node_of(value, scalar.span) if admitted else YamlFault(scalar.span)
+
+
+def _looks_like_number(text: Value) -> bool:
+    if not isinstance(text, str):
+        return False
+    number = scalar_value(text.strip())
+    return isinstance(number, int | float) or parse_quantity(text) is not None

@@ -1,0 +1,137 @@
+"""What the user of a file gives to its parameters, and the value that each parameter has in the end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.modules import (
+    PARAMETER_NOT_SET,
+    PARAMETER_WITHOUT_TYPE,
+    UNKNOWN_PARAMETER,
+)
+from linkforge_compile.expressions import FAULT, Fault, Value
+from linkforge_compile.modules.arguments import Arguments
+from linkforge_compile.modules.evaluate_tree import TreeEvaluator
+from linkforge_compile.modules.kinds import Kind, kind_of
+from linkforge_compile.modules.loader import SpecFile
+from linkforge_compile.modules.noted import NotedSink
+from linkforge_compile.modules.parameters import Declaration, Parameter, parameter_of, written
+from linkforge_compile.modules.uses import rebased
+from linkforge_compile.modules.values import plain_value
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax import YamlFault, YamlNode, YamlScalar, read
+
+
+class Unset(Enum):
+    """What it is when nothing sets a required parameter of the compiled file."""
+
+    ERROR = "error"
+    NOTE = "note"
+    """Told once for all of them; what depends on them is not judged."""
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """The arguments of one use of a file.
+
+    `sink` takes the faults of what was written there, and `tree` computes it in its writer's scope, None where it
+    holds no expressions. `use` is where a missing argument is blamed, None for the compiled file.
+    """
+
+    arguments: Arguments
+    sink: Diagnostics
+    tree: TreeEvaluator | None = None
+    use: Span | None = None
+
+    def tell_unknown(self, declared: dict[str, Declaration], spec: SpecFile) -> None:
+        """Report arguments for parameters that the file does not have."""
+        section = spec.tree.entries.get("parameters")
+        note = Note("its parameters are declared here" if section else "this file declares no parameters")
+        note = Note(note.message, section.key.span if section else spec.file.whole)
+        for name, entry in self.arguments.entries.items():
+            if name not in declared:
+                self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=declared, notes=[note]))
+
+    def node(self, name: str, kind: Kind, sink: Diagnostics) -> YamlNode | None:
+        """Return what is given to a parameter, None for nothing; a list or map that was typed as text is read."""
+        entry = self.arguments.entries.get(name)
+        if entry is None or (isinstance(entry.value, YamlScalar) and entry.value.value is None):
+            return None
+        node = entry.value
+        if not (self.arguments.as_text and kind.is_structured and isinstance(node, YamlScalar)):
+            return node
+        file = SourceFile(node.span.file.name, f"{name}: {node.text}")
+        typed = read(file, sink)
+        return YamlFault(node.span) if typed is None else typed.get(name) or node
+
+    def value(self, node: YamlNode, kind: Kind) -> Value | Fault:
+        """Return what a given node means to a parameter of a type, before it is judged."""
+        if self.tree:
+            return written(node, kind, self.tree)
+        return node.text if kind.is_text and isinstance(node, YamlScalar) else plain_value(node)
+
+
+def parameter_value(
+    declaration: Declaration, given: Given, spec: SpecFile, tree: TreeEvaluator
+) -> Value | Fault | None:
+    """Return the value of a parameter: the given one, else the default; None where there is neither.
+
+    `tree` computes the declaration, in the scope of the file `spec` that has it. FAULT for what was reported.
+    """
+    kind = _kind(declaration, tree)
+    if kind is None:
+        return FAULT
+    parameter = parameter_of(declaration, kind, tree)
+    node = given.node(declaration.name, kind, given.sink)
+    value = None if node is None else given.value(node, kind)
+    if node is None or value is None:
+        return _default(declaration, parameter, tree)
+    if declaration.default is not None and not tree.expressions.are_in(declaration.default):
+        _default(declaration, parameter, tree)  # what is wrong with it is wrong unused, too
+    sink = NotedSink(given.sink, [Note("the parameter is declared here", declaration.key.span)])
+    taken = _judged(parameter, node, value, tree, sink)
+    if kind.name == "file" and isinstance(taken, str):
+        return rebased(taken, given.arguments.folder, spec)
+    return taken
+
+
+def tell_unset(declaration: Declaration, given: Given) -> None:
+    """Report a required parameter that nothing sets, where it should have been set."""
+    name = declaration.name
+    if given.use is None:
+        given.sink.report(PARAMETER_NOT_SET.at(declaration.key.span, name=name, remedy=f"-p {name}=VALUE"))
+        return
+    notes = [Note("the parameter is declared here", declaration.key.span)]
+    given.sink.report(PARAMETER_NOT_SET.at(given.use, name=name, remedy=f"with: {{{name}: VALUE}}", notes=notes))
+
+
+def _kind(declaration: Declaration, tree: TreeEvaluator) -> Kind | None:
+    """Return the declared type, or that of the default; None where neither tells, which has been reported."""
+    if declaration.kind or declaration.is_faulty:
+        return declaration.kind
+    if declaration.default is None:
+        tree.sink.report(PARAMETER_WITHOUT_TYPE.at(declaration.key.span, name=declaration.name))
+        return None
+    value = tree.value(declaration.default)
+    return None if value is FAULT else kind_of(value)
+
+
+def _default(declaration: Declaration, parameter: Parameter, tree: TreeEvaluator) -> Value | Fault | None:
+    if declaration.default is None:
+        return None
+    value = written(declaration.default, parameter.kind, tree)
+    return None if value is None else _judged(parameter, declaration.default, value, tree, tree.sink)
+
+
+def _judged(
+    parameter: Parameter, node: YamlNode, value: Value | Fault, tree: TreeEvaluator, sink: Diagnostics
+) -> Value | Fault:
+    """Return the value as one of the parameter's type, FAULT where it does not fit, which is reported at the node."""
+    if value is FAULT:
+        return FAULT
+    if not parameter.kind.is_text and tree.expressions.tell_made_number(node, value, sink):
+        return FAULT
+    taken = parameter.take(value, node.span, sink)
+    return FAULT if taken is None else taken

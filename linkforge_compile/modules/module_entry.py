@@ -1,0 +1,114 @@
+"""One entry of `modules`, computed in the scope of the file that holds it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics.codes.modules import MODULE_FIELD, MODULE_WITHOUT_FILE, NOT_A_MODULE, SAME_KEY
+from linkforge_compile.modules.arguments import Arguments
+from linkforge_compile.modules.evaluate_tree import TreeEvaluator
+from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+
+
+@dataclass(frozen=True, slots=True)
+class ModuleEntry:
+    """What an entry says: `ref` is the entry without `with`, `use` None where no file is named.
+
+    `arguments` are those of `with`, computed with `tree`, or already where it is None. Where the name or the
+    prefix is at fault (not `is_named`), nobody knows the final names of what is in the module.
+    """
+
+    name: str
+    ref: SourceRef
+    use: YamlScalar | None = None
+    prefix: str = ""
+    is_named: bool = True
+    arguments: Arguments = field(default_factory=Arguments)
+    tree: TreeEvaluator | None = None
+
+
+def read_entry(entry: YamlEntry, tree: TreeEvaluator, folder: Path | None, trail: tuple[Span, ...]) -> ModuleEntry:
+    """Read an entry of a file that lies in `folder`; what is at fault is reported and as if it were not there."""
+    key = tree.key(entry.key)
+    name = key.text if key else entry.name
+    written = entry.value
+    body = tree.node(written) if isinstance(written, YamlScalar) else written
+    if isinstance(body, YamlScalar) and body.value is None:
+        body = YamlMap({}, entry.key.span)
+    if not isinstance(body, YamlMap):
+        if not isinstance(body, YamlFault):
+            tree.sink.report(NOT_A_MODULE.at(body.span, name=name, found=found(body)))
+        return ModuleEntry(name, SourceRef(YamlFault(body.span), entry.key.span, trail), is_named=False)
+    rest = YamlMap({key: inner for key, inner in body.entries.items() if key != "with"}, body.span)
+    fields = tree.node(rest)
+    assert isinstance(fields, YamlMap), "a map that is computed is a map"
+    prefix = _text(fields, "prefix", "text", name, tree)
+    arguments, is_computed = _arguments(body, name, tree, folder)
+    return ModuleEntry(
+        name,
+        SourceRef(fields, entry.key.span, trail),
+        use=_use(fields, name, entry.key.span, tree),
+        prefix=prefix.text if isinstance(prefix, YamlScalar) else f"{name}_",
+        is_named=key is not None and not isinstance(prefix, YamlFault),
+        arguments=arguments,
+        tree=None if is_computed or body is not written else tree,
+    )
+
+
+def _use(fields: YamlMap, name: str, key: Span, tree: TreeEvaluator) -> YamlScalar | None:
+    use = _text(fields, "use", "a file name", name, tree)
+    if use is None:
+        tree.sink.report(MODULE_WITHOUT_FILE.at(key, name=name))
+    return use if isinstance(use, YamlScalar) else None
+
+
+def _text(fields: YamlMap, field: str, expected: str, name: str, tree: TreeEvaluator) -> YamlScalar | YamlFault | None:
+    """Return a field that is text, None where nothing is said."""
+    node = fields.get(field)
+    if isinstance(node, YamlList | YamlMap):
+        tree.sink.report(MODULE_FIELD.at(node.span, field=field, name=name, expected=expected, found=found(node)))
+        return YamlFault(node.span)
+    return node
+
+
+def _arguments(body: YamlMap, name: str, tree: TreeEvaluator, folder: Path | None) -> tuple[Arguments, bool]:
+    """Return what `with` gives, and whether it is computed already."""
+    written = body.get("with")
+    if written is None:
+        return Arguments(folder=folder), False
+    given = tree.node(written) if isinstance(written, YamlScalar) else written
+    if isinstance(given, YamlScalar) and given.value is None:
+        return Arguments(folder=folder), False
+    if not isinstance(given, YamlMap):
+        if not isinstance(given, YamlFault):
+            expected = "a map of parameters"
+            tree.sink.report(
+                MODULE_FIELD.at(given.span, field="with", name=name, expected=expected, found=found(given))
+            )
+        return Arguments(folder=folder, is_partial=True), False
+    return _computed_keys(given, tree, folder), given is not written
+
+
+def _computed_keys(given: YamlMap, tree: TreeEvaluator, folder: Path | None) -> Arguments:
+    entries: dict[str, YamlEntry] = {}
+    is_partial = False
+    for entry in given:
+        key = tree.key(entry.key)
+        if key is None:
+            is_partial = True
+        elif key.text in entries:
+            notes = [Note("the first is here", entries[key.text].key.span)]
+            tree.sink.report(SAME_KEY.at(key.span, name=key.text, notes=notes))
+        else:
+            entries[key.text] = YamlEntry(key, entry.value)
+    return Arguments(entries, folder, is_partial=is_partial)
+
+
+def found(node: YamlNode) -> str:
+    """Return what stands at a node as messages quote it."""
+    if isinstance(node, YamlScalar):
+        return f"'{node.text}'"
+    return "a list" if isinstance(node, YamlList) else "a map"

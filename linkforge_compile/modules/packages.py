@@ -1,0 +1,74 @@
+"""Where `package://NAME/` leads: the order of places is part of the language."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import chain
+from pathlib import Path
+
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_NAME = re.compile(r"<name>\s*([^<]*?)\s*</name>")
+_MANIFEST_BYTES = 1024 * 1024
+
+
+@dataclass(frozen=True, slots=True)
+class Package:
+    """A package and the folder that its `package://` stands for."""
+
+    name: str
+    folder: Path
+
+
+def find_package(name: str, declared: Mapping[str, Path], start: Path | None) -> Path | None:
+    """Return the folder of a package, None where it is nowhere.
+
+    `declared` are the places that the user named. After them come the source tree (a folder upward from `start`
+    whose package.xml has that name), AMENT_PREFIX_PATH and ROS_PACKAGE_PATH.
+    """
+    if name in declared:
+        return declared[name]
+    return next(chain(_in_source_tree(name, start), _in_ament(name), _in_ros_1(name)), None)
+
+
+def _in_source_tree(name: str, start: Path | None) -> Iterator[Path]:
+    folder = start.absolute() if start else None
+    for candidate in (folder, *folder.parents) if folder else ():
+        if _manifest_name(candidate) == name:
+            yield candidate
+
+
+def _in_ament(name: str) -> Iterator[Path]:
+    for prefix in _search_path("AMENT_PREFIX_PATH"):
+        folder = prefix / "share" / name
+        if folder.is_dir():
+            yield folder
+
+
+def _in_ros_1(name: str) -> Iterator[Path]:
+    """A path may lead to the package, to the folder that holds it, or to one of repositories that hold it."""
+    for root in _search_path("ROS_PACKAGE_PATH"):
+        if _manifest_name(root) == name:
+            yield root
+        yield from (path.parent for path in (root / name / "package.xml",) if path.is_file())
+        yield from (path.parent for path in sorted(root.glob(f"*/{name}/package.xml")))
+
+
+def _search_path(variable: str) -> Iterator[Path]:
+    return (Path(entry) for entry in os.environ.get(variable, "").split(os.pathsep) if entry)
+
+
+def _manifest_name(folder: Path) -> str | None:
+    """Return the name in a folder's package.xml, None where there is none.
+
+    Read as text: one tag of a file that strangers wrote is not worth an XML parser and its entities.
+    """
+    try:
+        with (folder / "package.xml").open("rb") as stream:
+            text = stream.read(_MANIFEST_BYTES).decode("utf-8", errors="replace")
+    except OSError:
+        return None
+    match = _NAME.search(_COMMENT.sub("", text))
+    return match[1] if match else None

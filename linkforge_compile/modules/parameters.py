@@ -1,0 +1,167 @@
+"""Parameters: how a file declares them, and whether a value is what a declaration admits."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.diagnostics.codes.model import WIDE_ANGLE
+from linkforge_compile.diagnostics.codes.modules import (
+    BAD_PATTERN,
+    PARAMETER_CHOICE,
+    PARAMETER_KIND,
+    PARAMETER_PATTERN,
+    PARAMETER_TOO_LARGE,
+    PARAMETER_TOO_SMALL,
+    UNFIT_CONSTRAINT,
+)
+from linkforge_compile.expressions import FAULT, Fault, Value, has_expression
+from linkforge_compile.modules.evaluate_tree import TreeEvaluator
+from linkforge_compile.modules.kinds import KINDS, Kind
+from linkforge_compile.modules.values import describe
+from linkforge_compile.source import Span
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import Dimension, Quantity, number_text
+
+_CONSTRAINTS = ("minimum", "maximum", "enum", "pattern")
+_WHOLE_TURN = 2 * math.pi + 0.005
+"""A turn that was rounded to two decimals (6.29) is still radians."""
+
+
+@dataclass(frozen=True, slots=True)
+class Declaration:
+    """A parameter as its file declares it; `kind` is None where it follows from the default.
+
+    `is_faulty` where a part that decides what it takes was reported already: then any value passes in silence.
+    """
+
+    key: YamlScalar
+    kind: Kind | None = None
+    default: YamlNode | None = None
+    constraints: Mapping[str, YamlEntry] = field(default_factory=dict)
+    is_faulty: bool = False
+
+    @property
+    def name(self) -> str:
+        return self.key.text
+
+
+def declarations(section: YamlNode | None) -> dict[str, Declaration]:
+    """Return what the section `parameters` declares, by name."""
+    return {entry.name: _declaration(entry) for entry in section} if isinstance(section, YamlMap) else {}
+
+
+def _declaration(entry: YamlEntry) -> Declaration:
+    declared = entry.value
+    if isinstance(declared, YamlFault):
+        return Declaration(entry.key, is_faulty=True)
+    if isinstance(declared, YamlScalar) and declared.value is None:
+        return Declaration(entry.key)
+    if not isinstance(declared, YamlMap):
+        return Declaration(entry.key, default=declared)
+    word = declared.get("type")
+    kind = KINDS.get(word.text) if isinstance(word, YamlScalar) else None
+    constraints = {name: declared.entries[name] for name in _CONSTRAINTS if declared.get(name) is not None}
+    return Declaration(entry.key, kind, declared.get("default"), constraints, word is not None and kind is None)
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A declaration whose constraints are computed; those that it does not have, or that are at fault, are None."""
+
+    name: str
+    kind: Kind
+    minimum: Value = None
+    maximum: Value = None
+    choices: tuple[Value, ...] | None = None
+    pattern: re.Pattern[str] | None = None
+
+    def take(self, given: Value, where: Span, sink: Diagnostics) -> Value:
+        """Return the value as one of this parameter's type; None where it does not fit, which is reported."""
+        value = self.kind.take(given)
+        if value is None:
+            sink.report(PARAMETER_KIND.at(where, parameter=self.name, expected=self.kind.words, found=describe(given)))
+            return None
+        violation = next(self._violations(value, where), None)
+        if violation:
+            sink.report(violation)
+            return None
+        if self.kind.name == Dimension.ANGLE and isinstance(given, int | float) and abs(given) > _WHOLE_TURN:
+            sink.report(WIDE_ANGLE.at(where, field=f"parameter '{self.name}'", found=number_text(given)))
+        return value
+
+    def _violations(self, value: Value, where: Span) -> Iterator[Diagnostic]:
+        name, found = self.name, describe(value)
+        if self.minimum is not None and _size(value) < _size(self.minimum):
+            yield PARAMETER_TOO_SMALL.at(where, parameter=name, bound=_plain(self.minimum), found=found)
+        if self.maximum is not None and _size(value) > _size(self.maximum):
+            yield PARAMETER_TOO_LARGE.at(where, parameter=name, bound=_plain(self.maximum), found=found)
+        if self.choices is not None and value not in self.choices:
+            choices = [_plain(choice) for choice in self.choices]
+            yield PARAMETER_CHOICE.at(
+                where, parameter=name, choices=", ".join(choices), name=_plain(value), near=choices
+            )
+        if self.pattern is not None and not self.pattern.search(str(value)):
+            yield PARAMETER_PATTERN.at(where, parameter=name, pattern=self.pattern.pattern, found=found)
+
+
+def parameter_of(declaration: Declaration, kind: Kind, tree: TreeEvaluator) -> Parameter:
+    """Compute a declaration's constraints; one at fault is reported and left out."""
+    constraints: dict[str, YamlNode] = {}
+    for name, entry in declaration.constraints.items():
+        if name in kind.constraints:
+            constraints[name] = entry.value
+        else:
+            tree.sink.report(UNFIT_CONSTRAINT.at(entry.key.span, constraint=name, type=kind.name))
+    bounds = Parameter(declaration.name, KINDS["number"] if kind.name == "integer" else kind)
+    plain = Parameter(declaration.name, kind)
+    return Parameter(
+        declaration.name,
+        kind,
+        minimum=_constraint(bounds, constraints.get("minimum"), tree),
+        maximum=_constraint(bounds, constraints.get("maximum"), tree),
+        choices=_choices(plain, constraints.get("enum"), tree),
+        pattern=_pattern(constraints.get("pattern"), tree.sink),
+    )
+
+
+def _constraint(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) -> Value:
+    given = FAULT if node is None else written(node, plain.kind, tree)
+    return None if node is None or given is FAULT else plain.take(given, node.span, tree.sink)
+
+
+def _choices(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) -> tuple[Value, ...] | None:
+    if not isinstance(node, YamlList):
+        return None
+    choices = [_constraint(plain, item, tree) for item in node]
+    return None if None in choices else tuple(choices)
+
+
+def _pattern(node: YamlNode | None, sink: Diagnostics) -> re.Pattern[str] | None:
+    if not isinstance(node, YamlScalar):
+        return None
+    try:
+        return re.compile(node.text)
+    except re.error as error:
+        sink.report(BAD_PATTERN.at(node.span, pattern=node.text, reason=error.msg))
+        return None
+
+
+def written(node: YamlNode, kind: Kind, tree: TreeEvaluator) -> Value | Fault:
+    """Return what a node gives to a parameter of a type, before it is judged; text takes a scalar as written."""
+    if kind.is_text and isinstance(node, YamlScalar) and not has_expression(node.text):
+        return node.text
+    return tree.value(node)
+
+
+def _size(value: Value) -> float:
+    number = value.value if isinstance(value, Quantity) else value
+    assert isinstance(number, int | float), "only numbers have a minimum or a maximum"
+    return number
+
+
+def _plain(value: Value) -> str:
+    return describe(value).strip("'")

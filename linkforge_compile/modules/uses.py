@@ -1,0 +1,127 @@
+"""From the text of a `use` to the file that it names, and back to how that file's meshes are written."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, NOT_A_SPEC_YET, UNKNOWN_PACKAGE, USE_OF_NOWHERE
+from linkforge_compile.modules.loader import Loader, SpecFile, Used, follow
+from linkforge_compile.modules.packages import Package, find_package
+from linkforge_compile.source import Span
+
+_SPEC_ENDINGS = (".yaml", ".yml")
+_ENDINGS_TO_COME = {".urdf": "URDF", ".xacro": "xacro", ".srdf": "SRDF"}
+_SCHEME = re.compile(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
+_PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class UseSite:
+    """A `use` as it is written: in the file `user`, which declares where some packages are."""
+
+    text: str
+    where: Span
+    user: SpecFile
+    packages: Mapping[str, Path]
+
+    @property
+    def used(self) -> Used:
+        return Used(self.text, self.where)
+
+
+def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:
+    """Read the file that a `use` names; None where there is none, which is reported there."""
+    lowered = site.text.lower()
+    if not lowered.endswith(_SPEC_ENDINGS):
+        coming = next((kind for ending, kind in _ENDINGS_TO_COME.items() if lowered.endswith(ending)), None)
+        code = NOT_A_SPEC_YET if coming else NOT_A_SPEC
+        sink.report(code.at(site.where, kind=coming, path=site.text))
+        return None
+    if "\0" in site.text:
+        return _leads_nowhere(site, "no path holds a zero byte", sink)
+    scheme = _SCHEME.match(site.text)
+    if scheme is None:
+        return _open_path(site, loader, sink)
+    if scheme[1] == "package":
+        return _open_in_package(site, scheme[2], loader, sink)
+    if scheme[1] != "file":
+        return _leads_nowhere(site, "a module is a path, package:// or file://", sink)
+    if not scheme[2].startswith("/"):
+        return _leads_nowhere(site, "file:// takes an absolute path", sink)
+    # urllib.request costs 20 ms to import, and hardly a spec needs it.
+    from urllib.request import url2pathname
+
+    return loader.open(Path(url2pathname(scheme[2])), sink, used=site.used)
+
+
+def mesh_base(module: SpecFile, compiled: SpecFile) -> str:
+    """Return what makes a relative path of the module one of the compiled file: "", "../arm/" or "package://arm/".
+
+    Whoever is reached through a package stays in it; what lies on no common drive has an absolute path.
+    """
+    assert module.folder is not None, "a module is a file and lies in a folder"
+    if module.package:
+        return f"package://{module.package.name}/{_steps(module.folder, module.package.folder)}"
+    if compiled.folder is None:
+        return f"{module.folder.absolute().as_posix()}/"
+    return _steps(module.folder, compiled.folder)
+
+
+def name_from(spec: SpecFile, compiled: SpecFile) -> str:
+    """Return a file's name as seen from the compiled file."""
+    return spec.file.name if spec.folder is None else mesh_base(spec, compiled) + Path(spec.file.name).name
+
+
+def rebased(path: str, writer: Path | None, reader: SpecFile) -> str:
+    """Return a relative path that was written in one folder as one that is read in a file of another."""
+    if _SCHEME.match(path) or Path(path).is_absolute() or writer is None or reader.folder is None:
+        return path
+    if writer == reader.folder:
+        return path
+    target = follow(writer, path)
+    if reader.package and not target.is_relative_to(reader.package.folder):
+        return target.absolute().as_posix()
+    return _steps(target, reader.folder).removesuffix("/")
+
+
+def _steps(target: Path, start: Path) -> str:
+    """Return the way from one folder to another with a slash behind every step; "" for none."""
+    try:
+        way = target.relative_to(start) if target.is_relative_to(start) else Path(os.path.relpath(target, start))
+    except ValueError:  # two drives of Windows
+        way = target.absolute()
+    return f"{way.as_posix()}/" if way.parts else ""
+
+
+def _open_path(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:
+    if Path(site.text).is_absolute():
+        return loader.open(Path(site.text), sink, used=site.used)
+    user = site.user
+    if user.folder is None:
+        return _leads_nowhere(site, "it is relative, and this text lies in no folder", sink)
+    path = follow(user.folder, site.text)
+    package = user.package if user.package is not None and path.is_relative_to(user.package.folder) else None
+    return loader.open(path, sink, package=package, used=site.used)
+
+
+def _open_in_package(site: UseSite, path: str, loader: Loader, sink: Diagnostics) -> SpecFile | None:
+    match = _PACKAGE_PATH.fullmatch(path)
+    if match is None:
+        return _leads_nowhere(site, "it takes the form package://NAME/PATH", sink)
+    name = match[1]
+    declared = {**site.packages, **loader.packages}
+    folder = find_package(name, declared, site.user.folder)
+    if folder is None:
+        sink.report(UNKNOWN_PACKAGE.at(site.where, name=name, near=declared))
+        return None
+    return loader.open(follow(folder, match[2]), sink, package=Package(name, folder), used=site.used)
+
+
+def _leads_nowhere(site: UseSite, reason: str, sink: Diagnostics) -> SpecFile | None:
+    sink.report(USE_OF_NOWHERE.at(site.where, path=site.text, reason=reason))
+    return None

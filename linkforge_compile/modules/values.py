@@ -1,0 +1,82 @@
+"""Between nodes of a tree and values of expressions: what a literal means, and what a computed value becomes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from linkforge_compile.expressions import FAULT, Fault, Value, as_text
+from linkforge_compile.source import Span
+from linkforge_compile.syntax import ScalarValue, YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import Quantity, parse_quantity
+
+
+def literal(scalar: YamlScalar) -> Value:
+    """Return what a scalar without expressions means in an expression: text that is a quantity is one."""
+    if isinstance(scalar.value, str):
+        return parse_quantity(scalar.value) or scalar.value
+    return scalar.value
+
+
+def plain_value(node: YamlNode) -> Value | Fault:
+    """Return what a node means in which no `$(` is an expression; FAULT where anything in it was reported."""
+    match node:
+        case YamlScalar():
+            return literal(node)
+        case YamlList():
+            items = tuple(plain_value(item) for item in node)
+            return FAULT if FAULT in items else tuple(item for item in items if item is not FAULT)
+        case YamlMap():
+            values = {entry.name: plain_value(entry.value) for entry in node}
+            return (
+                FAULT
+                if FAULT in values.values()
+                else {name: value for name, value in values.items() if value is not FAULT}
+            )
+    return FAULT
+
+
+def node_of(value: Value, span: Span) -> YamlNode:
+    """Return a computed value as a tree whose every node lies at `span`, where the expression stands.
+
+    A scalar's text is its shortest, of a quantity the number in SI units; null has none, as if nothing were written.
+    """
+    if isinstance(value, tuple):
+        return YamlList(tuple(node_of(item, span) for item in value), span)
+    if isinstance(value, Mapping):
+        return YamlMap(
+            {name: YamlEntry(_scalar(name, span), node_of(item, span)) for name, item in value.items()}, span
+        )
+    return _scalar(value, span)
+
+
+def size_of(value: Value, limit: int) -> int:
+    """Return how many nodes a value makes, or any number above `limit` where it is more.
+
+    Values share their parts, so ten short variables may stand for a billion nodes: counting stops at the limit.
+    """
+    size = 0
+    waiting = [value]
+    while waiting and size <= limit:
+        part = waiting.pop()
+        size += 1
+        if isinstance(part, tuple):
+            waiting.extend(part)
+        elif isinstance(part, Mapping):
+            waiting.extend(part.values())
+    return size
+
+
+def describe(value: Value) -> str:
+    """Return a value as messages quote it."""
+    if isinstance(value, tuple):
+        return f"a list of {len(value)}"
+    if isinstance(value, Mapping):
+        return "a map"
+    if value is None:
+        return "nothing"
+    unit = f" {value.dimension.si_unit}" if isinstance(value, Quantity) else ""
+    return f"'{as_text(value)}{unit}'"
+
+
+def _scalar(value: ScalarValue, span: Span) -> YamlScalar:
+    return YamlScalar(as_text(value) or "", value, span)
