@@ -1,0 +1,5 @@
+"""From the evaluated tree to the IR: one robot out of a file and all its modules."""
+
+from linkforge_compile.lowering.assembly import Lowered, lower
+
+__all__ = ["Lowered", "lower"]

@@ -1,0 +1,216 @@
+"""The fold: each use of a file becomes a robot, and the robots of its modules are merged into it."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeAlias
+
+from linkforge_compile.core.exceptions import RobotModelError
+from linkforge_compile.core.models.graph import refuse_cycles
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostics, Gaps
+from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
+from linkforge_compile.lowering.duplicates import tell_duplicate
+from linkforge_compile.lowering.file import LoweredFile, gaps_of, lower_file
+from linkforge_compile.lowering.mount import Mount, lower_mount, module_fields
+from linkforge_compile.modules.assembly import Instance
+from linkforge_compile.source import SourceRef
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.srdf import SemanticRobotDescription
+
+PartKey: TypeAlias = tuple[str, Hashable]
+"""What no two parts of a robot may share: a kind, "link", and the name or whatever else tells its parts apart."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lowered:
+    """What lowering makes of an instance and of all its modules.
+
+    `robot` is None where its file could not be read. `unmerged` are the robots of modules, each free of gaps,
+    that could not be joined to it because they are no tree or repeat a name: checking them alone tells why.
+    `gaps` names what the robot lacks because of faults, the parts of `unmerged` among them.
+    """
+
+    robot: Robot | None
+    unmerged: tuple[Robot, ...]
+    gaps: Gaps
+
+
+def lower(instance: Instance, sink: Diagnostics) -> Lowered:
+    """Make one robot of a file and of all its modules, in the order written: its own parts, then each module's.
+
+    A module's parts take its prefix and are followed by its connecting joint. Every fault is reported, and what
+    is faulty left out.
+    """
+    if instance.tree is None:
+        return Lowered(None, (), Gaps(prefixes=("",)))
+    fold = _Fold(lower_file(instance.tree, instance.mesh_base, instance.trail, sink), sink)
+    for module in instance.modules:
+        fold.add(module, lower(module, sink))
+    return fold.finished()
+
+
+class _Fold:
+    """A robot while modules are being joined to it."""
+
+    def __init__(self, file: LoweredFile, sink: Diagnostics) -> None:
+        self._robot = file.robot
+        self._states = file.states
+        self._gaps = file.gaps
+        self._sink = sink
+        self._unmerged: list[Robot] = []
+        self._parts = dict(_parts(file.robot))
+        self._parts.update((("group state", state.key), state.fields.ref) for state in file.states)
+        self._held = {joint.child for joint in file.robot.joints}
+
+    def add(self, module: Instance, lowered: Lowered) -> None:
+        """Join a module and the joint that it hangs by, or record what is missing now."""
+        self._unmerged += lowered.unmerged
+        self._gaps |= lowered.gaps.with_prefix(module.prefix)
+        component = lowered.robot
+        root = _root_of(component) if component else None
+        final_root = None if root is None else module.prefix + root
+        mount = lower_mount(module, final_root, self._sink)
+        if component is None:
+            joined = False
+        elif (root is None and not lowered.gaps) or not self._prefixed(component, module):
+            joined = self._leave_out(component, module.prefix, lowered.gaps)
+        elif self._clashes(component):
+            joined = self._leave_out(component, "", lowered.gaps)
+        else:
+            held = mount is not None or final_root in self._held
+            joined = self._join(component, module, lowered.gaps, final_root if held else None)
+        if mount and not (joined and self._connect(mount)):
+            self._gaps |= gaps_of([mount.name])
+
+    def finished(self) -> Lowered:
+        """Return the robot with its group states, which may name those of its modules."""
+        if self._states:
+            from linkforge_compile.lowering.srdf_states import Surroundings, resolve_states
+
+            semantic = self._robot.semantic
+            around = Surroundings(
+                groups=dict.fromkeys(group.name for group in semantic.groups),
+                joints=frozenset(self._robot.joints.names),
+                states={(state.group, state.name): state.joint_values for state in semantic.group_states},
+                lost=self._gaps,
+            )
+            states = resolve_states(self._states, around)
+            self._robot.semantic = replace(semantic, group_states=(*states, *semantic.group_states))
+        return Lowered(self._robot, tuple(self._unmerged), self._gaps)
+
+    def _prefixed(self, component: Robot, module: Instance) -> bool:
+        """Give a component its final names; False, and told, for a prefix that no name may begin with."""
+        fields = module_fields(module, self._sink)
+        if module.prefix and fields:
+            place = fields.node.get("prefix") or fields.ref
+            if not fields.name_is_valid(module.prefix, "prefix", place):
+                return False
+        component.prefix_all(module.prefix)
+        return True
+
+    def _clashes(self, component: Robot) -> bool:
+        """Tell every final name that is taken already; materials that are equal may share one."""
+        clashes = [(key, source) for key, source in _parts(component) if key in self._parts]
+        for (kind, key), source in clashes:
+            name = "/".join(map(str, key)) if isinstance(key, tuple) else str(key)
+            tell_duplicate(self._sink, kind, name, source, self._parts[kind, key])
+        unlike = [
+            (material, own)
+            for name, material in component.materials.items()
+            if (own := self._robot.materials.get(name, material)) != material
+        ]
+        for material, own in unlike:
+            tell_duplicate(self._sink, "material", material.name, material.source, own.source)
+        return bool(clashes or unlike)
+
+    def _join(self, component: Robot, module: Instance, gaps: Gaps, held: str | None) -> bool:
+        """Merge a component, whose root `held` hangs on a link now; None for the root of the whole.
+
+        The joint by which it hangs is added apart, for its parent may be a link of a module that comes later.
+        """
+        parts = dict(_parts(component))
+        if held is not None and component.says_semantic:
+            self._leave_out_virtual_joints(component, held, module.prefix)
+        try:
+            self._robot.merge(component, None, None)
+        except RobotModelError as error:
+            if not gaps:
+                refusal = REFUSED.at(module.entry, owner=f"module '{module.name}'", reason=error.message)
+                self._sink.report(refusal)
+            return self._leave_out(component, "", gaps)
+        self._parts.update(parts)
+        return True
+
+    def _leave_out_virtual_joints(self, component: Robot, root: str, prefix: str) -> None:
+        """Leave out how a module would stand in the world by itself, once it hangs on a link.
+
+        Told with the names that its file writes, so once for a file that is used twice.
+        """
+        semantic = component.semantic
+        to_root = [joint for joint in semantic.virtual_joints if joint.child_link == root]
+        for joint in to_root:
+            name, link = joint.name.removeprefix(prefix), root.removeprefix(prefix)
+            self._sink.report(VIRTUAL_JOINT_LEFT_OUT.at(joint.source, joint=name, link=link))
+        if to_root:
+            kept = tuple(joint for joint in semantic.virtual_joints if joint not in to_root)
+            component.semantic = replace(semantic, virtual_joints=kept)
+
+    def _connect(self, mount: Mount) -> bool:
+        """Add the joint that a module hangs by; its parent may belong to a module that comes later."""
+        joint = mount.joint
+        if joint is None:
+            return False
+        if ("joint", joint.name) in self._parts:
+            tell_duplicate(self._sink, "joint", joint.name, joint.source, self._parts["joint", joint.name])
+            return False
+        self._parts["joint", joint.name] = joint.source
+        self._robot.joints = self._robot.joints.extended((joint,))
+        return True
+
+    def _leave_out(self, component: Robot, prefix: str, gaps: Gaps) -> bool:
+        """Record a component's names as missing; one without gaps is to be checked alone. False: it is not joined."""
+        names = (key for (_, key), _ in _parts(component) if isinstance(key, str))
+        self._gaps |= Gaps(frozenset(prefix + name for name in names))
+        if not gaps:
+            self._unmerged.append(component)
+        return False
+
+
+def _parts(robot: Robot) -> Iterator[tuple[PartKey, SourceRef | None]]:
+    """Yield what tells each part of a robot apart, and where the part was written."""
+    for kind, parts in (
+        ("link", robot.links),
+        ("joint", robot.joints),
+        ("sensor", robot.sensors),
+        ("transmission", robot.transmissions),
+        ("ros2_control", robot.ros2_controls),
+    ):
+        for part in parts:
+            yield (kind, part.name), part.source
+    if robot.says_semantic:
+        yield from _semantic_parts(robot.semantic)
+
+
+def _semantic_parts(semantic: SemanticRobotDescription) -> Iterator[tuple[PartKey, SourceRef | None]]:
+    yield from ((("virtual joint", joint.name), joint.source) for joint in semantic.virtual_joints)
+    yield from ((("planning group", group.name), group.source) for group in semantic.groups)
+    yield from ((("group state", (state.group, state.name)), state.source) for state in semantic.group_states)
+    yield from ((("end effector", effector.name), effector.source) for effector in semantic.end_effectors)
+    yield from ((("passive joint", joint.name), joint.source) for joint in semantic.passive_joints)
+    for approximation in semantic.link_sphere_approximations:
+        yield ("sphere approximation", approximation.link), approximation.source
+    for remark in semantic.joint_properties:
+        yield ("joint property", (remark.joint_name, remark.property_name)), remark.source
+
+
+def _root_of(robot: Robot) -> str | None:
+    """Return the root link of a robot that is one tree, None where it is none."""
+    try:
+        root = robot.root_link
+        refuse_cycles(robot.joints)
+    except RobotModelError:
+        return None
+    return root.name if len(robot.joints) == len(robot.links) - 1 else None

@@ -1,0 +1,127 @@
+"""One file by itself: its links, joints, frames and materials as a robot, without its modules."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+from linkforge_compile.core.constants import IR_VERSION
+from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostics, Gaps
+from linkforge_compile.lowering.duplicates import tell_duplicate
+from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.frame import Frame, lower_frames
+from linkforge_compile.lowering.joint import lower_joints
+from linkforge_compile.lowering.link import lower_links
+from linkforge_compile.lowering.material import lower_materials
+from linkforge_compile.lowering.scope import FileScope
+from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import Quantity
+
+if TYPE_CHECKING:
+    from linkforge_compile.lowering.srdf import Semantic
+    from linkforge_compile.lowering.srdf_states import WrittenState
+
+_SECTIONS_OF_NAMES = ("links", "joints", "frames", "modules", "semantic")
+
+Plain: TypeAlias = "None | bool | int | float | str | list[Plain] | dict[str, Plain]"
+
+
+@dataclass(frozen=True, slots=True)
+class LoweredFile:
+    """The robot of a file's own parts, its group states as written, and what is missing."""
+
+    robot: Robot
+    states: tuple[WrittenState, ...]
+    gaps: Gaps
+
+
+def lower_file(tree: YamlMap, mesh_base: str, trail: tuple[Span, ...], sink: Diagnostics) -> LoweredFile:
+    """Lower all that a file says itself; a name that is written twice is told at the second."""
+    file = Fields(tree, "robot", sink, trail)
+    materials = lower_materials(file, FileScope(mesh_base))
+    lost_materials = gaps_of(name for name, material in materials.items() if material is None)
+    if isinstance(tree.get("materials"), YamlFault):
+        lost_materials |= Gaps(prefixes=("",))
+    scope = FileScope(mesh_base, {name: material for name, material in materials.items() if material}, lost_materials)
+    links, joints = dict(lower_links(file, scope)), dict(lower_joints(file))
+    for frame in lower_frames(file):
+        _add_frame(frame, links, joints, sink)
+    semantic = _semantic(file)
+    said, version = tree.get("name"), file.text("version")
+    robot = Robot(
+        file.name("name", "robot") or "robot",  # the schema has told of a missing name
+        version=IR_VERSION if version is None else version,
+        version_stated=version is not None,
+        materials=dict(scope.materials),
+        metadata=_metadata(tree),
+        links=[link for link in links.values() if link],
+        joints=[joint for joint in joints.values() if joint],
+        semantic=semantic.description if semantic else None,
+        source=SourceRef(tree, said.span if said else None, trail),
+    )
+    lost = [name for parts in (links, joints) for name, part in parts.items() if part is None]
+    gaps = gaps_of([*lost, *(semantic.lost_groups if semantic else ())])
+    if any(isinstance(tree.get(section), YamlFault) for section in _SECTIONS_OF_NAMES):
+        gaps |= Gaps(prefixes=("",))
+    return LoweredFile(robot, semantic.states if semantic else (), gaps)
+
+
+def gaps_of(names: Iterable[str]) -> Gaps:
+    """Return the gaps that faulty entries leave; where an expression in a name failed, all that begins so is one."""
+    whole, begun = set(), []
+    for name in names:
+        start, expression, _ = name.partition("$(")
+        if expression:
+            begun.append(start)
+        else:
+            whole.add(name)
+    return Gaps(frozenset(whole), tuple(begun))
+
+
+def _add_frame(frame: Frame, links: dict[str, Link | None], joints: dict[str, Joint | None], sink: Diagnostics) -> None:
+    """Add a frame's link and joint, both or none."""
+    clashes = False
+    for kind, name, part, others in (
+        ("link", frame.link_name, frame.link, links),
+        ("joint", frame.joint_name, frame.joint, joints),
+    ):
+        first = others.get(name)
+        if part and first:
+            tell_duplicate(sink, kind, name, part.source, first.source)
+        clashes |= name in others
+    if clashes or not frame.link or not frame.joint:
+        links.setdefault(frame.link_name, None)
+        joints.setdefault(frame.joint_name, None)
+        return
+    links[frame.link_name], joints[frame.joint_name] = frame.link, frame.joint
+
+
+def _semantic(file: Fields) -> Semantic | None:
+    if file.node.get("semantic") is None:
+        return None
+    # Most modules say nothing semantic, and the classes of SRDF cost start-up time.
+    from linkforge_compile.lowering.srdf import lower_semantic
+
+    return lower_semantic(file)
+
+
+def _metadata(tree: YamlMap) -> dict[str, object]:
+    said = tree.get("metadata")
+    return {entry.name: _plain(entry.value) for entry in said} if isinstance(said, YamlMap) else {}
+
+
+def _plain(node: YamlNode) -> Plain:
+    match node:
+        case YamlScalar(text=text, value=value):
+            return text if isinstance(value, Quantity) else value
+        case YamlList():
+            return [_plain(item) for item in node]
+        case YamlMap():
+            return {entry.name: _plain(entry.value) for entry in node}
+        case YamlFault():
+            return None

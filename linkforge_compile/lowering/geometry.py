@@ -1,0 +1,112 @@
+"""Shapes, told by their key: `box`, `cylinder`, `sphere`, `capsule` or `mesh`, exactly one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Vector3
+from linkforge_compile.diagnostics.codes.model import NO_GEOMETRY, NO_MESH_FILE, SEVERAL_GEOMETRIES
+from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_ZERO, Measure
+from linkforge_compile.lowering.scope import FileScope
+from linkforge_compile.source import SourceRef
+from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode
+from linkforge_compile.units import Dimension
+
+_SIZE = Measure((Dimension.LENGTH,), ABOVE_ZERO)
+
+
+def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
+    """Lower the one geometry of a visual or a collision; None where it was told why there is none."""
+    said = {key: node for key in _LOWER if (node := shape.node.get(key)) is not None}
+    if not said:
+        shape.tell_lack(NO_GEOMETRY, owner=shape.title)
+        return None
+    first, *others = said
+    if others:
+        shape.tell(SEVERAL_GEOMETRIES, said[others[0]], owner=shape.title, first=first, second=others[0])
+        return None
+    return _LOWER[first](shape, said[first], scope)
+
+
+def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
+    size = shape.vector3_at(node, "box", _SIZE)
+    return None if size is None else shape.build(lambda: Box(size, source=_ref(shape, node)))
+
+
+def _cylinder(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
+    radius, length = _radius_and_length(shape, node, "cylinder")
+    if radius is None or length is None:
+        return None
+    return shape.build(lambda: Cylinder(radius, length, source=_ref(shape, node)))
+
+
+def _capsule(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
+    radius, length = _radius_and_length(shape, node, "capsule")
+    if radius is None or length is None:
+        return None
+    return shape.build(lambda: Capsule(radius, length, source=_ref(shape, node)))
+
+
+def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
+    if isinstance(node, YamlMap):
+        sphere = shape.map_at(node, "sphere")
+        radius = sphere.number("radius", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.1") if sphere else None
+    else:
+        radius = shape.number_at(node, "sphere", _SIZE)
+    if radius is None:
+        return None
+    return shape.build(lambda: Sphere(radius, source=_ref(shape, node)))
+
+
+def _mesh(shape: Fields, node: YamlNode, scope: FileScope) -> Geometry | None:
+    if not isinstance(node, YamlMap):
+        return _mesh_file(shape, shape.text_at(node, "mesh"), node, Vector3(1.0, 1.0, 1.0), scope)
+    mesh = shape.map_at(node, "mesh")
+    if mesh is None:
+        return None
+    file = mesh.text("file", required="meshes/part.stl")
+    scale = _scale(mesh)
+    return None if scale is None else _mesh_file(mesh, file, node, scale, scope)
+
+
+def _mesh_file(fields: Fields, file: str | None, node: YamlNode, scale: Vector3, scope: FileScope) -> Geometry | None:
+    if file is None:
+        return None
+    if not file.strip():
+        fields.tell(NO_MESH_FILE, node.child("file") or node, owner=fields.title)
+        return None
+    return fields.build(lambda: Mesh(scope.resource(file), scale, source=_ref(fields, node)))
+
+
+def _scale(mesh: Fields) -> Vector3 | None:
+    """Read `scale`, one number or one for each axis; 1 where nothing is said."""
+    node = mesh.node.get("scale")
+    if node is None:
+        return Vector3(1.0, 1.0, 1.0)
+    factor = Measure((), NOT_ZERO)
+    if isinstance(node, YamlList):
+        return mesh.vector3_at(node, "scale", factor)
+    number = mesh.number_at(node, "scale", factor)
+    return None if number is None else Vector3(number, number, number)
+
+
+def _radius_and_length(shape: Fields, node: YamlNode, kind: str) -> tuple[float | None, float | None]:
+    body = shape.map_at(node, kind)
+    if body is None:
+        return None, None
+    radius = body.number("radius", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.1")
+    return radius, body.number("length", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.5")
+
+
+def _ref(shape: Fields, node: YamlNode) -> SourceRef:
+    return SourceRef(node, None, shape.trail)
+
+
+_LOWER: dict[str, Callable[[Fields, YamlNode, FileScope], Geometry | None]] = {
+    "box": _box,
+    "cylinder": _cylinder,
+    "sphere": _sphere,
+    "capsule": _capsule,
+    "mesh": _mesh,
+}

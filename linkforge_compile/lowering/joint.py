@@ -1,0 +1,233 @@
+"""Joints: what their type lets them say, in the dimensions of their motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from linkforge_compile.core.constants import EPSILON
+from linkforge_compile.core.models.geometry import Transform, Vector3
+from linkforge_compile.core.models.joint import (
+    Joint,
+    JointCalibration,
+    JointDynamics,
+    JointLimits,
+    JointMimic,
+    JointSafetyController,
+    JointType,
+)
+from linkforge_compile.diagnostics.codes.model import (
+    JOINT_TO_ITSELF,
+    LIMITS_CROSSED,
+    NOT_OF_THIS_TYPE,
+    UNKNOWN_AXIS,
+    ZERO_AXIS,
+)
+from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.quantities import NOT_NEGATIVE, Measure, found
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlScalar
+from linkforge_compile.units import Dimension
+
+
+class _Motion(NamedTuple):
+    """The dimensions of a joint's position, effort and velocity; empty where only bare numbers will do."""
+
+    position: tuple[Dimension, ...] = ()
+    effort: tuple[Dimension, ...] = ()
+    velocity: tuple[Dimension, ...] = ()
+    limits: str = ""
+    """What limits look like, to offer where they are required; empty where they are not."""
+
+
+_TURNING = _Motion((Dimension.ANGLE,), (Dimension.TORQUE,), (Dimension.ANGULAR_VELOCITY,))
+_SLIDING = _Motion((Dimension.LENGTH,), (Dimension.FORCE,), (Dimension.VELOCITY,))
+_MOTIONS = {
+    JointType.REVOLUTE: _TURNING._replace(limits="{lower: -90 deg, upper: 90 deg, effort: 50 N*m, velocity: 90 deg/s}"),
+    JointType.CONTINUOUS: _TURNING,
+    JointType.PRISMATIC: _SLIDING._replace(limits="{lower: 0, upper: 100 mm, effort: 50 N, velocity: 0.2 m/s}"),
+    JointType.FIXED: _Motion(),
+    JointType.FLOATING: _Motion(),
+    JointType.PLANAR: _Motion(),
+}
+_WITHOUT_AXIS = (JointType.FIXED, JointType.FLOATING)
+
+# What stands in for what is faulty, which has been told: the joint stays, so that its ends and the tree are judged.
+# Nothing of it is ever written, since a robot with errors is not rendered.
+_STAND_IN_TYPE = JointType.REVOLUTE
+_STAND_IN_AXIS = Vector3(0.0, 0.0, 1.0)
+_STAND_IN_LIMITS = JointLimits(effort=0.0, velocity=0.0)
+
+_EXAMPLES = {Dimension.TORQUE: "50 N*m", Dimension.FORCE: "50 N", Dimension.ANGULAR_VELOCITY: "90 deg/s"}
+
+_AXES = {
+    "x": Vector3(1.0, 0.0, 0.0),
+    "y": Vector3(0.0, 1.0, 0.0),
+    "z": Vector3(0.0, 0.0, 1.0),
+    "-x": Vector3(-1.0, 0.0, 0.0),
+    "-y": Vector3(0.0, -1.0, 0.0),
+    "-z": Vector3(0.0, 0.0, -1.0),
+}
+
+
+class Ends(NamedTuple):
+    """What a joint joins: its links, None for one whose fault was told, and the pose of the child in the parent."""
+
+    parent: str | None
+    child: str | None
+    origin: Transform
+
+
+def lower_joints(file: Fields) -> Iterator[tuple[str, Joint | None]]:
+    """Lower the joints of a file, None for one that is lost."""
+    return file.each("joints", "joint", _joint)
+
+
+def _joint(fields: Fields, name: str) -> Joint | None:
+    valid_name = name if fields.name_is_valid(name, "joint", fields.ref) else None
+    joint_type = fields.choice("type", JointType, required="revolute")
+    ends = Ends(fields.text("parent", required="base"), fields.text("child", required="arm"), fields.origin())
+    return joint_between(fields, valid_name, joint_type, ends)
+
+
+def joint_between(fields: Fields, name: str | None, joint_type: JointType | None, ends: Ends) -> Joint | None:
+    """Lower what makes a joint of two links; None for one that is lost.
+
+    Name, type and links are None where their fault has been told. All that is left is read before the joint is
+    given up, so that every fault of it is told; without a type, nothing else can be read.
+    """
+    if joint_type is None:
+        return _joint_of_no_type(fields, name, ends)
+    motion = _MOTIONS[joint_type]
+    axis, axis_as_written = _axis(fields, joint_type)
+    limits = _limits(fields, joint_type, motion)
+    dynamics, mimic = _dynamics(fields, motion), _mimic(fields, motion)
+    safety_controller, calibration = _safety_controller(fields, motion), _calibration(fields, motion)
+    parent, child, origin = ends
+    if name is None or parent is None or child is None:
+        return None
+    if parent == child:
+        fields.tell(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
+        return None
+    return fields.build(
+        lambda: Joint(
+            name,
+            joint_type,
+            parent,
+            child,
+            origin,
+            axis,
+            limits,
+            dynamics,
+            mimic,
+            safety_controller,
+            calibration,
+            axis_as_written=axis_as_written,
+            source=fields.ref,
+        )
+    )
+
+
+def _joint_of_no_type(fields: Fields, name: str | None, ends: Ends) -> Joint | None:
+    parent, child, origin = ends
+    if name is None or parent is None or child is None or parent == child:
+        return None
+    return fields.build(
+        lambda: Joint(name, _STAND_IN_TYPE, parent, child, origin, _STAND_IN_AXIS, _STAND_IN_LIMITS, source=fields.ref)
+    )
+
+
+def _axis(fields: Fields, joint_type: JointType) -> tuple[Vector3 | None, Vector3 | None]:
+    """Return the unit axis, and the axis as written where that is no unit vector."""
+    if joint_type in _WITHOUT_AXIS:
+        _refuse(fields, "axis", joint_type)
+        return None, None
+    node = fields.said("axis", "z")
+    if node is None or isinstance(node, YamlFault):
+        return _STAND_IN_AXIS, None
+    if not isinstance(node, YamlList):
+        axis = _AXES.get(node.text) if isinstance(node, YamlScalar) else None
+        if axis is None:
+            fields.tell(UNKNOWN_AXIS, node, found=found(node))
+        return axis or _STAND_IN_AXIS, None
+    written = fields.vector3_at(node, "axis", Measure())
+    if written is None:
+        return _STAND_IN_AXIS, None
+    length = math.hypot(*written)
+    if length < EPSILON:
+        fields.tell(ZERO_AXIS, node)
+        return _STAND_IN_AXIS, None
+    if abs(length - 1) <= EPSILON:
+        return written, None
+    return Vector3(*(component / length for component in written)), written
+
+
+def _limits(fields: Fields, joint_type: JointType, motion: _Motion) -> JointLimits | None:
+    if joint_type is JointType.FIXED:
+        _refuse(fields, "limits", joint_type)
+        return None
+    limits = fields.map("limits", required=motion.limits)
+    if limits is None:
+        return _STAND_IN_LIMITS if motion.limits else None
+    lower, upper = limits.number("lower", *motion.position), limits.number("upper", *motion.position)
+    effort = limits.number("effort", *motion.effort, bound=NOT_NEGATIVE, required=_example(motion.effort))
+    velocity = limits.number("velocity", *motion.velocity, bound=NOT_NEGATIVE, required=_example(motion.velocity))
+    if lower is not None and upper is not None and lower > upper:
+        _tell_crossed(limits)
+        lower = upper = None
+    return limits.build(lambda: JointLimits(lower, upper, effort or 0.0, velocity or 0.0, source=limits.ref))
+
+
+def _tell_crossed(limits: Fields) -> None:
+    lower, upper = limits.node.get("lower"), limits.node.get("upper")
+    if lower is not None and upper is not None:
+        limits.tell(LIMITS_CROSSED, lower, lower=found(lower), upper=found(upper))
+
+
+def _dynamics(fields: Fields, motion: _Motion) -> JointDynamics | None:
+    dynamics = fields.map("dynamics")
+    if dynamics is None:
+        return None
+    damping = dynamics.number("damping", bound=NOT_NEGATIVE) or 0.0
+    friction = dynamics.number("friction", *motion.effort, bound=NOT_NEGATIVE) or 0.0
+    return dynamics.build(lambda: JointDynamics(damping, friction, source=dynamics.ref))
+
+
+def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:
+    mimic = fields.map("mimic")
+    if mimic is None:
+        return None
+    joint = mimic.text("joint", required="left_finger")
+    multiplier, offset = mimic.number("multiplier"), mimic.number("offset", *motion.position)
+    if joint is None:
+        return None
+    factor = 1.0 if multiplier is None else multiplier
+    return mimic.build(lambda: JointMimic(joint, factor, offset or 0.0, source=mimic.ref))
+
+
+def _safety_controller(fields: Fields, motion: _Motion) -> JointSafetyController | None:
+    safety = fields.map("safety_controller")
+    if safety is None:
+        return None
+    lower = safety.number("soft_lower_limit", *motion.position)
+    upper = safety.number("soft_upper_limit", *motion.position)
+    k_position, k_velocity = safety.number("k_position"), safety.number("k_velocity") or 0.0
+    return safety.build(lambda: JointSafetyController(lower, upper, k_position, k_velocity, source=safety.ref))
+
+
+def _calibration(fields: Fields, motion: _Motion) -> JointCalibration | None:
+    calibration = fields.map("calibration")
+    if calibration is None:
+        return None
+    rising, falling = calibration.number("rising", *motion.position), calibration.number("falling", *motion.position)
+    return calibration.build(lambda: JointCalibration(rising, falling, source=calibration.ref))
+
+
+def _refuse(fields: Fields, key: str, joint_type: JointType) -> None:
+    node = fields.node.get(key)
+    if node is not None and not isinstance(node, YamlFault):
+        fields.tell(NOT_OF_THIS_TYPE, node, owner=fields.title, field=key, type=joint_type)
+
+
+def _example(dimensions: tuple[Dimension, ...]) -> str:
+    return _EXAMPLES.get(dimensions[0], "0.2 m/s") if dimensions else "1"

@@ -1,0 +1,165 @@
+"""Links: their visuals, their collisions and their inertial."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from linkforge_compile.core.constants import DEFAULT_LINK_MASS
+from linkforge_compile.core.models.geometry import Geometry, Mesh, Transform
+from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, Visual
+from linkforge_compile.core.physics import inertial_of_shapes
+from linkforge_compile.diagnostics.codes.model import (
+    COPY_OF_NOTHING,
+    DENSITY_WITH_INERTIA,
+    INERTIA_OF_MESH,
+    INERTIA_OF_NOTHING,
+    MASS_AND_DENSITY,
+    NO_MASS,
+    ORIGIN_WITHOUT_INERTIA,
+    WRONG_KIND,
+)
+from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.geometry import lower_geometry
+from linkforge_compile.lowering.material import lower_visual_material
+from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_NEGATIVE, found
+from linkforge_compile.lowering.scope import FileScope
+from linkforge_compile.syntax.nodes import YamlScalar
+from linkforge_compile.units import Dimension
+
+_MOMENTS = ("ixx", "iyy", "izz")
+_PRODUCTS = ("ixy", "ixz", "iyz")
+
+Shapes = Sequence[Visual | None] | Sequence[Collision | None]
+
+
+def lower_links(file: Fields, scope: FileScope) -> Iterator[tuple[str, Link | None]]:
+    """Lower the links of a file, None for one that is lost."""
+    return file.each("links", "link", lambda fields, name: _link(fields, name, scope))
+
+
+def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
+    """Lower one link; a faulty part of it is left out, so None only for a name that no link may have."""
+    valid = fields.name_is_valid(name, "link", fields.ref)
+    visuals = [_visual(shape, scope) for shape in _shapes(fields, "visual")]
+    collisions = _collisions(fields, visuals, scope)
+    inertial = _inertial(fields, collisions or visuals)
+    if not valid:
+        return None
+    return fields.build(
+        lambda: Link(
+            name,
+            inertial,
+            visuals=[visual for visual in visuals if visual],
+            collisions=[collision for collision in collisions if collision],
+            source=fields.ref,
+        )
+    )
+
+
+def _shapes(link: Fields, key: str) -> Iterator[Fields | None]:
+    for node in link.items(key):
+        yield link.map_at(node, key)
+
+
+def _visual(shape: Fields | None, scope: FileScope) -> Visual | None:
+    if shape is None:
+        return None
+    geometry, origin = lower_geometry(shape, scope), shape.origin()
+    material, name = lower_visual_material(shape, scope), shape.text("name")
+    return Visual(geometry, origin, material, name, source=shape.ref) if geometry else None
+
+
+def _collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) -> list[Collision | None]:
+    node = link.node.get("collision")
+    if not isinstance(node, YamlScalar):
+        return [_collision(shape, scope) for shape in _shapes(link, "collision")]
+    if node.text != "visual":
+        link.tell(
+            WRONG_KIND, node, field="collision", expected="a shape, a list of them or 'visual'", found=found(node)
+        )
+        return [None]
+    if not visuals:
+        link.tell(COPY_OF_NOTHING, node, owner=link.title)
+    return [Collision(one.geometry, one.origin, source=one.source) if one else None for one in visuals]
+
+
+def _collision(shape: Fields | None, scope: FileScope) -> Collision | None:
+    if shape is None:
+        return None
+    geometry, origin, name = lower_geometry(shape, scope), shape.origin(), shape.text("name")
+    return Collision(geometry, origin, name, source=shape.ref) if geometry else None
+
+
+def _inertial(link: Fields, shapes: Shapes) -> Inertial | None:
+    """Lower the inertial: as written, or computed from these shapes; without `inertial`, none."""
+    if link.node.get("inertial") is None:
+        return None
+    inertial = link.map("inertial")
+    # What is faulty has been told: a stand-in keeps the checks from telling of a link without mass as well.
+    return (inertial and _written_or_computed(link, inertial, shapes)) or Inertial(DEFAULT_LINK_MASS)
+
+
+def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes) -> Inertial | None:
+    written = inertial.node.get("inertia") is not None
+    mass = inertial.number("mass", Dimension.MASS, bound=NOT_NEGATIVE if written else ABOVE_ZERO)
+    density = inertial.number("density", Dimension.DENSITY, bound=ABOVE_ZERO)
+    origin = inertial.origin()
+    if written:
+        return _written(inertial, mass, origin)
+    if (node := inertial.node.get("origin")) is not None:
+        inertial.tell(ORIGIN_WITHOUT_INERTIA, node, owner=inertial.title)
+    elif _one_of_mass_and_density(inertial) and _has_shapes(link, inertial, shapes):
+        return _computed(inertial, shapes, mass, density)
+    return None
+
+
+def _written(inertial: Fields, mass: float | None, origin: Transform) -> Inertial | None:
+    tensor = _tensor(inertial)
+    if (density := inertial.node.get("density")) is not None:
+        inertial.tell(DENSITY_WITH_INERTIA, density, owner=inertial.title)
+        return None
+    if inertial.node.get("mass") is None:
+        inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass'")
+    if mass is None or tensor is None:
+        return None
+    return inertial.build(lambda: Inertial(mass, origin, tensor, source=inertial.ref))
+
+
+def _tensor(inertial: Fields) -> InertiaTensor | None:
+    inertia = inertial.map("inertia")
+    if inertia is None:
+        return None
+    moments = [inertia.number(key, Dimension.INERTIA, required="0.01") for key in _MOMENTS]
+    products = [inertia.number(key, Dimension.INERTIA) or 0.0 for key in _PRODUCTS]
+    known = [moment for moment in moments if moment is not None]
+    if len(known) < len(moments):
+        return None
+    return inertia.build(lambda: InertiaTensor(*known, *products, source=inertia.ref))
+
+
+def _one_of_mass_and_density(inertial: Fields) -> bool:
+    mass, density = inertial.node.get("mass"), inertial.node.get("density")
+    if mass is None and density is None:
+        inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass' or 'density'")
+    elif mass is not None and density is not None:
+        inertial.tell(MASS_AND_DENSITY, density, owner=inertial.title)
+    else:
+        return True
+    return False
+
+
+def _has_shapes(link: Fields, inertial: Fields, shapes: Shapes) -> bool:
+    if not shapes and not link.is_faulty:
+        inertial.tell(INERTIA_OF_NOTHING, inertial.ref, owner=inertial.title)
+    return bool(shapes)
+
+
+def _computed(inertial: Fields, shapes: Shapes, mass: float | None, density: float | None) -> Inertial | None:
+    """Compute mass, centre and tensor over all shapes together; None where one of them is faulty, or none there."""
+    bodies: list[tuple[Geometry, Transform]] = [(shape.geometry, shape.origin) for shape in shapes if shape]
+    if any(isinstance(geometry, Mesh) for geometry, _ in bodies):
+        inertial.tell(INERTIA_OF_MESH, inertial.ref, owner=inertial.title)
+        return None
+    if len(bodies) < len(shapes) or (mass is None and density is None):
+        return None
+    return inertial.build(lambda: inertial_of_shapes(bodies, mass=mass, density=density))

@@ -1,0 +1,54 @@
+"""Materials: declared by name in a file, or written where they are used."""
+
+from __future__ import annotations
+
+from linkforge_compile.core.models.material import Color, Material
+from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL
+from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
+from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.quantities import ZERO_TO_ONE, Measure
+from linkforge_compile.lowering.scope import FileScope
+from linkforge_compile.source import SourceRef
+from linkforge_compile.syntax.nodes import YamlMap
+
+
+def lower_materials(file: Fields, scope: FileScope) -> dict[str, Material | None]:
+    """Lower the materials that a file declares, None for a faulty one."""
+    return dict(file.each("materials", "material", lambda fields, name: _material(fields, name, scope)))
+
+
+def lower_visual_material(visual: Fields, scope: FileScope) -> Material | None:
+    """Lower a visual's material: one of the file's by its name, or one that is written in place."""
+    node = visual.node.get("material")
+    if node is None:
+        return None
+    if isinstance(node, YamlMap):
+        inline = visual.map_at(node, "material")
+        return None if inline is None else _material(inline, inline.text("name") or "", scope)
+    name = visual.text_at(node, "material")
+    if name is None:
+        return None
+    if name not in scope.materials and name not in scope.lost_materials:
+        visual.tell(UNKNOWN_MATERIAL, node, near=scope.materials, name=name)
+    return scope.materials.get(name)
+
+
+def _material(fields: Fields, name: str, scope: FileScope) -> Material | None:
+    color, texture = fields.node.get("color"), fields.node.get("texture")
+    if color is None and texture is None:
+        fields.tell_lack(EMPTY_MATERIAL, owner=fields.title)
+        return None
+    rgba, file = _color(fields), fields.text("texture")
+    if rgba is None and file is None:
+        return None
+    image = None if file is None else scope.resource(file)
+    return fields.build(lambda: Material(name, rgba, image, source=fields.ref))
+
+
+def _color(fields: Fields) -> Color | None:
+    """Read `color`: red, green, blue and, unless it is 1, opacity, each from 0 to 1."""
+    node = fields.node.get("color")
+    if node is None:
+        return None
+    rgba = fields.numbers_at(node, "color", Measure((), ZERO_TO_ONE), 3, 4)
+    return None if rgba is None else fields.build(lambda: Color(*rgba, source=SourceRef(node, None, fields.trail)))

@@ -1,0 +1,152 @@
+"""Numbers of the tree: what a scalar says in SI units, or why it does not say what its field takes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from linkforge_compile.diagnostics import Code
+from linkforge_compile.diagnostics.codes.model import (
+    LONG_LENGTH,
+    NOT_FINITE,
+    OUT_OF_RANGE,
+    UNKNOWN_UNIT,
+    WIDE_ANGLE,
+    WRONG_DIMENSION,
+    WRONG_KIND,
+)
+from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import Dimension, Quantity, number_text, parse_quantity, unit_text, units_of
+
+_WORDS = {
+    Dimension.LENGTH: ("a length", "25 mm"),
+    Dimension.ANGLE: ("an angle", "90 deg"),
+    Dimension.MASS: ("a mass", "3 kg"),
+    Dimension.TIME: ("a time", "10 ms"),
+    Dimension.FREQUENCY: ("a frequency", "20 Hz"),
+    Dimension.FORCE: ("a force", "30 N"),
+    Dimension.TORQUE: ("a torque", "5 N*m"),
+    Dimension.VELOCITY: ("a velocity", "0.5 m/s"),
+    Dimension.ANGULAR_VELOCITY: ("an angular velocity", "90 deg/s"),
+    Dimension.DENSITY: ("a density", "2700 kg/m^3"),
+    Dimension.INERTIA: ("a moment of inertia", "0.01 kg*m^2"),
+}
+"""Each dimension as a person says it, and a value that shows how it is written."""
+
+# A whole turn that was rounded to two decimals (6.29) is still radians.
+_WIDEST_ANGLE = 2 * math.pi + 0.005
+_LONGEST_LENGTH = 100.0
+
+
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """A range that a number must keep to, and its words in "must be …"."""
+
+    words: str
+    holds: Callable[[float], bool]
+
+
+ABOVE_ZERO = Bound("above 0", lambda value: value > 0)
+NOT_NEGATIVE = Bound("0 or above", lambda value: value >= 0)
+NOT_ZERO = Bound("other than 0", lambda value: value != 0)
+ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1)
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """What a number field takes: a bare number or a quantity of one of `dimensions`, none for bare numbers only."""
+
+    dimensions: tuple[Dimension, ...] = ()
+    bound: Bound | None = None
+
+    @property
+    def words(self) -> str:
+        """What to write, as in "mass takes a mass such as '3 kg'"."""
+        if not self.dimensions:
+            return "a bare number"
+        return " or ".join("{} such as '{}'".format(*_WORDS[dimension]) for dimension in self.dimensions)
+
+    @property
+    def si_unit(self) -> str:
+        """The unit of a bare number in brackets behind a space; nothing where it has none, or one of several."""
+        return f" [{self.dimensions[0].si_unit}]" if len(self.dimensions) == 1 else ""
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why a node is not the number that its field takes; the field's name is the one fact that is missing."""
+
+    code: Code
+    facts: dict[str, str] = field(default_factory=dict)
+    near: tuple[str, ...] = ()
+
+
+def si_number(node: YamlNode, measure: Measure) -> float | Refusal:
+    """Return the number that a node says, in SI units, or why it says none that the measure admits."""
+    value = node.value if isinstance(node, YamlScalar) else None
+    if isinstance(value, str):
+        value = parse_quantity(value)
+    if isinstance(value, Quantity):
+        return _of_quantity(node, value, measure)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return _no_number(node, measure)
+    return _in_bound(node, as_float(value), measure)
+
+
+def as_float(value: float) -> float:
+    """Return an integer's nearest double, infinite where it is beyond one."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
+def doubt(node: YamlNode, number: float, measure: Measure) -> Code | None:
+    """Return the warning for a number that is likely meant in degrees or millimetres, None for every other."""
+    bare = isinstance(node, YamlScalar) and isinstance(node.value, int | float)
+    if measure.dimensions == (Dimension.ANGLE,) and bare and abs(number) > _WIDEST_ANGLE:
+        return WIDE_ANGLE
+    if measure.dimensions == (Dimension.LENGTH,) and abs(number) > _LONGEST_LENGTH:
+        return LONG_LENGTH
+    return None
+
+
+def found(node: YamlNode) -> str:
+    """Return what stands at a node as messages show it: numbers as they are, text in quotes."""
+    match node:
+        case YamlScalar(value=Quantity(value=value, dimension=dimension)):
+            return f"'{number_text(value)} {dimension.si_unit}'"
+        case YamlScalar(text=text, value=int() | float() as value) if not isinstance(value, bool):
+            return text
+        case YamlScalar(text=text):
+            return f"'{text}'"
+        case YamlList():
+            return "a list"
+        case YamlMap():
+            return "a map"
+        case _:
+            return "nothing"
+
+
+def _of_quantity(node: YamlNode, quantity: Quantity, measure: Measure) -> float | Refusal:
+    if quantity.dimension not in measure.dimensions:
+        other = _WORDS[quantity.dimension][0]
+        return Refusal(WRONG_DIMENSION, {"expected": measure.words, "found": found(node), "other": other})
+    return _in_bound(node, quantity.value, measure)
+
+
+def _in_bound(node: YamlNode, number: float, measure: Measure) -> float | Refusal:
+    if not math.isfinite(number):
+        return Refusal(NOT_FINITE, {"found": found(node)})
+    if measure.bound and not measure.bound.holds(number):
+        return Refusal(OUT_OF_RANGE, {"bound": measure.bound.words + measure.si_unit, "found": found(node)})
+    return number
+
+
+def _no_number(node: YamlNode, measure: Measure) -> Refusal:
+    unit = unit_text(node.text) if isinstance(node, YamlScalar) and isinstance(node.value, str) else None
+    if unit is None or not measure.dimensions:
+        return Refusal(WRONG_KIND, {"expected": measure.words, "found": found(node)})
+    known = tuple(name for dimension in measure.dimensions for name in units_of(dimension))
+    return Refusal(UNKNOWN_UNIT, {"expected": measure.words, "name": unit}, known)

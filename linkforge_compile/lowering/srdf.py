@@ -1,0 +1,167 @@
+"""The semantic part: what planners know beyond the tree. Group states are resolved in srdf_states."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from enum import StrEnum
+from functools import partial
+from typing import NamedTuple
+
+from linkforge_compile.core.models.srdf import (
+    Chain,
+    CollisionPair,
+    EndEffector,
+    JointProperty,
+    LinkSphereApproximation,
+    PassiveJoint,
+    PlanningGroup,
+    SemanticRobotDescription,
+    SrdfSphere,
+    VirtualJoint,
+)
+from linkforge_compile.diagnostics.codes.model import EMPTY_GROUP, PAIR_WITH_ITSELF
+from linkforge_compile.lowering.duplicates import tell_duplicate
+from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.quantities import NOT_NEGATIVE
+from linkforge_compile.lowering.srdf_states import WrittenState, written_states
+from linkforge_compile.source import SourceRef
+from linkforge_compile.syntax.nodes import YamlNode
+from linkforge_compile.units import Dimension
+
+
+class Semantic(NamedTuple):
+    """A file's semantic part without its states, its states as written, and the names of the groups that are lost."""
+
+    description: SemanticRobotDescription
+    states: tuple[WrittenState, ...]
+    lost_groups: frozenset[str]
+
+
+class _VirtualJointType(StrEnum):
+    FIXED = "fixed"
+    PLANAR = "planar"
+    FLOATING = "floating"
+
+
+def lower_semantic(file: Fields) -> Semantic | None:
+    """Lower a file's semantic part; whether the links, joints and groups that it names exist is not judged."""
+    semantic = file.map("semantic")
+    if semantic is None:
+        return None
+    groups = dict(semantic.each("groups", "group", _group))
+    effectors = dict(semantic.each("end_effectors", "end effector", _end_effector))
+    virtual_joints = dict(semantic.each("virtual_joints", "virtual joint", _virtual_joint))
+    description = SemanticRobotDescription(
+        virtual_joints=[joint for joint in virtual_joints.values() if joint],
+        groups=[group for group in groups.values() if group],
+        end_effectors=[effector for effector in effectors.values() if effector],
+        passive_joints=tuple(_passive_joints(semantic)),
+        disabled_collisions=tuple(_collision_pairs(semantic, "disabled_collisions")),
+        enabled_collisions=tuple(_collision_pairs(semantic, "enabled_collisions")),
+        no_default_collision_links=semantic.names("no_default_collision_links"),
+        link_sphere_approximations=tuple(_sphere_approximations(semantic)),
+        joint_properties=tuple(_joint_properties(semantic)),
+        source=semantic.ref,
+    )
+    lost = frozenset(name for name, group in groups.items() if group is None)
+    return Semantic(description, tuple(written_states(semantic)), lost)
+
+
+def _virtual_joint(fields: Fields, name: str) -> VirtualJoint | None:
+    joint_type = fields.choice("type", _VirtualJointType, required="fixed")
+    parent_frame = fields.text("parent_frame", required="world")
+    child_link = fields.text("child_link", required="base")
+    if joint_type is None or parent_frame is None or child_link is None:
+        return None
+    return fields.build(lambda: VirtualJoint(name, joint_type.value, parent_frame, child_link, source=fields.ref))
+
+
+def _group(fields: Fields, name: str) -> PlanningGroup | None:
+    chains = [_chain(fields, node) for key in ("chain", "chains") for node in fields.items(key)]
+    links, joints, subgroups = fields.names("links"), fields.names("joints"), fields.names("subgroups")
+    if not any(fields.items(key) for key in ("chain", "chains", "links", "joints", "subgroups")):
+        fields.tell_lack(EMPTY_GROUP, group=name)
+        return None
+    whole = [chain for chain in chains if chain]
+    if not (whole or links or joints or subgroups):
+        return None  # all its members are faulty and told
+    return fields.build(lambda: PlanningGroup(name, links, joints, whole, subgroups, source=fields.ref))
+
+
+def _chain(group: Fields, node: YamlNode) -> Chain | None:
+    chain = group.map_at(node, "chain")
+    if chain is None:
+        return None
+    base, tip = chain.text("base_link", required="base"), chain.text("tip_link", required="tool0")
+    if base is None or tip is None:
+        return None
+    return chain.build(lambda: Chain(base, tip, source=chain.ref))
+
+
+def _end_effector(fields: Fields, name: str) -> EndEffector | None:
+    group, parent_link = fields.text("group", required="gripper"), fields.text("parent_link", required="tool0")
+    parent_group = fields.text("parent_group")
+    if group is None or parent_link is None:
+        return None
+    return fields.build(lambda: EndEffector(name, group, parent_link, parent_group, source=fields.ref))
+
+
+def _passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
+    first: dict[str, SourceRef] = {}
+    for node in semantic.items("passive_joints"):
+        name = semantic.text_at(node, "passive_joints")
+        item = semantic.arranged("passive_joints", node.span, name=node)
+        if name is None:
+            continue
+        if name in first:
+            tell_duplicate(semantic.sink, "passive joint", name, item.ref, first[name])
+        elif joint := item.build(partial(PassiveJoint, name, source=item.ref)):
+            first[name] = item.ref
+            yield joint
+
+
+def _collision_pairs(semantic: Fields, key: str) -> Iterator[CollisionPair]:
+    for first, entry in semantic.nested(key):
+        if first.text == entry.name:
+            semantic.tell(PAIR_WITH_ITSELF, entry.key, link=entry.name)
+            continue
+        item = semantic.arranged("collision pair", entry.key.span, link1=first, link2=entry.key, reason=entry.value)
+        reason = item.text("reason")
+        if pair := item.build(partial(CollisionPair, first.text, entry.name, reason, source=item.ref)):
+            yield pair
+
+
+def _sphere_approximations(semantic: Fields) -> Iterator[LinkSphereApproximation]:
+    section = semantic.map("link_sphere_approximations")
+    for entry in section.node if section else ():
+        item = semantic.arranged(
+            f"sphere approximation of link '{entry.name}'", entry.key.span, link=entry.key, spheres=entry.value
+        )
+        spheres = [_sphere(item, node) for node in item.items("spheres")]
+        whole = [sphere for sphere in spheres if sphere]
+        approximation = item.build(partial(LinkSphereApproximation, entry.name, whole, source=item.ref))
+        if approximation:
+            yield approximation
+
+
+def _sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
+    sphere = approximation.map_at(node, "sphere")
+    if sphere is None:
+        return None
+    center = sphere.vector3("center", Dimension.LENGTH, required="[0, 0, 0.1]")
+    radius = sphere.number("radius", Dimension.LENGTH, bound=NOT_NEGATIVE, required="0.1")
+    if center is None or radius is None:
+        return None
+    return sphere.build(lambda: SrdfSphere(center.x, center.y, center.z, radius, source=sphere.ref))
+
+
+def _joint_properties(semantic: Fields) -> Iterator[JointProperty]:
+    for joint, entry in semantic.nested("joint_properties"):
+        owner = f"property '{entry.name}' of joint '{joint.text}'"
+        item = semantic.arranged(owner, entry.key.span, joint_name=joint, property_name=entry.key, value=entry.value)
+        value = semantic.text_at(entry.value, entry.name)
+        # A free part: a null that was written is text, and only what nobody wrote is none.
+        if value is None or (not value and item.node.get("value") is None):
+            continue
+        if remark := item.build(partial(JointProperty, joint.text, entry.name, value, source=item.ref)):
+            yield remark
