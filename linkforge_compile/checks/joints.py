@@ -1,0 +1,57 @@
+"""Joints that follow other joints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkforge_compile.checks.circles import told_circles
+from linkforge_compile.checks.references import Use, unknown
+from linkforge_compile.core.models.joint import Joint, JointMimic, JointType
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics.codes.model import MIMIC_CIRCLE, MIMIC_FREEDOM
+from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT
+
+AXIS_JOINTS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
+"""The types whose position is one number, which is all that a mimic can multiply."""
+
+
+def check_mimic_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """A joint mimics a joint of this robot.
+
+    Readers refuse the robot or leave the joint free to dangle. Correct the name; a joint of a module bears
+    the module's prefix.
+    """
+    yield from unknown(_mimics(robot).values(), UNKNOWN_JOINT, robot.joints.names, gaps)
+
+
+def check_mimic_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A joint may mimic one that mimics another, but at the end of the row one must be free.
+
+    In a circle none leads: MoveIt drops every mimic of the robot, other readers never end. Let one joint of
+    the circle lead, without `mimic`, and the others mimic that.
+    """
+    yield from told_circles({name: (use,) for name, use in _mimics(robot).items()}, MIMIC_CIRCLE)
+
+
+def check_mimic_freedom(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """Both joints of a mimic move along or about one axis.
+
+    A mimic multiplies one number. A fixed joint has none, a planar or floating one several, and readers drop
+    the mimic. A prismatic joint may well mimic a revolute one; its `multiplier` is then [m/rad].
+    """
+    for joint in robot.joints:
+        if joint.mimic is None:
+            continue
+        leader = robot.joints.get(joint.mimic.joint)
+        if leader and leader is not joint and not {joint.type, leader.type}.issubset(AXIS_JOINTS):
+            use = _mimic(joint, joint.mimic)
+            yield use.told(MIMIC_FREEDOM, joint=joint.name, type=joint.type, leader=leader.name, led=leader.type)
+
+
+def _mimics(robot: Robot) -> dict[str, Use]:
+    return {joint.name: _mimic(joint, joint.mimic) for joint in robot.joints if joint.mimic}
+
+
+def _mimic(joint: Joint, mimic: JointMimic) -> Use:
+    return Use(mimic.joint, f"joint '{joint.name}'", joint.source, ("mimic", "joint"))

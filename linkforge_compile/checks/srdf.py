@@ -1,0 +1,136 @@
+"""What the semantic part names is there: links, joints and groups."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkforge_compile.checks.references import Use, unknown
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics.codes.model import PAIR_TWICE, PASSIVE_COMMANDED, VIRTUAL_JOINT_NOT_AT_ROOT
+from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP, UNKNOWN_JOINT, UNKNOWN_LINK
+
+
+def check_semantic_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """The semantic part names links of this robot.
+
+    MoveIt drops what names another link: a chain and with it the group, an end effector, a collision pair that
+    then costs time or stops the robot for no reason. Correct the name, or remove the entry.
+    """
+    yield from unknown(_links(robot), UNKNOWN_LINK, robot.links.names, gaps)
+
+
+def check_semantic_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """The semantic part names joints of this robot, or its own virtual joints.
+
+    MoveIt drops what names another joint: it is missing from its group, or its position from the state.
+    """
+    known = (*robot.joints.names, *(joint.name for joint in robot.semantic.virtual_joints))
+    yield from unknown(_joints(robot), UNKNOWN_JOINT, known, gaps)
+
+
+def check_semantic_groups(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """Subgroups, states and end effectors name planning groups of this robot.
+
+    MoveIt drops a group with an unknown subgroup, and states and end effectors of unknown groups.
+    """
+    yield from unknown(_groups(robot), UNKNOWN_GROUP, [group.name for group in robot.semantic.groups], gaps)
+
+
+def check_virtual_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """A virtual joint places the root link in the world.
+
+    MoveIt skips one that holds any other link. Name the root as `child_link`, or leave the virtual joint out.
+    Silent while part of the robot could not be read, or while it has several roots.
+    """
+    children = {joint.child for joint in robot.joints}
+    roots = [link.name for link in robot.links if link.name not in children]
+    if gaps or len(roots) != 1:
+        return
+    for joint in robot.semantic.virtual_joints:
+        if robot.has_link(joint.child_link) and joint.child_link != roots[0]:
+            use = Use(joint.child_link, f"virtual joint '{joint.name}'", joint.source, ("child_link",))
+            yield use.told(VIRTUAL_JOINT_NOT_AT_ROOT, link=joint.child_link, root=roots[0])
+
+
+def check_collision_pairs(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A pair of links is listed once, under either of its links.
+
+    The second entry says nothing new, or gives another reason that nobody reads. Remove one.
+    """
+    for pairs in (robot.semantic.disabled_collisions, robot.semantic.enabled_collisions):
+        first: dict[frozenset[str], Use] = {}
+        for pair in pairs:
+            use = Use(pair.link2, "collision pair", pair.source)
+            earlier = first.setdefault(frozenset((pair.link1, pair.link2)), use)
+            if earlier is not use:
+                notes = [earlier.note("the first entry")] if earlier.source else []
+                yield PAIR_TWICE.at(pair.source, link1=pair.link1, link2=pair.link2, notes=notes)
+
+
+def check_passive_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """What is passive is not commanded.
+
+    MoveIt never plans for a passive joint, so its command interface in ros2_control waits for ever. Drop the
+    command interface, or the joint from `passive_joints`.
+    """
+    passive = {joint.name: joint for joint in robot.semantic.passive_joints}
+    for control in robot.ros2_controls if passive else ():
+        for driven in control.joints:
+            joint = passive.get(driven.name)
+            if joint and driven.command_interfaces:
+                command = Use(joint.name, f"ros2_control '{control.name}'", driven.source, ("command_interfaces",))
+                notes = [command.note(f"{command.user} commands it")]
+                yield PASSIVE_COMMANDED.at(joint.source, joint=joint.name, control=control.name, notes=notes)
+
+
+def _links(robot: Robot) -> Iterator[Use]:
+    semantic = robot.semantic
+    for virtual in semantic.virtual_joints:
+        yield Use(virtual.child_link, f"virtual joint '{virtual.name}'", virtual.source, ("child_link",))
+    for group in semantic.groups:
+        user = f"planning group '{group.name}'"
+        for place, link in enumerate(group.links):
+            yield Use(link, user, group.source, ("links", place))
+        for chain in group.chains:
+            yield Use(chain.base_link, user, chain.source or group.source, ("base_link",))
+            yield Use(chain.tip_link, user, chain.source or group.source, ("tip_link",))
+    for effector in semantic.end_effectors:
+        yield Use(effector.parent_link, f"end effector '{effector.name}'", effector.source, ("parent_link",))
+    for pair in (*semantic.disabled_collisions, *semantic.enabled_collisions):
+        user = f"collision pair '{pair.link1}', '{pair.link2}'"
+        yield Use(pair.link1, user, pair.source, ("link1",))
+        yield Use(pair.link2, user, pair.source, ("link2",))
+    for place, link in enumerate(semantic.no_default_collision_links):
+        path = ("no_default_collision_links", place)
+        yield Use(link, "no_default_collision_links", semantic.source, path)
+    for approximation in semantic.link_sphere_approximations:
+        yield Use(approximation.link, "link_sphere_approximations", approximation.source, ("link",))
+
+
+def _joints(robot: Robot) -> Iterator[Use]:
+    semantic = robot.semantic
+    for group in semantic.groups:
+        for place, joint in enumerate(group.joints):
+            yield Use(joint, f"planning group '{group.name}'", group.source, ("joints", place))
+    for state in semantic.group_states:
+        for joint in state.joint_values:
+            yield Use(joint, f"state '{state.name}' of group '{state.group}'", state.source, (joint,))
+    for passive in semantic.passive_joints:
+        yield Use(passive.name, "passive_joints", passive.source)
+    for remark in semantic.joint_properties:
+        yield Use(remark.joint_name, f"joint property '{remark.property_name}'", remark.source, ("joint_name",))
+
+
+def _groups(robot: Robot) -> Iterator[Use]:
+    semantic = robot.semantic
+    for group in semantic.groups:
+        for place, subgroup in enumerate(group.subgroups):
+            yield Use(subgroup, f"planning group '{group.name}'", group.source, ("subgroups", place))
+    for state in semantic.group_states:
+        yield Use(state.group, f"group state '{state.name}'", state.source, ("group",))
+    for effector in semantic.end_effectors:
+        user = f"end effector '{effector.name}'"
+        yield Use(effector.group, user, effector.source, ("group",))
+        if effector.parent_group:
+            yield Use(effector.parent_group, user, effector.source, ("parent_group",))

@@ -1,0 +1,141 @@
+"""Links and joints make one tree: every joint joins two links, every link but the root hangs on one joint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from linkforge_compile.checks.circles import Graph, circles, told_circles
+from linkforge_compile.checks.references import SHOWN, Use, listed, unknown
+from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic, Gaps, Note
+from linkforge_compile.diagnostics.codes.model import LINK_CIRCLE, NO_LINKS, SECOND_PARENT, SEVERAL_ROOTS
+from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
+
+
+def check_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """A robot has at least one link.
+
+    No reader of URDF takes a robot without links. Declare one under `links`, or use a module that has some.
+    """
+    if not robot.links and not gaps:
+        yield NO_LINKS.at(robot.source, "links", robot=robot.name)
+
+
+def check_joint_ends(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """A joint joins two links of this robot.
+
+    URDF readers refuse the whole robot when one link is missing. Declare the link, or correct the name;
+    a link of a module bears the module's prefix.
+    """
+    ends = (
+        Use(name, f"joint '{joint.name}'", joint.source, (end,))
+        for joint in robot.joints
+        for end, name in (("parent", joint.parent), ("child", joint.child))
+    )
+    yield from unknown(ends, UNKNOWN_LINK, robot.links.names, gaps)
+
+
+def check_second_parents(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A link hangs on one joint only.
+
+    URDF describes trees: readers refuse a link with two parents, or keep one of them in silence. Where a
+    mechanism closes a loop, cut it at one joint and tell the simulator of the loop there; where a joint was
+    copied, correct the child. A joint that leads back up the tree is a circle and told as one.
+    """
+    joints_above: dict[str, list[Joint]] = {}
+    for joint in robot.joints:
+        joints_above.setdefault(joint.child, []).append(joint)
+    shared = [joints for child, joints in joints_above.items() if len(joints) > 1 and robot.has_link(child)]
+    closing = {circle[-1].user for circle in circles(joint_graph(robot))} if shared else set()
+    for joints in shared:
+        first, *others = [joint for joint in joints if hanging(joint).user not in closing] or joints[:1]
+        note = hanging(first).note(f"joint '{first.name}' hangs '{first.child}' on '{first.parent}'")
+        for joint in others:
+            facts = {"link": joint.child, "first": first.name, "parent": first.parent}
+            yield hanging(joint).told(SECOND_PARENT, notes=[note], **facts)
+
+
+def check_link_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """No link hangs on itself, not even by way of others.
+
+    Such links have no place in the world, and readers that walk the tree never end. One joint of the circle
+    has the wrong parent or child, or the two were swapped.
+    """
+    yield from told_circles(joint_graph(robot), LINK_CIRCLE)
+
+
+def check_single_root(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """All links but one hang on joints; that one is the root.
+
+    URDF readers refuse a robot in several pieces. Add the missing joint, or give a module the `parent` that
+    it hangs on. Silent while part of the robot could not be read, or while joints lead nowhere or to a link
+    that has a parent: each of these may be the joint that is missed here.
+    """
+    children = {joint.child for joint in robot.joints if robot.has_link(joint.child)}
+    roots = [link for link in robot.links if link.name not in children]
+    astray = len(robot.joints) - len(children)
+    if gaps or len(roots) - 1 <= astray:
+        return
+    graph = joint_graph(robot)
+    below = {link.name: _links_below(link.name, graph) for link in roots}
+    root = max(roots, key=lambda link: below[link.name])
+    strays = [link for link in roots if link is not root]
+    yield SEVERAL_ROOTS.at(
+        strays[0].source,
+        notes=[_beginning(link, below[link.name]) for link in (root, *strays)[:SHOWN]],
+        count=len(roots),
+        roots=listed([link.name for link in roots]),
+        strays=listed([link.name for link in strays]),
+        root=root.name,
+    )
+
+
+def _links_below(root: str, graph: Graph) -> int:
+    reached = {root}
+    pending = [root]
+    while pending:
+        for use in graph.get(pending.pop(), ()):
+            if use.name in graph and use.name not in reached:
+                reached.add(use.name)
+                pending.append(use.name)
+    return len(reached) - 1
+
+
+def _beginning(link: Link, links_below: int) -> Note:
+    what = f"'{link.name}' begins a tree of {links_below + 1} links" if links_below else f"'{link.name}' stands alone"
+    return Note(what, link.source.span if link.source else None)
+
+
+def hanging(joint: Joint) -> Use:
+    """Return the joint as that which leads from its parent to its child."""
+    return Use(joint.child, f"joint '{joint.name}'", joint.source, ("child",))
+
+
+def joint_graph(robot: Robot) -> Graph:
+    """Return which joints lead down from each link; links that are nobody's child come first."""
+    children = {joint.child for joint in robot.joints}
+    graph: dict[str, list[Use]] = {link.name: [] for link in robot.links if link.name not in children}
+    graph.update((link.name, []) for link in robot.links if link.name in children)
+    for joint in robot.joints:
+        if joint.parent in graph:
+            graph[joint.parent].append(hanging(joint))
+    return graph
+
+
+def parent_joints(robot: Robot) -> Mapping[str, Joint]:
+    """Return the joint on which each link hangs, the first one where several are written."""
+    above: dict[str, Joint] = {}
+    for joint in robot.joints:
+        above.setdefault(joint.child, joint)
+    return above
+
+
+def way_up(link: str, above: Mapping[str, Joint]) -> Sequence[str]:
+    """Return the link and all those that it hangs on, up to the root; once round where they hang in a circle."""
+    way = {link: None}
+    while (joint := above.get(link)) and joint.parent not in way:
+        link = joint.parent
+        way[link] = None
+    return tuple(way)

@@ -1,0 +1,43 @@
+"""Small robots for the checks, and what is told about them."""
+
+from linkforge_compile.checks import check
+from linkforge_compile.core import (
+    Inertial,
+    InertiaTensor,
+    Joint,
+    JointLimits,
+    JointMimic,
+    JointType,
+    Link,
+    Robot,
+    Vector3,
+)
+from linkforge_compile.diagnostics import Gaps
+
+X = Vector3(1.0, 0.0, 0.0)
+
+
+def fixed(name: str, parent: str, child: str) -> Joint:
+    return Joint(name, JointType.FIXED, parent, child)
+
+
+def turning(
+    name: str, parent: str, child: str, *, mimic: str | None = None, limits: JointLimits | None = None
+) -> Joint:
+    limits = limits or JointLimits(-1.0, 1.0)
+    follows = JointMimic(mimic) if mimic else None
+    return Joint(name, JointType.REVOLUTE, parent, child, axis=X, limits=limits, mimic=follows)
+
+
+def body(name: str, mass: float = 1.0, *, inertia: InertiaTensor | None = None) -> Link:
+    return Link(name, Inertial(mass, inertia=inertia or InertiaTensor(1.0, 1.0, 1.0)))
+
+
+def robot(links: str, *joints: Joint, **parts: object) -> Robot:
+    """Return a robot with these links, a word each, all of them bodies with mass."""
+    return Robot("r", links=[body(name) for name in links.split()], joints=joints, **parts)  # type: ignore[arg-type]
+
+
+def told(subject: Robot, gaps: Gaps | None = None) -> list[str]:
+    """Return what the checks tell, each as "LFnnnn message"."""
+    return [f"{one.code.id} {one.message}" for one in check(subject, gaps or Gaps())]

@@ -1,0 +1,88 @@
+import numpy
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkforge_compile.checks import check
+from linkforge_compile.checks.inertia import principal_moments
+from linkforge_compile.core import Inertial, InertiaTensor, Link, Robot
+from linkforge_compile.diagnostics import Gaps, Severity
+from tests.checks.robots import body, fixed, robot, told, turning
+
+FLAT_PLATE = InertiaTensor(0.001, 0.002, 0.003)
+TURNED_ROD = InertiaTensor(1.0, 1.0, 1.9, ixy=0.95)
+
+
+@pytest.mark.parametrize("inertia", [FLAT_PLATE, TURNED_ROD, InertiaTensor(1e-12, 1e-12, 1e-12)])
+def test_what_a_body_can_have_is_fine(inertia: InertiaTensor):
+    assert told(Robot("r", links=[body("a", inertia=inertia)])) == []
+
+
+def test_a_moment_rounded_to_six_digits_is_fine():
+    assert told(Robot("r", links=[body("plate", inertia=InertiaTensor(0.123456, 0.234567, 0.3580231))])) == []
+
+
+@pytest.mark.parametrize(
+    ("inertia", "message"),
+    [
+        (InertiaTensor(0, 0, 0), "LF6001 link 'a' has a mass of 2 kg and an inertia of zero"),
+        (InertiaTensor(1, 1, 0), "LF6002 principal moments of inertia of link 'a' must be above 0, found 0 1 1 kg·m²"),
+        (
+            InertiaTensor(1, 1, 1, ixy=2),
+            "LF6002 principal moments of inertia of link 'a' must be above 0, found -1 1 3 kg·m²",
+        ),
+        (
+            InertiaTensor(1, 1, 3),
+            "LF6003 no principal moment of inertia of link 'a' may be above the sum of the others, found 1 1 3 kg·m²",
+        ),
+    ],
+)
+def test_what_no_body_can_have_is_a_warning(inertia: InertiaTensor, message: str):
+    subject = Robot("r", links=[body("a", 2.0, inertia=inertia)])
+    assert told(subject) == [message]
+    assert next(check(subject, Gaps())).severity is Severity.WARNING
+
+
+def test_a_frame_without_mass_may_have_any_tensor():
+    assert told(Robot("r", links=[Link("tool0", Inertial(0.0, inertia=InertiaTensor(0, 0, 0)))])) == []
+
+
+entries = st.floats(-1e6, 1e6) | st.floats(-1e-6, 1e-6) | st.just(0.0)
+
+
+@given(st.builds(InertiaTensor, *[entries] * 6))
+def test_principal_moments_are_the_eigenvalues(inertia: InertiaTensor):
+    matrix = [
+        [inertia.ixx, inertia.ixy, inertia.ixz],
+        [inertia.ixy, inertia.iyy, inertia.iyz],
+        [inertia.ixz, inertia.iyz, inertia.izz],
+    ]
+    wanted = numpy.linalg.eigvalsh(matrix)
+    numpy.testing.assert_allclose(principal_moments(inertia), wanted, rtol=0, atol=2e-12 * max(abs(wanted)))
+
+
+def test_a_moving_frame_with_a_body_below_is_lost_in_gazebo():
+    subject = robot("base hand", turning("pan", "base", "head"), turning("tilt", "head", "hand"))
+    subject.add_link(Link("head"))
+    assert told(subject) == [
+        "LF6004 joint 'pan' moves link 'head', which has no mass: Gazebo leaves it out with all below it"
+    ]
+
+
+def test_a_moving_frame_is_fine_with_a_body_fixed_to_it():
+    subject = robot("base hand camera", turning("pan", "base", "head"), turning("tilt", "head", "hand"))
+    subject.links += (Link("head"), Link("bracket"))
+    subject.joints += (fixed("bolt", "head", "bracket"), fixed("glue", "bracket", "camera"))
+    assert told(subject) == []
+
+
+def test_frames_that_carry_nothing_are_fine():
+    subject = robot("base", turning("pan", "base", "head"), fixed("tool", "head", "tool0"))
+    subject.links += (Link("head"), Link("tool0"))
+    assert told(subject) == []
+
+
+def test_mass_is_not_missed_while_parts_of_the_robot_are_missing():
+    subject = robot("base hand", turning("pan", "base", "head"), turning("tilt", "head", "hand"))
+    subject.add_link(Link("head"))
+    assert told(subject, Gaps(frozenset({"counterweight"}))) == []

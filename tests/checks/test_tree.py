@@ -1,0 +1,106 @@
+import pytest
+
+from linkforge_compile.checks import check
+from linkforge_compile.core import Robot
+from linkforge_compile.diagnostics import Gaps
+from tests.checks.robots import body, fixed, robot, told
+
+
+def test_a_tree_is_fine():
+    assert told(robot("base arm hand", fixed("a", "base", "arm"), fixed("h", "arm", "hand"))) == []
+
+
+def test_a_robot_without_links_is_told_by_its_name():
+    assert told(Robot("ghost")) == ["LF5401 robot 'ghost' has no links; a robot has at least one"]
+
+
+def test_a_joint_built_in_python_is_named_with_its_missing_link():
+    assert told(robot("base forearm", fixed("elbow", "base", "fore_arm"))) == [
+        "LF4102 joint 'elbow': no link named 'fore_arm'; did you mean 'forearm'?"
+    ]
+
+
+def test_two_joints_with_one_missing_link_are_two_faults():
+    subject = robot("base", fixed("a", "bse", "base"), fixed("b", "base", "bse"))
+    assert len(told(subject)) == 2
+
+
+def test_what_is_known_to_be_missing_is_not_told_again():
+    subject = robot("base", fixed("elbow", "base", "lost"), fixed("wrist", "base", "left_hand"))
+    assert told(subject, Gaps(frozenset({"lost"}), ("left_",))) == []
+
+
+def test_a_second_parent_is_told_at_the_second_joint():
+    subject = robot("base left right hand", fixed("l", "base", "left"), fixed("r", "base", "right"))
+    subject.joints += (fixed("first", "left", "hand"), fixed("second", "right", "hand"))
+    (diagnostic,) = check(subject, Gaps())
+    assert diagnostic.message == "joint 'second': link 'hand' has two parents: joint 'first' hangs it on 'left' already"
+    assert [note.message for note in diagnostic.notes] == ["joint 'first' hangs 'hand' on 'left'"]
+
+
+@pytest.mark.parametrize("closing_joint_first", [False, True])
+def test_a_joint_back_up_the_tree_is_one_circle_and_no_second_parent(closing_joint_first: bool):
+    joints = [fixed("down", "base", "a"), fixed("on", "a", "b"), fixed("back", "b", "a")]
+    subject = robot("base a b", *reversed(joints) if closing_joint_first else joints)
+    assert told(subject) == ["LF5403 joint 'back': links hang on one another in a circle: a → b → a"]
+
+
+def test_a_circle_without_a_root_is_told_once_with_all_its_joints():
+    subject = robot("a b c", fixed("ab", "a", "b"), fixed("bc", "b", "c"), fixed("ca", "c", "a"))
+    (diagnostic,) = check(subject, Gaps())
+    assert diagnostic.message == "joint 'ca': links hang on one another in a circle: a → b → c → a"
+    assert [note.message for note in diagnostic.notes] == ["joint 'ab' leads to 'b'", "joint 'bc' leads to 'c'"]
+
+
+def test_two_joints_back_to_one_link_are_two_circles():
+    subject = robot("a b", fixed("down", "a", "b"), fixed("up", "b", "a"), fixed("again", "b", "a"))
+    assert told(subject) == [
+        "LF5403 joint 'up': links hang on one another in a circle: a → b → a",
+        "LF5403 joint 'again': links hang on one another in a circle: a → b → a",
+    ]
+
+
+def test_several_roots_are_told_once_and_the_largest_tree_has_the_root():
+    subject = robot("camera base arm lidar", fixed("shoulder", "base", "arm"))
+    (diagnostic,) = check(subject, Gaps())
+    assert diagnostic.message == (
+        "3 links are no joint's child: 'camera', 'base' and 'lidar'; "
+        "only one may be the root, so hang 'camera' and 'lidar' on 'base'"
+    )
+    assert [note.message for note in diagnostic.notes] == [
+        "'base' begins a tree of 2 links",
+        "'camera' stands alone",
+        "'lidar' stands alone",
+    ]
+
+
+def test_many_roots_are_counted_and_not_all_spelled_out():
+    message = told(robot(" ".join(f"l{number}" for number in range(100))))[0]
+    assert message.startswith("LF5404 100 links")
+    assert "'l6' and 93 more" in message
+
+
+def test_a_link_that_a_misspelt_joint_left_alone_is_no_second_fault():
+    subject = robot("base arm hand", fixed("a", "base", "arm"), fixed("h", "arm", "hnad"))
+    assert told(subject) == ["LF4102 joint 'h': no link named 'hnad'; did you mean 'hand'?"]
+
+
+def test_a_link_that_a_copied_child_left_alone_is_no_second_fault():
+    subject = robot("base arm hand", fixed("a", "base", "arm"), fixed("h", "base", "arm"))
+    assert [one[:6] for one in told(subject)] == ["LF5402"]
+
+
+def test_the_tree_is_not_judged_while_parts_of_it_are_missing():
+    assert told(robot("base camera"), Gaps(frozenset({"mount"}))) == []
+    assert told(Robot("r"), Gaps(prefixes=("",))) == []
+
+
+def test_a_chain_of_10000_links_is_checked_without_recursion():
+    links = [body(f"l{number}") for number in range(10_000)]
+    joints = [fixed(f"j{number}", f"l{number}", f"l{number + 1}") for number in range(9_999)]
+    chain = Robot("r", links=links, joints=joints)
+    assert told(chain) == []
+    chain.add_joint(fixed("back", "l9999", "l0"))
+    assert told(chain) == [
+        "LF5403 joint 'back': links hang on one another in a circle: l0 → l1 → l2 → l3 → l4 → … → l9999 → l0"
+    ]
