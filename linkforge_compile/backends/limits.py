@@ -1,0 +1,84 @@
+"""What URDF and SRDF, or most of their readers, cannot take: told before anything is written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from linkforge_compile.backends.markup import attributes, elements
+from linkforge_compile.backends.unwritable import refused, unwritable_texts
+from linkforge_compile.backends.urdf import capsules
+from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics.codes.backends import NEW_GEOMETRY, OLD_VERSION, TWO_MATERIALS, UNKNOWN_VERSION
+
+if TYPE_CHECKING:
+    from linkforge_compile.backends.urdf.sensor import Gazebo
+    from linkforge_compile.core.models.material import Material
+    from linkforge_compile.core.models.robot import Robot
+
+_READ_VERSIONS = ("1.0", "1.1", "1.2")
+
+
+def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
+    """Yield what `render_urdf` leaves out or refuses, and what common readers refuse in what it writes."""
+    yield from check_texts(robot)
+    yield from check_capsules(robot)
+    yield from check_version(robot)
+    yield from check_materials_of_one_name(robot)
+    if robot.sensors:
+        from linkforge_compile.backends.urdf.sensor_limits import sensor_limits
+
+        yield from sensor_limits(robot, gazebo)
+
+
+def srdf_limits(robot: Robot) -> Iterator[Diagnostic]:
+    """Yield what `render_srdf` refuses."""
+    yield from unwritable_texts(robot.semantic)
+
+
+def check_texts(robot: Robot) -> Iterator[Diagnostic]:
+    """XML holds no control characters, extras must be well-formed, and only some names can be those of tags."""
+    yield from refused(lambda: attributes(robot), robot.source, "extra_attributes")
+    yield from refused(lambda: elements(robot), robot.source, "extra")
+    collections = (
+        tuple(robot.materials.values()),
+        robot.links,
+        robot.joints,
+        robot.sensors,
+        robot.transmissions,
+        robot.ros2_controls,
+        robot.gazebo_elements,
+    )
+    yield from unwritable_texts(collections)
+
+
+def check_capsules(robot: Robot) -> Iterator[Diagnostic]:
+    """URDF has capsules since version 1.1, which the file states by itself where its author states none.
+
+    Readers built before that refuse the whole file, whatever it states. A cylinder or a mesh suits them all.
+    """
+    capsule = next(capsules(robot), None)
+    if capsule is None:
+        return
+    yield NEW_GEOMETRY.at(capsule.source)
+    if robot.version_stated and robot.version == "1.0":
+        yield OLD_VERSION.at(robot.source, "version", version=robot.version)
+
+
+def check_version(robot: Robot) -> Iterator[Diagnostic]:
+    """The `version` of a robot is that of the URDF language, not that of the robot's design."""
+    if robot.version_stated and robot.version not in _READ_VERSIONS:
+        yield UNKNOWN_VERSION.at(robot.source, "version", version=robot.version)
+
+
+def check_materials_of_one_name(robot: Robot) -> Iterator[Diagnostic]:
+    """A reader keeps one material a name, urdfdom the first, and shows every visual that names it in that one."""
+    first: dict[str, Material] = dict(robot.materials)
+    for link in robot.links:
+        for material in (visual.material for visual in link.visuals):
+            if material is None or not material.name:
+                continue
+            known = first.setdefault(material.name, material)
+            if known != material:
+                notes = [Note("the first is here", known.source.span)] if known.source else []
+                yield TWO_MATERIALS.at(material.source, name=material.name, notes=notes)

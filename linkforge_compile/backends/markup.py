@@ -1,0 +1,187 @@
+"""Text as XML: the strings that templates place, and the elements that an author's own data decide.
+
+Whatever leaves this module is one tag a line, or one element with its text a line: line ends inside of texts
+become character references, so that a document can be indented, or not, without touching what it says.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
+from typing import Protocol, TypeAlias
+
+from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.part import attribute_pairs
+from linkforge_compile.units import number_text
+
+_EMPTY = re.compile(r"<(([^\s<>]+)[^<>]*)></\2>")
+
+# No XML 1.0 document may hold these, not even as a reference.
+_FORBIDDEN = "\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff"
+_UNWRITABLE = re.compile(f"[{_FORBIDDEN}]")
+_MARKED = re.compile(f'[&<>"\t\n\r{_FORBIDDEN}]')
+_REFERENCES = str.maketrans(
+    {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
+)
+
+_NAME_START = (
+    r"A-Z_a-z\xc0-\xd6\xd8-\xf6\xf8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f\u2c00-\u2fef"
+    r"\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufffd\U00010000-\U000effff"
+)
+
+
+class Xml(str):
+    """Text that is XML already; templates write it as it stands."""
+
+    __slots__ = ()
+
+    def __html__(self) -> Xml:
+        return self
+
+
+NOTHING = Xml()
+"""Where a part of the robot is not stated."""
+
+Spellable: TypeAlias = str | float | bool | Iterable[float]
+"""What an attribute or a text may be: words, a number, yes or no, or numbers with spaces between them."""
+
+
+class Extended(Protocol):
+    """A part of the robot that may hold attributes and elements that no field says."""
+
+    @property
+    def extra_attributes(self) -> Sequence[tuple[str, str]] | Mapping[str, str]: ...
+    @property
+    def extra_elements(self) -> Sequence[str]: ...
+
+
+def spelled(value: Spellable) -> str:
+    """Return a value as the text that URDF writes, not escaped yet."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, float):
+        return number_text(value)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return number_text(value)
+    return " ".join(map(number_text, value))
+
+
+def escaped(text: str) -> str:
+    """Return text as it stands in an attribute or between tags.
+
+    Raises:
+        RobotGeneratorError: for a character that XML 1.0 cannot hold.
+
+    """
+    if _MARKED.search(text) is None:
+        return text
+    require_writable(text)
+    return text.translate(_REFERENCES)
+
+
+def require_writable(text: str) -> None:
+    """Refuse a character that XML 1.0 cannot hold.
+
+    Raises:
+        RobotGeneratorError: with the character and the text.
+
+    """
+    if found := _UNWRITABLE.search(text):
+        raise RobotGeneratorError(f"XML cannot hold the character U+{ord(found[0]):04X}, found in {text!r}")
+
+
+def is_xml_name(name: str) -> bool:
+    """Tell whether an element or an attribute may have this name, with a namespace prefix or without."""
+    return _xml_name().fullmatch(name) is not None
+
+
+@cache
+def _xml_name() -> re.Pattern[str]:
+    # Compiling all these ranges costs 8 ms, and only extras and free parts need it.
+    local = rf"[{_NAME_START}][{_NAME_START}.0-9\xb7\u0300-\u036f\u203f\u2040-]*"
+    return re.compile(f"(?:{local}:)?{local}")
+
+
+def harmless_in_comment(text: str) -> str:
+    """Return text without what would end a comment, or what XML cannot hold."""
+    return _UNWRITABLE.sub("?", text).replace("--", "- -").replace("--", "- -")
+
+
+def attributes(part: Extended | None = None, /, **stated: Spellable | None) -> Xml:
+    """Return ` name="value"` for each attribute that is stated, then for those that no field of the part says.
+
+    Raises:
+        RobotGeneratorError: for an extra attribute that says a stated one again, or that is no XML name.
+
+    """
+    text = "".join([f' {name}="{_quotable(value)}"' for name, value in stated.items() if value is not None])
+    if part is None or not part.extra_attributes:
+        return Xml(text)
+    extra = attribute_pairs(part.extra_attributes)
+    _require_attributes(stated, extra)
+    return Xml(text + "".join([f' {name}="{escaped(value)}"' for name, value in extra]))
+
+
+def _quotable(value: Spellable) -> str:
+    return escaped(value) if isinstance(value, str) else spelled(value)
+
+
+def _require_attributes(stated: Mapping[str, object], extra: Iterable[tuple[str, str]]) -> None:
+    seen = {name for name, value in stated.items() if value is not None}
+    for name, _ in extra:
+        if not is_xml_name(name):
+            raise RobotGeneratorError(f"'{name}' cannot be the name of an XML attribute")
+        if name in seen:
+            raise RobotGeneratorError(f"the attribute '{name}' is stated twice")
+        seen.add(name)
+
+
+def elements(part: Extended) -> Xml:
+    """Return the elements that no field of the part says, each well-formed by itself.
+
+    Raises:
+        RobotGeneratorError: for raw XML that is not well-formed.
+
+    """
+    if not part.extra_elements:
+        return NOTHING
+    from linkforge_compile.backends.raw import raw_elements
+
+    return Xml("\n".join(raw_elements(text) for text in part.extra_elements))
+
+
+def leaf(tag: str, part: Extended | None, /, **stated: Spellable | None) -> Xml:
+    """Return an element whose fields are all attributes."""
+    start = f"<{tag}{attributes(part, **stated)}"
+    if part is None or not part.extra_elements:
+        return Xml(f"{start}/>")
+    return Xml(f"{start}>\n{elements(part)}\n</{tag}>")
+
+
+def lay_out(text: str, *, pretty: bool) -> str:
+    """Indent a rendered document by two spaces a level, or put it on one line.
+
+    An element without content closes itself.
+    A line is an opening tag, a closing tag, or something whole; blank lines are what a template left out.
+    """
+    lines: list[str] = []
+    depth = 0
+    opened = False
+    for line in _lines(text):
+        closes = line.startswith("</")
+        depth -= closes
+        if closes and opened:
+            lines[-1] = f"{lines[-1][:-1]}/>"
+        else:
+            whole = _EMPTY.sub(r"<\1/>", line) if "></" in line else line
+            lines.append("  " * depth + whole if pretty else whole)
+        opened = not closes and line[1] not in "!?" and line[-2] != "/" and "</" not in line
+        depth += opened
+    return ("\n" if pretty else "").join(lines)
+
+
+def _lines(text: str) -> Iterator[str]:
+    return filter(None, map(str.strip, text.split("\n")))

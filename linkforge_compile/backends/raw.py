@@ -1,0 +1,151 @@
+"""Elements whose shape an author's data decide: raw XML of `extra`, and the free parts that plugins read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple, TypeAlias
+
+from linkforge_compile.backends.markup import Xml, escaped, is_xml_name, require_writable, spelled
+from linkforge_compile.core.exceptions import RobotGeneratorError
+
+_MOST_NESTED = 100
+
+Content: TypeAlias = "str | Node"
+"""What stands in an element: text, an element, or a comment, which is Xml."""
+
+
+class Node(NamedTuple):
+    """An element as it was read or as parameters spell it; `content` is in document order."""
+
+    tag: str
+    attributes: Sequence[tuple[str, str]]
+    content: list[Content]
+
+    @property
+    def start(self) -> str:
+        """The opening tag without its end."""
+        return f"<{self.tag}" + "".join(f' {name}="{escaped(value)}"' for name, value in self.attributes)
+
+
+def raw_elements(text: str) -> Xml:
+    """Return raw XML laid out; names, prefixes and values as written. Blank text between tags is layout.
+
+    Prefixes need no declaration here: it usually stands on `<robot>`.
+
+    Raises:
+        RobotGeneratorError: for XML that is not well-formed, and for text outside of elements.
+
+    """
+    require_writable(text)
+    content = _parse(text)
+    if any(map(_is_text, content)):
+        raise RobotGeneratorError(f"raw XML must be elements, found text in {text!r}")
+    return Xml("\n".join(_lines(content)))
+
+
+def parameter_elements(parameters: Mapping[str, object]) -> Xml:
+    """Return the parameters of a free part as child elements.
+
+    A mapping is an element with children, where a key `_x` is its attribute `x` and `_text` its text; a list
+    repeats its tag; anything else is text.
+
+    Raises:
+        RobotGeneratorError: for a key that cannot be a tag.
+
+    """
+    return Xml("\n".join(_lines(_nodes(parameters))))
+
+
+def _nodes(parameters: Mapping[str, object]) -> list[Content]:
+    return [
+        _node(tag, value)
+        for tag, values in parameters.items()
+        for value in (values if isinstance(values, Sequence) and not isinstance(values, str) else (values,))
+    ]
+
+
+def _node(tag: str, value: object) -> Node:
+    _require_name(tag)
+    if not isinstance(value, Mapping):
+        return Node(tag, (), [text] if (text := _text(value)) else [])
+    attributes = [(key[1:], _text(item)) for key, item in value.items() if key.startswith("_") and key != "_text"]
+    for name, _ in attributes:
+        _require_name(name)
+    children = _nodes({key: item for key, item in value.items() if not key.startswith("_")})
+    text = _text(value.get("_text", ""))
+    return Node(tag, attributes, [text, *children] if text else children)
+
+
+def _text(value: object) -> str:
+    return spelled(value) if isinstance(value, float | int) else str(value)
+
+
+def _require_name(name: str) -> None:
+    if not is_xml_name(name):
+        raise RobotGeneratorError(f"'{name}' cannot be the name of an XML element or attribute")
+
+
+def _is_text(item: Content) -> bool:
+    return isinstance(item, str) and not isinstance(item, Xml)
+
+
+def _lines(content: Sequence[Content]) -> Iterator[str]:
+    for item in content:
+        if isinstance(item, str):
+            yield item
+        elif not item.content:
+            yield f"{item.start}/>"
+        elif any(map(_is_text, item.content)):
+            yield _inline(item)
+        else:
+            yield f"{item.start}>"
+            yield from _lines(item.content)
+            yield f"</{item.tag}>"
+
+
+def _inline(item: Content) -> str:
+    if isinstance(item, str):
+        return item if isinstance(item, Xml) else escaped(item)
+    return f"{item.start}>{''.join(map(_inline, item.content))}</{item.tag}>" if item.content else f"{item.start}/>"
+
+
+def _parse(text: str) -> list[Content]:
+    # expat knows nothing of namespaces unless told, so an undeclared `drake:` stays what it is; lxml refuses it.
+    from xml.parsers import expat
+
+    document = Node("", (), [])
+    open_nodes = [document]
+
+    def begin(tag: str, attributes: list[str]) -> None:
+        if len(open_nodes) > _MOST_NESTED:
+            raise RobotGeneratorError(f"raw XML is nested more than {_MOST_NESTED} elements deep")
+        node = Node(tag, tuple(zip(attributes[::2], attributes[1::2], strict=True)), [])
+        open_nodes[-1].content.append(node)
+        open_nodes.append(node)
+
+    def end(_: str) -> None:
+        content = open_nodes.pop().content
+        if all(not _is_text(item) or not str(item).strip() for item in content):
+            content[:] = [item for item in content if not _is_text(item)]
+
+    def characters(text: str) -> None:
+        open_nodes[-1].content.append(text)
+
+    def comment(text: str) -> None:
+        open_nodes[-1].content.append(Xml(f"<!--{' '.join(text.splitlines())}-->"))
+
+    parser = expat.ParserCreate("utf-8")
+    parser.ordered_attributes = True
+    parser.buffer_text = True
+    parser.StartElementHandler = begin
+    parser.EndElementHandler = end
+    parser.CharacterDataHandler = characters
+    parser.CommentHandler = comment
+    try:
+        # Wrapped, so that any number of elements is one document and a DOCTYPE is a fault.
+        parser.Parse(f"<extra>{text}</extra>", True)
+    except expat.ExpatError as error:
+        raise RobotGeneratorError(f"raw XML is not well-formed: {error}: {text!r}") from None
+    [wrapper] = document.content
+    assert isinstance(wrapper, Node)
+    return wrapper.content

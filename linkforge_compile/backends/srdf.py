@@ -1,0 +1,160 @@
+"""The semantic part of a robot as SRDF."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.backends.environment import render
+from linkforge_compile.backends.markup import Xml, attributes, elements, leaf, spelled
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
+    from linkforge_compile.core.models.planning import GroupState, PlanningGroup
+    from linkforge_compile.core.models.robot import Robot
+
+__all__ = ["render_srdf"]
+
+
+class GroupView(NamedTuple):
+    """`<group>`; members are names, chains elements."""
+
+    attributes: Xml
+    links: Sequence[str]
+    joints: Sequence[str]
+    chains: tuple[Xml, ...]
+    subgroups: Sequence[str]
+    elements: Xml
+
+
+class StateView(NamedTuple):
+    """`<group_state>`; `joints` are names and their positions as one text."""
+
+    attributes: Xml
+    joints: tuple[tuple[str, str], ...]
+    elements: Xml
+
+
+class SpheresView(NamedTuple):
+    """`<link_sphere_approximation>`."""
+
+    attributes: Xml
+    spheres: tuple[Xml, ...]
+    elements: Xml
+
+
+class SemanticView(NamedTuple):
+    """`<robot>` of an SRDF; what has fields for attributes only is an element already."""
+
+    attributes: Xml
+    groups: tuple[GroupView, ...]
+    group_states: tuple[StateView, ...]
+    end_effectors: tuple[Xml, ...]
+    virtual_joints: tuple[Xml, ...]
+    passive_joints: tuple[Xml, ...]
+    joint_properties: tuple[Xml, ...]
+    link_sphere_approximations: tuple[SpheresView, ...]
+    no_default_collision_links: Sequence[str]
+    enabled_collisions: tuple[Xml, ...]
+    disabled_collisions: tuple[Xml, ...]
+    elements: Xml
+
+
+def render_srdf(robot: Robot, *, pretty: bool = True, banner: str | None = None) -> str:
+    """Return the robot's semantic part as an SRDF document, sections in the order of MoveIt's own writer.
+
+    `pretty` indents by two spaces; without it everything stands on one line. `banner` becomes a comment at the top,
+    None for none. A robot without a semantic part gives an empty `<robot>`.
+
+    Raises:
+        RobotGeneratorError: for text that XML cannot hold, and for extras that are not well-formed XML.
+
+    """
+    return render("srdf/robot.xml.j2", _semantic_view(robot), pretty=pretty, banner=banner)
+
+
+def _semantic_view(robot: Robot) -> SemanticView:
+    semantic = robot.semantic
+    return SemanticView(
+        attributes(semantic, name=semantic.robot_name or robot.name),
+        tuple(map(_group, semantic.groups)),
+        tuple(map(_group_state, semantic.group_states)),
+        tuple(
+            leaf(
+                "end_effector",
+                effector,
+                name=effector.name,
+                parent_link=effector.parent_link,
+                group=effector.group,
+                parent_group=effector.parent_group,
+            )
+            for effector in semantic.end_effectors
+        ),
+        tuple(
+            leaf(
+                "virtual_joint",
+                joint,
+                name=joint.name,
+                type=joint.type,
+                parent_frame=joint.parent_frame,
+                child_link=joint.child_link,
+            )
+            for joint in semantic.virtual_joints
+        ),
+        tuple(leaf("passive_joint", joint, name=joint.name) for joint in semantic.passive_joints),
+        tuple(
+            leaf(
+                "joint_property",
+                remark,
+                joint_name=remark.joint_name,
+                property_name=remark.property_name,
+                value=remark.value,
+            )
+            for remark in semantic.joint_properties
+        ),
+        tuple(map(_spheres, semantic.link_sphere_approximations)),
+        semantic.no_default_collision_links,
+        _pairs("enable_collisions", semantic.enabled_collisions),
+        _pairs("disable_collisions", semantic.disabled_collisions),
+        elements(semantic),
+    )
+
+
+def _group(group: PlanningGroup) -> GroupView:
+    return GroupView(
+        attributes(group, name=group.name),
+        group.links,
+        group.joints,
+        tuple(leaf("chain", chain, base_link=chain.base_link, tip_link=chain.tip_link) for chain in group.chains),
+        group.subgroups,
+        elements(group),
+    )
+
+
+def _group_state(state: GroupState) -> StateView:
+    return StateView(
+        attributes(state, name=state.name, group=state.group),
+        tuple((joint, " ".join(map(spelled, positions))) for joint, positions in state.joint_values.items()),
+        elements(state),
+    )
+
+
+def _spheres(approximation: LinkSphereApproximation) -> SpheresView:
+    return SpheresView(
+        attributes(approximation, link=approximation.link),
+        tuple(
+            leaf(
+                "sphere",
+                sphere,
+                center=(sphere.center_x, sphere.center_y, sphere.center_z),
+                radius=sphere.radius,
+            )
+            for sphere in approximation.spheres
+        ),
+        elements(approximation),
+    )
+
+
+def _pairs(tag: str, pairs: Iterable[CollisionPair]) -> tuple[Xml, ...]:
+    return tuple(leaf(tag, pair, link1=pair.link1, link2=pair.link2, reason=pair.reason) for pair in pairs)

@@ -1,0 +1,90 @@
+"""Gazebo's tags as URDF writes them: what the author wrote, and the physics of links."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from linkforge_compile.backends.markup import Xml, attributes, elements, spelled
+from linkforge_compile.backends.raw import parameter_elements, raw_elements
+from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS
+from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
+from linkforge_compile.core.models.link import Link, LinkPhysics
+
+_PHYSICS_TAGS = {
+    "self_collide": "selfCollide",
+    "gravity": "gravity",
+    "mu": "mu1",
+    "mu2": "mu2",
+    "kp": "kp",
+    "kd": "kd",
+}
+_ELEMENT_TAGS = {
+    "material": "material",
+    "static": "static",
+    "stop_cfm": "stopCfm",
+    "stop_erp": "stopErp",
+    "provide_feedback": "provideFeedback",
+    "implicit_spring_damper": "implicitSpringDamper",
+}
+
+
+class PluginView(NamedTuple):
+    """`<plugin>`; `content` is its raw XML, or its parameters as elements."""
+
+    attributes: Xml
+    content: Xml
+    elements: Xml
+
+
+class GazeboView(NamedTuple):
+    """`<gazebo>`; `tags` are names and texts of the children that the model has fields for."""
+
+    attributes: Xml
+    tags: tuple[tuple[str, str], ...]
+    properties: Xml
+    plugins: tuple[PluginView, ...]
+    elements: Xml
+
+
+def physics_views(links: Iterable[Link]) -> tuple[GazeboView, ...]:
+    """Return a block for each link whose physics differ from the defaults, with what differs."""
+    return tuple(
+        GazeboView(attributes(reference=link.name), _physics_tags(link.physics), Xml(), (), Xml())
+        for link in links
+        if link.physics != DEFAULT_PHYSICS
+    )
+
+
+def gazebo_views(blocks: Iterable[GazeboElement]) -> tuple[GazeboView, ...]:
+    return tuple(
+        GazeboView(
+            attributes(block, reference=block.reference),
+            tuple(
+                (tag, spelled(value))
+                for name, tag in _ELEMENT_TAGS.items()
+                if (value := getattr(block, name)) is not None
+            ),
+            parameter_elements(block.properties),
+            tuple(map(plugin_view, block.plugins)),
+            elements(block),
+        )
+        for block in blocks
+    )
+
+
+def plugin_view(plugin: GazeboPlugin) -> PluginView:
+    raw = plugin.raw_xml
+    return PluginView(
+        attributes(plugin, name=plugin.name, filename=plugin.filename),
+        raw_elements(raw) if raw is not None else parameter_elements(plugin.parameters),
+        elements(plugin),
+    )
+
+
+def _physics_tags(physics: LinkPhysics) -> tuple[tuple[str, str], ...]:
+    return tuple(
+        (tag, spelled(value))
+        for name, tag in _PHYSICS_TAGS.items()
+        if (value := getattr(physics, name)) != getattr(DEFAULT_PHYSICS, name)
+    )

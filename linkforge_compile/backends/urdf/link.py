@@ -1,0 +1,137 @@
+"""Links as URDF writes them: mass, shapes and materials."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+from linkforge_compile.backends.markup import NOTHING, Xml, attributes, elements, leaf
+from linkforge_compile.core.models.geometry import Box, Geometry, Mesh, Sphere, Transform
+from linkforge_compile.core.models.link import Collision, Inertial, Link, LinkPhysics, Visual
+from linkforge_compile.core.models.material import Material
+from linkforge_compile.units import number_text
+
+DEFAULT_PHYSICS = LinkPhysics()
+"""What a simulator does with a link that says nothing."""
+
+_IDENTITY = Transform.identity()
+_UNSCALED = (1, 1, 1)
+
+
+class MaterialView(NamedTuple):
+    """`<material>`; one that only refers to the robot's has neither color nor texture."""
+
+    attributes: Xml
+    color: Xml = NOTHING
+    texture: Xml = NOTHING
+    elements: Xml = NOTHING
+
+
+class InertialView(NamedTuple):
+    """`<inertial>`."""
+
+    attributes: Xml
+    origin: Xml
+    mass: str
+    inertia: Xml
+    elements: Xml
+
+
+class ShapeView(NamedTuple):
+    """`<visual>` or `<collision>`; None for a material that it lacks."""
+
+    attributes: Xml
+    origin: Xml
+    geometry: Xml
+    material: MaterialView | None
+    elements: Xml
+
+
+class LinkView(NamedTuple):
+    """`<link>`."""
+
+    attributes: Xml
+    inertial: InertialView | None
+    visuals: tuple[ShapeView, ...]
+    collisions: tuple[ShapeView, ...]
+    elements: Xml
+
+
+def link_views(links: Iterable[Link], materials: Mapping[str, Material]) -> tuple[LinkView, ...]:
+    """Return the links; a visual refers to a material of the robot where it has the same one, else says it in full."""
+    return tuple(
+        LinkView(
+            attributes(link, name=link.name),
+            _inertial(link.inertial) if link.inertial else None,
+            tuple([_shape(visual, _material_of(visual, materials)) for visual in link.visuals]),
+            tuple([_shape(collision, None) for collision in link.collisions]),
+            elements(link),
+        )
+        for link in links
+    )
+
+
+def material_view(material: Material) -> MaterialView:
+    return MaterialView(
+        attributes(material, name=material.name),
+        leaf("color", material.color, rgba=material.color.to_tuple()) if material.color else NOTHING,
+        leaf("texture", None, filename=material.texture) if material.texture is not None else NOTHING,
+        elements(material),
+    )
+
+
+def origin(pose: Transform) -> Xml:
+    """Return `<origin>`, nothing for the identity."""
+    return NOTHING if pose == _IDENTITY else leaf("origin", pose, xyz=pose.xyz, rpy=pose.rpy)
+
+
+def _inertial(inertial: Inertial) -> InertialView:
+    tensor = inertial.inertia
+    return InertialView(
+        attributes(inertial),
+        origin(inertial.origin),
+        number_text(inertial.mass),
+        leaf(
+            "inertia",
+            tensor,
+            ixx=tensor.ixx,
+            ixy=tensor.ixy,
+            ixz=tensor.ixz,
+            iyy=tensor.iyy,
+            iyz=tensor.iyz,
+            izz=tensor.izz,
+        ),
+        elements(inertial),
+    )
+
+
+def _shape(shape: Visual | Collision, material: MaterialView | None) -> ShapeView:
+    return ShapeView(
+        attributes(shape, name=shape.name),
+        origin(shape.origin),
+        _geometry(shape.geometry),
+        material,
+        elements(shape),
+    )
+
+
+def _geometry(shape: Geometry) -> Xml:
+    match shape:
+        case Box():
+            return leaf("box", shape, size=shape.size)
+        case Sphere():
+            return leaf("sphere", shape, radius=shape.radius)
+        case Mesh():
+            scale = None if shape.scale.to_tuple() == _UNSCALED else shape.scale
+            return leaf("mesh", shape, filename=shape.resource, scale=scale)
+        case cylinder_or_capsule:
+            return leaf(cylinder_or_capsule.type, shape, radius=shape.radius, length=shape.length)
+
+
+def _material_of(visual: Visual, materials: Mapping[str, Material]) -> MaterialView | None:
+    material = visual.material
+    if material is None:
+        return None
+    if materials.get(material.name) == material:
+        return MaterialView(attributes(name=material.name))
+    return material_view(material)

@@ -1,0 +1,60 @@
+"""Transmissions as URDF writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from linkforge_compile.backends.markup import Xml, attributes, elements
+from linkforge_compile.backends.raw import parameter_elements
+from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
+from linkforge_compile.units import number_text
+
+
+class EndView(NamedTuple):
+    """`<joint>` or `<actuator>` of a transmission; None for a reduction or offset that is not written."""
+
+    attributes: Xml
+    hardware_interfaces: Sequence[str]
+    mechanical_reduction: str | None
+    offset: str | None
+    elements: Xml
+
+
+class TransmissionView(NamedTuple):
+    """`<transmission>`."""
+
+    attributes: Xml
+    type: str
+    joints: tuple[EndView, ...]
+    actuators: tuple[EndView, ...]
+    parameters: Xml
+    elements: Xml
+
+
+def transmission_views(transmissions: Iterable[Transmission]) -> tuple[TransmissionView, ...]:
+    return tuple(
+        TransmissionView(
+            attributes(transmission, name=transmission.name),
+            transmission.type,
+            # An actuator states its reduction even if it is 1, because loaders ask for it; a joint need not.
+            tuple(
+                _end(joint, joint.mechanical_reduction if joint.mechanical_reduction != 1 else None)
+                for joint in transmission.joints
+            ),
+            tuple(_end(actuator, actuator.mechanical_reduction) for actuator in transmission.actuators),
+            parameter_elements(transmission.parameters),
+            elements(transmission),
+        )
+        for transmission in transmissions
+    )
+
+
+def _end(end: TransmissionJoint | TransmissionActuator, reduction: float | None) -> EndView:
+    return EndView(
+        attributes(end, name=end.name),
+        end.hardware_interfaces,
+        number_text(reduction) if reduction is not None else None,
+        number_text(end.offset) if end.offset != 0 else None,
+        elements(end),
+    )
