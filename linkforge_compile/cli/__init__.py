@@ -1,0 +1,1 @@
+"""The `linkforge` command: the only room that prints and exits."""

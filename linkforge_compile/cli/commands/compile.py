@@ -1,0 +1,100 @@
+"""`linkforge compile`: a spec to URDF and SRDF, on standard output or into files."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments, tell
+
+if TYPE_CHECKING:
+    import argparse
+
+    from linkforge_compile.core import Robot
+    from linkforge_compile.pipeline import Compilation
+
+FORMATS = ("urdf", "srdf")
+
+_EXAMPLES = """\
+examples:
+  linkforge compile arm.robot.yaml                      URDF to standard output
+  linkforge compile arm.robot.yaml -o build/            build/arm.urdf, and build/arm.srdf if it has `semantic`
+  linkforge compile arm.robot.yaml -o arm.urdf          one file
+  linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
+  linkforge compile - < arm.robot.yaml                  from standard input
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.epilog = _EXAMPLES
+    parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="PATH",
+        help="a folder for NAME.urdf and NAME.srdf, or one file that ends in .urdf, .srdf or .xml",
+    )
+    parser.add_argument("--format", choices=FORMATS, help="only this one (standard output: urdf unless said)")
+    add_spec_options(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    specs, assignments = split_assignments(arguments.words)
+    if len(specs) != 1:
+        raise UsageError(f"takes one spec, found {len(specs)}" + (f": {', '.join(specs)}" if specs else ""))
+    spec = specs[0]
+    targets = _targets(spec, arguments.output, arguments.format)
+    compilation = _compile(spec, [*arguments.parameters, *assignments], packages_of(arguments))
+    tell(compilation.diagnostics)
+    if compilation.robot is None:
+        return FAULTY_SPEC
+    return _write(compilation.robot, spec, targets)
+
+
+def _compile(spec: str, parameters: list[str], packages: dict[str, str]) -> Compilation:
+    from linkforge_compile.pipeline import compile_file, compile_text
+
+    if spec != "-":
+        return compile_file(spec, parameters=parameters, packages=packages)
+    text = sys.stdin.buffer.read().decode("utf-8", errors="replace")
+    return compile_text(text, name="<stdin>", folder=Path.cwd(), parameters=parameters, packages=packages)
+
+
+def _targets(spec: str, output: str | None, chosen: str | None) -> dict[str, Path | None]:
+    """Return where each format goes; None is standard output."""
+    if output is None:
+        return {chosen or "urdf": None}
+    path = Path(output)
+    if _is_file(output, path):
+        return {chosen or ("srdf" if path.suffix == ".srdf" else "urdf"): path}
+    name = "robot" if spec == "-" else Path(spec).name.removesuffix(".yaml").removesuffix(".yml").removesuffix(".robot")
+    return {format_: path / f"{name}.{format_}" for format_ in FORMATS if chosen in (None, format_)}
+
+
+def _is_file(output: str, path: Path) -> bool:
+    """A folder is what ends in a slash, is one, or has no ending."""
+    return bool(path.suffix) and not output.endswith(("/", "\\")) and not path.is_dir()
+
+
+def _write(robot: Robot, spec: str, targets: dict[str, Path | None]) -> int:
+    from linkforge_compile.backends import BACKENDS
+    from linkforge_compile.cli.output import write_if_changed
+
+    has_semantic = robot.semantic.normalized() != type(robot.semantic)(robot_name=robot.name)
+    if not has_semantic:
+        if "urdf" not in targets:
+            print(f"{spec}: the robot has no `semantic` part, so there is no SRDF to write", file=sys.stderr)
+            return FAULTY_SPEC
+        targets = {"urdf": targets["urdf"]}
+    banner = None if spec == "-" else f"Compiled by linkforge from {Path(spec).name}; edit that file, not this one."
+    texts = {format_: BACKENDS[format_](robot, banner=banner) for format_ in targets}
+    for format_, path in targets.items():
+        if path is None:
+            sys.stdout.buffer.write(texts[format_].encode("utf-8"))
+        elif write_if_changed(path, texts[format_]):
+            print(f"wrote {path}", file=sys.stderr)
+        else:
+            print(f"{path} is up to date", file=sys.stderr)
+    return OK

@@ -1,0 +1,120 @@
+"""The entry point: argument tree, exit codes, and the promise that nobody ever sees a traceback."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from linkforge_compile._version import __version__
+from linkforge_compile.cli.exits import INTERNAL_FAULT, INTERRUPTED, OK, WRONG_USAGE, UsageError
+
+if TYPE_CHECKING:
+    import argparse
+
+_COMMANDS = {
+    "compile": "compile a spec to URDF and SRDF",
+    "check": "tell all that is wrong with specs, writing nothing",
+    "schema": "print the JSON Schema of specs, for editors",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code."""
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    if words in (["--version"], ["-V"]):
+        # Asked for by scripts and completions on every prompt, so it is answered before argparse is imported.
+        print(f"linkforge {__version__}")
+        return OK
+    try:
+        return _run(words)
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except BrokenPipeError:
+        # `linkforge compile … | head`: the reader has what it wanted.
+        _silence_stdout()
+        return OK
+    except Exception as fault:
+        # The last stand: whatever gets here is our fault, not the user's, and is told as such.
+        return _confess(fault)
+
+
+def _run(words: list[str]) -> int:
+    if not words or words[0] not in _COMMANDS:
+        return _no_command(words)
+    from importlib import import_module
+
+    name, *rest = words
+    command = import_module(f"linkforge_compile.cli.commands.{name}")
+    parser = _parser(f"linkforge {name}", _COMMANDS[name])
+    command.add_arguments(parser)
+    # Intermixed, so that `linkforge compile arm.robot.yaml -o build/ reach:=0.7` works as it does with ROS's tools.
+    arguments = parser.parse_intermixed_args(rest)
+    try:
+        code: int = command.run(arguments)
+        sys.stdout.flush()
+    except UsageError as error:
+        print(f"linkforge {name}: {error}", file=sys.stderr)
+        return WRONG_USAGE
+    return code
+
+
+def _no_command(words: list[str]) -> int:
+    """Answer `--help`, and tell of words that begin with no command."""
+    parser = _parser("linkforge", "a declarative compiler for robots: YAML specs in, URDF and SRDF out")
+    parser.usage = "linkforge [-h] [-V] COMMAND ..."
+    width = max(map(len, _COMMANDS))
+    parser.epilog = "\n".join(
+        (
+            "commands:",
+            *(f"  {name:{width}}  {summary}" for name, summary in _COMMANDS.items()),
+            "",
+            "`linkforge COMMAND --help` tells more. Exit codes: 0 clean, 1 errors in the spec, 2 wrong usage,",
+            "70 a fault of linkforge itself.",
+        )
+    )
+    parser.add_argument("-V", "--version", action="version", version=f"linkforge {__version__}")
+    parser.parse_known_args(words)
+    if not words:
+        parser.print_help(sys.stderr)
+        return WRONG_USAGE
+    from linkforge_compile.diagnostics.suggest import did_you_mean
+
+    return parser.error(f"'{words[0]}' is no command{did_you_mean(words[0], _COMMANDS)}")
+
+
+def _parser(program: str, summary: str) -> argparse.ArgumentParser:
+    import argparse
+
+    return argparse.ArgumentParser(
+        prog=program,
+        description=f"{summary[0].upper()}{summary[1:]}.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+
+
+def _silence_stdout() -> None:
+    """Point standard output nowhere, so that the interpreter's last flush meets no closed pipe."""
+    import os
+
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _confess(fault: Exception) -> int:
+    """Say that this is our fault and what to report; the traceback only where LINKFORGE_DEBUG asks for it."""
+    import os
+    import traceback
+
+    if os.environ.get("LINKFORGE_DEBUG"):
+        traceback.print_exception(fault)
+    frames = traceback.extract_tb(fault.__traceback__)
+    place = (
+        f"{frames[-1].filename.rpartition('linkforge_compile')[2].lstrip('/')}:{frames[-1].lineno}" if frames else "?"
+    )
+    print(
+        f"linkforge: internal fault: {type(fault).__name__} at {place}: {fault}\n"
+        f"This is a bug in linkforge {__version__} (Python {sys.version.split()[0]}), not in your spec. Please report\n"
+        "it with the spec and the command; LINKFORGE_DEBUG=1 prints the full traceback to go with it.",
+        file=sys.stderr,
+    )
+    return INTERNAL_FAULT

@@ -1,0 +1,64 @@
+"""The options that every command on a spec has, and how it tells what it found."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.render import render_text
+
+if TYPE_CHECKING:
+    import argparse
+
+
+def add_spec_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "-p",
+        "--parameter",
+        metavar="NAME=VALUE",
+        dest="parameters",
+        action="append",
+        default=[],
+        help="set a parameter of the spec, such as reach=0.7m; ROS's NAME:=VALUE works too, with or without -p",
+    )
+    parser.add_argument(
+        "--package",
+        metavar="NAME=PATH",
+        dest="packages",
+        action="append",
+        default=[],
+        help="the folder that package://NAME/ stands for, before any other place it is looked for",
+    )
+
+
+def packages_of(arguments: argparse.Namespace) -> dict[str, str]:
+    """Return the `--package` options as folder by name; UsageError for one that is not NAME=PATH."""
+    packages: dict[str, str] = {}
+    for pair in arguments.packages:
+        name, separator, folder = pair.partition("=")
+        if not (name and separator and folder):
+            raise UsageError(f"--package takes NAME=PATH, found '{pair}'")
+        if not Path(folder).is_dir():
+            raise UsageError(f"--package {pair}: there is no folder '{folder}'")
+        packages[name] = folder
+    return packages
+
+
+def split_assignments(words: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Part the words of a command line into specs and ROS's `name:=value`."""
+    specs: list[str] = []
+    assignments: list[str] = []
+    for word in words:
+        (assignments if ":=" in word else specs).append(word)
+    return specs, assignments
+
+
+def tell(diagnostics: Iterable[Diagnostic]) -> None:
+    """Write diagnostics to standard error, coloured on a terminal unless NO_COLOR is set (no-color.org)."""
+    colour = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
+    sys.stderr.write(render_text(diagnostics, colour=colour))

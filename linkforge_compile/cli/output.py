@@ -1,0 +1,53 @@
+"""Writing output files: whole or not at all, and only when their bytes change."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+
+from linkforge_compile.cli.exits import UsageError
+
+
+def write_if_changed(path: Path, text: str) -> bool:
+    """Put `text` into the file and return whether it had to be written; UsageError where that cannot be done.
+
+    An unchanged file keeps its time stamp, so that builds which depend on it stay still. The new bytes are
+    written beside it and moved over it in one step: whoever reads meanwhile sees the old file or the new one.
+    """
+    new = text.encode("utf-8")
+    # A link stays a link: what it points to is replaced.
+    target = Path(os.path.realpath(path))
+    try:
+        if target.is_file() and target.read_bytes() == new:
+            return False
+        target.parent.mkdir(parents=True, exist_ok=True)
+        _replace(target, new)
+    except OSError as error:
+        raise UsageError(f"cannot write '{path}': {error.strerror}") from error
+    return True
+
+
+def _replace(target: Path, new: bytes) -> None:
+    descriptor, beside = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+    try:
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(new)
+            file.flush()
+            os.fsync(file.fileno())
+        Path(beside).chmod(_mode_of(target))
+        Path(beside).replace(target)
+    except BaseException:
+        with suppress(OSError):
+            Path(beside).unlink()
+        raise
+
+
+def _mode_of(target: Path) -> int:
+    """Return the file's permissions, those of a new file where there is none: mkstemp's are for the owner only."""
+    if target.exists():
+        return target.stat().st_mode & 0o7777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask

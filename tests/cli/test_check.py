@@ -1,0 +1,54 @@
+"""`linkforge check`, run as a program."""
+
+from pathlib import Path
+
+from tests.cli.test_compile import PENDULUM, linkforge
+
+FAULTY = """\
+linkforge: 1
+name: faulty
+links:
+  base: {visual: {box: [1, 1, 1], material: stele}}
+  arm: {inertial: {mas: 3}}
+materials:
+  steel: {color: [1, 1, 1]}
+joints:
+  hinge: {type: revolut, parent: base, child: arm, axis: y}
+"""
+
+
+def test_every_error_is_told_at_once(tmp_path: Path):
+    (tmp_path / "faulty.robot.yaml").write_text(FAULTY)
+    run = linkforge("check", "faulty.robot.yaml", cwd=tmp_path)
+    assert run.returncode == 1
+    assert run.stdout == ""
+    places = [line.split(": error: ")[0] for line in run.stderr.splitlines() if ": error: " in line]
+    assert places == ["faulty.robot.yaml:4:45", "faulty.robot.yaml:5:20", "faulty.robot.yaml:9:17"]
+    assert "did you mean 'steel'?" in run.stderr
+    assert run.stderr.splitlines()[-1] == "checked 1 spec: 3 errors"
+
+
+def test_several_specs_are_checked_in_one_run(tmp_path: Path):
+    (tmp_path / "good.robot.yaml").write_text(PENDULUM)
+    (tmp_path / "faulty.robot.yaml").write_text(FAULTY)
+    run = linkforge("check", "good.robot.yaml", "faulty.robot.yaml", cwd=tmp_path)
+    assert run.returncode == 1
+    assert run.stderr.splitlines()[-1] == "checked 2 specs: 3 errors"
+
+
+def test_a_clean_spec_says_so(tmp_path: Path):
+    (tmp_path / "good.robot.yaml").write_text(PENDULUM)
+    run = linkforge("check", "good.robot.yaml", cwd=tmp_path)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", "checked 1 spec: no errors\n")
+
+
+def test_an_unset_parameter_is_an_error_only_when_compiling(tmp_path: Path):
+    (tmp_path / "open.robot.yaml").write_text(PENDULUM.replace(", default: 0.5 m", ""))
+    assert linkforge("check", "open.robot.yaml", cwd=tmp_path).returncode == 0
+    assert linkforge("compile", "open.robot.yaml", cwd=tmp_path).returncode == 1
+
+
+def test_a_missing_file_is_told(tmp_path: Path):
+    run = linkforge("check", "nowhere.robot.yaml", cwd=tmp_path)
+    assert run.returncode == 1
+    assert "nowhere.robot.yaml" in run.stderr

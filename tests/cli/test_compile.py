@@ -1,0 +1,188 @@
+"""`linkforge compile`, run as a program."""
+
+import os
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+PENDULUM = """\
+linkforge: 1
+name: pendulum
+parameters:
+  length: {type: length, default: 0.5 m}
+links:
+  base:
+  rod: {visual: {box: [0.02, 0.02, $(length)]}, inertial: {mass: 1.5}}
+joints:
+  hinge: {type: continuous, parent: base, child: rod, axis: y}
+"""
+
+SEMANTIC = "semantic: {groups: {swing: {joints: [hinge]}}}\n"
+
+
+def linkforge(*words: str, cwd: Path, stdin: str = "", **env: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "linkforge_compile", *words],
+        cwd=cwd,
+        input=stdin,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+        env={**os.environ, **env},
+    )
+
+
+@pytest.fixture
+def pendulum(tmp_path: Path) -> Path:
+    (tmp_path / "swing.robot.yaml").write_text(PENDULUM)
+    return tmp_path
+
+
+def box_height(urdf: str) -> str:
+    return etree.fromstring(urdf.encode()).find(".//box").get("size").split()[2]
+
+
+def test_urdf_goes_to_standard_output_and_nothing_else_does(pendulum: Path):
+    run = linkforge("compile", "swing.robot.yaml", cwd=pendulum)
+    assert (run.returncode, run.stderr) == (0, "")
+    robot = etree.fromstring(run.stdout.encode())
+    assert robot.get("name") == "pendulum"
+    assert [link.get("name") for link in robot.iter("link")] == ["base", "rod"]
+
+
+def test_a_folder_gets_files_named_after_the_spec(pendulum: Path):
+    (pendulum / "swing.robot.yaml").write_text(PENDULUM + SEMANTIC)
+    run = linkforge("compile", "swing.robot.yaml", "-o", "build/", cwd=pendulum)
+    assert (run.returncode, run.stdout) == (0, "")
+    assert sorted(path.name for path in (pendulum / "build").iterdir()) == ["swing.srdf", "swing.urdf"]
+
+
+def test_no_srdf_is_written_without_a_semantic_part(pendulum: Path):
+    linkforge("compile", "swing.robot.yaml", "-o", "build", cwd=pendulum)
+    assert [path.name for path in (pendulum / "build").iterdir()] == ["swing.urdf"]
+
+
+def test_asking_for_srdf_without_a_semantic_part_is_told(pendulum: Path):
+    run = linkforge("compile", "swing.robot.yaml", "--format", "srdf", cwd=pendulum)
+    assert (run.returncode, run.stdout) == (1, "")
+    assert "no `semantic` part" in run.stderr
+
+
+@pytest.mark.parametrize("words", [("-o", "out.srdf"), ("-o", "out.xml", "--format", "srdf")])
+def test_one_file_takes_its_format_from_its_name_or_the_option(pendulum: Path, words: tuple[str, ...]):
+    (pendulum / "swing.robot.yaml").write_text(PENDULUM + SEMANTIC)
+    assert linkforge("compile", "swing.robot.yaml", *words, cwd=pendulum).returncode == 0
+    assert "<group " in (pendulum / words[1]).read_text()
+
+
+@pytest.mark.parametrize("words", [("-p", "length=700 mm"), ("-p", "length:=0.7"), ("length:=0.7m",)])
+def test_a_parameter_is_set_in_any_of_the_spellings(pendulum: Path, words: tuple[str, ...]):
+    run = linkforge("compile", "swing.robot.yaml", *words, cwd=pendulum)
+    assert box_height(run.stdout) == "0.7"
+
+
+def test_a_spec_comes_from_standard_input(pendulum: Path):
+    run = linkforge("compile", "-", cwd=pendulum, stdin=PENDULUM)
+    assert run.returncode == 0
+    assert box_height(run.stdout) == "0.5"
+
+
+def test_errors_are_told_with_line_and_caret_and_leave_the_old_output(pendulum: Path):
+    (pendulum / "swing.urdf").write_text("old")
+    (pendulum / "swing.robot.yaml").write_text(PENDULUM.replace("child: rod", "child: rodd"))
+    run = linkforge("compile", "swing.robot.yaml", "-o", "swing.urdf", cwd=pendulum)
+    assert run.returncode == 1
+    assert (pendulum / "swing.urdf").read_text() == "old"
+    lines = run.stderr.splitlines()
+    assert lines[0] == "swing.robot.yaml:9:50: error: no link named 'rodd'; did you mean 'rod'? [LF4102]"
+    assert lines[1].endswith("| " + PENDULUM.splitlines()[8].replace("child: rod", "child: rodd"))
+    assert lines[2].index("^^^^") - lines[2].index("|") == 51
+
+
+def test_an_unchanged_file_keeps_its_time_stamp(pendulum: Path):
+    linkforge("compile", "swing.robot.yaml", "-o", "swing.urdf", cwd=pendulum)
+    os.utime(pendulum / "swing.urdf", ns=(1, 1))
+    run = linkforge("compile", "swing.robot.yaml", "-o", "swing.urdf", cwd=pendulum)
+    assert (pendulum / "swing.urdf").stat().st_mtime_ns == 1
+    assert "up to date" in run.stderr
+    linkforge("compile", "swing.robot.yaml", "-o", "swing.urdf", "length:=0.6", cwd=pendulum)
+    assert (pendulum / "swing.urdf").stat().st_mtime_ns > 1
+
+
+@pytest.mark.skipif(os.name == "nt", reason="permissions as POSIX has them")
+def test_a_written_file_has_the_permissions_of_any_new_file_and_keeps_those_it_had(pendulum: Path):
+    (pendulum / "touched").touch()
+    linkforge("compile", "swing.robot.yaml", "-o", "swing.urdf", cwd=pendulum)
+    written = pendulum / "swing.urdf"
+    assert stat.S_IMODE(written.stat().st_mode) == stat.S_IMODE((pendulum / "touched").stat().st_mode)
+    written.chmod(0o640)
+    linkforge("compile", "swing.robot.yaml", "-o", "swing.urdf", "length:=1", cwd=pendulum)
+    assert stat.S_IMODE(written.stat().st_mode) == 0o640
+
+
+def test_output_through_a_link_keeps_the_link(pendulum: Path):
+    (pendulum / "real.urdf").write_text("old")
+    (pendulum / "link.urdf").symlink_to("real.urdf")
+    linkforge("compile", "swing.robot.yaml", "-o", "link.urdf", cwd=pendulum)
+    assert (pendulum / "link.urdf").is_symlink()
+    assert "pendulum" in (pendulum / "real.urdf").read_text()
+
+
+def test_nothing_is_left_beside_the_output(pendulum: Path):
+    linkforge("compile", "swing.robot.yaml", "-o", "out/swing.urdf", cwd=pendulum)
+    assert [path.name for path in (pendulum / "out").iterdir()] == ["swing.urdf"]
+
+
+def test_output_that_cannot_be_written_is_wrong_usage(pendulum: Path):
+    (pendulum / "file").touch()
+    run = linkforge("compile", "swing.robot.yaml", "-o", "file/swing.urdf", cwd=pendulum)
+    assert run.returncode == 2
+    assert "cannot write 'file/swing.urdf'" in run.stderr
+
+
+def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp_path_factory: pytest.TempPathFactory):
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    here = linkforge("compile", "swing.robot.yaml", cwd=pendulum, PYTHONHASHSEED="1")
+    there = linkforge("compile", str(pendulum / "swing.robot.yaml"), cwd=elsewhere, PYTHONHASHSEED="2")
+    assert here.stdout == there.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ((), "usage: linkforge"),
+        (("compile",), "required: SPEC"),
+        (("compile", "a.robot.yaml", "b.robot.yaml"), "takes one spec, found 2"),
+        (("compile", "swing.robot.yaml", "--package", "arm"), "--package takes NAME=PATH"),
+        (("compile", "swing.robot.yaml", "--package", "arm=nowhere"), "there is no folder 'nowhere'"),
+        (("compile", "swing.robot.yaml", "--format", "sdf"), "invalid choice"),
+        (("complie", "swing.robot.yaml"), "'complie' is no command; did you mean 'compile'?"),
+        (("--verbose",), "'--verbose' is no command"),
+    ],
+)
+def test_wrong_usage_is_told(pendulum: Path, words: tuple[str, ...], said: str):
+    run = linkforge(*words, cwd=pendulum)
+    assert run.returncode == 2
+    assert said in run.stderr
+
+
+def test_a_fault_of_ours_says_so_without_a_traceback(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
+    from linkforge_compile import pipeline
+    from linkforge_compile.cli.main import main
+
+    def fail(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("by zero")
+
+    monkeypatch.delenv("LINKFORGE_DEBUG", raising=False)
+    monkeypatch.setattr(pipeline, "compile_file", fail)
+    assert main(["compile", "any.robot.yaml"]) == 70
+    said = capsys.readouterr().err
+    assert "internal fault: ZeroDivisionError" in said
+    assert "Traceback" not in said

@@ -1,0 +1,84 @@
+"""The house, held true: which room may import from which. Read downward, the table is the compiler."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[1] / "linkforge_compile"
+
+MAY_IMPORT = {
+    "source": "",
+    "units": "",
+    "resources": "",
+    "_version": "",
+    "diagnostics": "source",
+    "syntax": "source diagnostics units",
+    "schema": "source diagnostics syntax units resources",
+    "expressions": "source diagnostics units",
+    "modules": "source diagnostics units syntax schema expressions",
+    "core": "source units",
+    "lowering": "source diagnostics units syntax modules core",
+    "checks": "source diagnostics core",
+    "backends": "source diagnostics units core resources",
+    "pipeline": "source diagnostics units syntax schema modules lowering checks backends core",
+    "cli": "source diagnostics core checks schema pipeline backends resources _version",
+}
+
+# `Robot.export_urdf` and `export_srdf` are methods because the contract says so: the one place that reaches up.
+REACHES_UP = {("core/models/robot.py", room) for room in ("diagnostics", "checks", "backends")}
+
+FACES = {"__init__", "__main__"}
+
+
+def rooms_imported_by(path: Path) -> Iterator[str]:
+    """Yield the room of every import of ours in a file, those inside functions too."""
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        match node:
+            case ast.Import(names=names):
+                modules = [alias.name for alias in names]
+            case ast.ImportFrom(module="linkforge_compile", names=names, level=0):
+                modules = [f"linkforge_compile.{alias.name}" for alias in names]
+            case ast.ImportFrom(module=module, level=0):
+                modules = [module or ""]
+            case ast.ImportFrom():
+                pytest.fail(f"{path}:{node.lineno}: relative import; the table reads absolute ones")
+            case _:
+                continue
+        for module in modules:
+            package, _, rest = module.partition(".")
+            if package == "linkforge_compile" and rest:
+                yield rest.split(".")[0]
+
+
+def room_of(path: Path) -> str:
+    return path.relative_to(PACKAGE).with_suffix("").parts[0]
+
+
+FILES = sorted(path for path in PACKAGE.rglob("*.py") if "_data" not in path.parts)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
+def test_a_room_imports_only_what_lies_below_it(path: Path):
+    room = room_of(path)
+    if room in FACES:
+        return
+    allowed = {room, *MAY_IMPORT[room].split()}
+    above = {
+        other
+        for other in rooms_imported_by(path)
+        if other not in allowed and (path.relative_to(PACKAGE).as_posix(), other) not in REACHES_UP
+    }
+    assert not above, f"{room} may import {sorted(allowed - {room})}"
+
+
+def test_the_table_has_no_cycle():
+    order: list[str] = []
+    for room, below in MAY_IMPORT.items():
+        assert set(below.split()) <= set(order), f"{room} imports a room that stands further down"
+        order.append(room)
+
+
+def test_every_room_is_in_the_table():
+    assert {room_of(path) for path in FILES} - FACES == set(MAY_IMPORT)

@@ -1,0 +1,72 @@
+"""Bad specs, each with its expected diagnostics on the lines at fault; what is not expected fails as well."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile.diagnostics import Code, codes
+from linkforge_compile.diagnostics.codes import REGISTER
+from tests.yaml_case import check_case, expected
+
+BAD = sorted((Path(__file__).parent / "cases" / "bad").glob("*.yaml"))
+
+FAMILIES = [module for module in vars(codes).values() if getattr(module, "__package__", None) == codes.__name__]
+
+# Raised where no spec file of today's language can show them; the named test file does.
+WITHOUT_A_CASE = {
+    "LF3013": "modules/test_modules.py",
+    "LF3014": "modules/test_modules.py",
+    "LF3022": "modules/test_expand.py",
+    "LF3028": "modules/test_parameters.py",
+    "LF3029": "modules/test_parameters.py",
+    "LF4201": "checks/test_hardware.py",
+    "LF5611": "checks/test_srdf.py",
+    "LF6101": "checks/test_hardware.py",
+    "LF6102": "checks/test_hardware.py",
+    "LF6103": "checks/test_hardware.py",
+    "LF7001": "backends/test_limits.py",
+    "LF7101": "backends/test_limits.py",
+    "LF7102": "backends/test_limits.py",
+    "LF7103": "backends/test_limits.py",
+    "LF7104": "backends/test_limits.py",
+    "LF7105": "backends/test_limits.py",
+}
+
+
+@pytest.mark.parametrize("path", BAD, ids=lambda path: path.name)
+def test_a_bad_spec_is_told_at_its_line(path: Path):
+    check_case(path)
+
+
+@pytest.mark.parametrize("path", BAD, ids=lambda path: path.name)
+def test_a_case_is_named_after_a_code_that_it_expects(path: Path):
+    code = path.name.partition("_")[0]
+    files = [path, *(BAD[0].parent / "modules").rglob("*.yaml")]
+    assert code in {one.code for file in files for one in expected(file.name, file.read_text("utf-8", "replace"))}
+
+
+def test_every_code_has_a_case():
+    shown = {path.name.partition("_")[0] for path in BAD}
+    assert shown | set(WITHOUT_A_CASE) == set(REGISTER)
+
+
+@pytest.mark.parametrize(("code", "file"), WITHOUT_A_CASE.items())
+def test_a_code_without_a_case_is_told_in_its_test(code: str, file: str):
+    """By its id, its name, or the longest run of its words."""
+    one = REGISTER[code]
+    words = max(re.split(r"\{\w+\}", one.message), key=len).strip()
+    names = [name for family in FAMILIES for name, value in vars(family).items() if value is one]
+    text = (Path(__file__).parent / file).read_text("utf-8")
+    assert any(sign in text for sign in (code, words, *names))
+
+
+def test_codes_are_numbered_by_family():
+    for code in REGISTER.values():
+        assert re.fullmatch(r"LF[1-8]\d{3}", code.id)
+
+
+def test_no_two_codes_share_an_id():
+    assert len(FAMILIES) >= 7
+    ids = [code.id for family in FAMILIES for code in vars(family).values() if isinstance(code, Code)]
+    assert sorted(ids) == sorted(set(ids))
