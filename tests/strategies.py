@@ -125,7 +125,7 @@ limits = st.builds(
 def joints(draw: st.DrawFn, named: Strategy = names, ends: Strategy | None = None) -> Joint:
     """Draw a joint of any type; `ends` gives its parent and child, two different links."""
     kind = draw(st.sampled_from(JointType))
-    parent, child = draw(ends or st.lists(names, min_size=2, max_size=2, unique=True))
+    parent, child = draw(st.lists(names, min_size=2, max_size=2, unique=True) if ends is None else ends)
     turns = kind not in {JointType.FIXED, JointType.FLOATING}
     return Joint(
         draw(named),

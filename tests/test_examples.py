@@ -1,4 +1,4 @@
-"""The course: every example is a golden test, and real consumers judge what comes out."""
+"""Golden files: every example and every case in cases/good, and real consumers judge what comes out."""
 
 import json
 import subprocess
@@ -11,7 +11,8 @@ from linkforge_compile import Robot, compile_file, render_srdf, render_urdf
 from tests.conftest import ROOT
 from tests.consumers import check_urdf, mujoco_model, pinocchio_model
 
-SPECS = sorted((ROOT / "examples").rglob("*.robot.yaml"))
+EXAMPLES = sorted((ROOT / "examples").rglob("*.robot.yaml"))
+SPECS = [*EXAMPLES, *sorted((ROOT / "tests" / "cases" / "good").rglob("*.robot.yaml"))]
 
 
 def name_of(spec: Path) -> str:
@@ -19,15 +20,18 @@ def name_of(spec: Path) -> str:
 
 
 def compiled(spec: Path) -> Robot:
-    compilation = compile_file(spec)
-    assert not compilation.diagnostics, "\n".join(map(str, compilation.diagnostics))
-    return compilation.result()
+    return compile_file(spec).result()
 
 
 @pytest.fixture(params=SPECS, ids=name_of)
 def spec(request: pytest.FixtureRequest) -> Path:
     path: Path = request.param
     return path
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=name_of)
+def test_nothing_is_wrong_with_an_example(example: Path):
+    assert not compile_file(example).diagnostics
 
 
 def test_an_example_compiles_to_the_files_beside_it(spec: Path, tmp_path: Path, update_golden: bool):

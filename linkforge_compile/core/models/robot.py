@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -163,9 +164,10 @@ class Robot(SemanticRobot):
         transmissions = self.transmissions.extended(parts.transmissions)
         ros2_controls = self.ros2_controls.extended(parts.ros2_controls)
         semantic = self._semantic.joined(parts.semantic) if parts.semantic else self._semantic
-        # Whatever can fail has not failed: from here on the robot changes.
+        # From here on the robot changes. Links come first: they alone can still be refused, had two been renamed alike.
+        self.links = links
+        self.joints = joints
         self.materials.update(materials)
-        self.links, self.joints = links, joints
         self.sensors, self.transmissions, self.ros2_controls = sensors, transmissions, ros2_controls
         self.gazebo_elements = self.gazebo_elements.extended(parts.gazebo_elements)
         self.extra_elements = self.extra_elements.extended(parts.extra_elements)
@@ -259,10 +261,16 @@ def _require(parts: Index[Link] | Index[Joint], name: str, what: str, target: st
 
 def _gazebo_order(element: GazeboElement) -> tuple[str, str]:
     """By reference, then by content: several elements may speak of one part."""
-    plugins = [(plugin.name, plugin.filename, sorted(plugin.parameters.items())) for plugin in element.plugins]
-    said = {
-        name: value
-        for name in ("material", "static", "stop_cfm", "stop_erp", "provide_feedback", "implicit_spring_damper")
-        if (value := getattr(element, name)) is not None
+    content: dict[str, object] = {
+        **{name: getattr(element, name) for name in element.__match_args__ if name not in {"reference", "plugins"}},
+        "plugins": [(plugin.name, plugin.filename, _in_order(plugin.parameters)) for plugin in element.plugins],
+        "extras": (element.extra_attributes, element.extra_elements),
     }
-    return element.reference or "", repr((sorted(element.properties.items()), plugins, said, element.extra_elements))
+    return element.reference or "", repr(_in_order(content))
+
+
+def _in_order(value: object) -> object:
+    """Return a value with the items of every mapping in it sorted, since equality does not ask for their order."""
+    if isinstance(value, Mapping):
+        return sorted((name, _in_order(item)) for name, item in value.items())
+    return [_in_order(item) for item in value] if isinstance(value, tuple | list) else value

@@ -1,0 +1,250 @@
+"""Merging: everything nameable comes along, all of it or nothing."""
+
+import sys
+from dataclasses import replace
+from subprocess import run
+
+import pytest
+
+from linkforge_compile.core import (
+    Box,
+    Color,
+    EndEffector,
+    GazeboElement,
+    GroupState,
+    IMUInfo,
+    Joint,
+    JointDynamics,
+    JointLimits,
+    JointMimic,
+    JointType,
+    Link,
+    Material,
+    PassiveJoint,
+    Robot,
+    RobotModelError,
+    Ros2Control,
+    Ros2ControlJoint,
+    SemanticRobotDescription,
+    Sensor,
+    SensorType,
+    Transform,
+    Transmission,
+    ValidationErrorCode,
+    Vector3,
+    Visual,
+)
+
+Code = ValidationErrorCode
+RED, BLUE = Color(1, 0, 0), Color(0, 0, 1)
+
+
+def gripper() -> Robot:
+    """A palm and a finger, with one of everything that has a name."""
+    robot = Robot("gripper", links=[Link("palm"), Link("finger")], metadata={"maker": "us"}, version="7")
+    robot.materials["skin"] = Material("skin", RED)
+    robot.link("palm").add_visual(Visual(Box(Vector3(1, 1, 1)), material=robot.materials["skin"]))
+    robot.add_joint(Joint("close", JointType.CONTINUOUS, "palm", "finger", axis=Vector3(0, 0, 1)))
+    robot.add_sensor(Sensor("imu", SensorType.IMU, "palm", imu_info=IMUInfo(), topic="imu", frame="palm"))
+    robot.add_transmission(Transmission.create_simple("drive", "close"))
+    robot.add_ros2_control(Ros2Control("motor", "system", "x/Y", [Ros2ControlJoint("close", ["position"])]))
+    robot.add_gazebo_element(GazeboElement("palm"))
+    robot.add_group("fingers", joints=["close"]).disable_collisions("palm", "finger")
+    robot.add_semantic(SemanticRobotDescription(group_states=[GroupState("home", "fingers", {"close": 0.0})]))
+    robot.extra_elements = ["<note/>"]
+    return robot
+
+
+def station() -> Robot:
+    return Robot("station", links=[Link("table")])
+
+
+def test_everything_nameable_comes_along_under_the_prefix():
+    robot = station().merge(gripper(), "table", "mount", prefix="left_")
+    assert robot.links.names == ("table", "left_palm", "left_finger")
+    assert robot.joints.names == ("left_close", "mount")
+    assert robot.sensor("left_imu") == Sensor(
+        "left_imu", SensorType.IMU, "left_palm", imu_info=IMUInfo(), topic="left_imu", frame="left_palm"
+    )
+    assert robot.transmission("left_drive").joints[0].name == "left_close"
+    assert robot.ros2_control("left_motor").joints[0].name == "left_close"
+    assert robot.get_gazebo_elements("left_palm") == [GazeboElement("left_palm")]
+    assert robot.materials == {"left_skin": Material("left_skin", RED)}
+    assert robot.link("left_palm").visuals[0].material == robot.materials["left_skin"]
+    assert robot.semantic.groups[0].joints == ("left_close",)
+    assert robot.semantic.group_states == (GroupState("left_home", "left_fingers", {"left_close": 0.0}),)
+    assert robot.extra_elements == ("<note/>",)
+
+
+def test_the_robot_keeps_what_is_its_own_and_the_component_stays_as_it_was():
+    component = gripper()
+    robot = station().merge(component, "table", "mount", prefix="left_")
+    assert (robot.name, robot.version, robot.metadata) == ("station", "1.1", {})
+    assert robot.semantic.robot_name == "station"
+    assert component == gripper()
+    robot.merge(component, "table", "second").link("palm").name = "hand"
+    assert component == gripper()
+
+
+def test_the_connecting_joint_is_fixed_unless_said_and_leads_to_the_root():
+    robot = station().merge(gripper(), "table", "mount", prefix="left_")
+    assert robot.joint("mount") == Joint("mount", JointType.FIXED, "table", "left_palm")
+    pose, axis, limits = Transform(Vector3(0, 0, 1)), Vector3(1, 0, 0), JointLimits(-1, 1)
+    robot.merge(gripper(), "table", "hinge", "right_", JointType.REVOLUTE, pose, axis, limits)
+    assert robot.joint("hinge") == Joint("hinge", JointType.REVOLUTE, "table", "right_palm", pose, axis, limits)
+
+
+def test_the_connecting_joint_takes_the_rest_from_a_given_joint():
+    given = Joint(
+        "any",
+        JointType.FIXED,
+        "a",
+        "b",
+        Transform(Vector3(9, 9, 9)),
+        dynamics=JointDynamics(0.5),
+        mimic=JointMimic("other"),
+        extra_elements=["<x/>"],
+    )
+    robot = station().merge(gripper(), "table", "mount", prefix="left_", joint=given)
+    plain = Joint("mount", JointType.FIXED, "table", "left_palm", dynamics=given.dynamics, mimic=given.mimic)
+    assert robot.joint("mount") == replace(plain, extra_elements=["<x/>"])
+
+
+def test_without_a_link_the_component_is_laid_in_with_its_own_root():
+    robot = Robot("mobile").merge(gripper(), None, None, prefix="base_")
+    assert robot.root_link.name == "base_palm"
+    assert robot.joints.names == ("base_close",)
+    robot.merge(station(), "base_finger", "post")
+    assert robot.get_parent_link("table").name == "base_finger"
+
+
+def test_prefixes_nest():
+    hand = Robot("arm", links=[Link("flange")]).merge(gripper(), "flange", "grip", prefix="hand_")
+    robot = station().merge(hand, "table", "mount", prefix="left_")
+    assert robot.has_link("left_hand_palm")
+    assert robot.joint("left_grip").child == "left_hand_palm"
+    assert robot.semantic.groups[0].name == "left_hand_fingers"
+
+
+def test_a_robot_can_be_merged_into_itself():
+    robot = gripper()
+    robot.merge(robot, "finger", "splice", prefix="next_")
+    assert robot.links.names == ("palm", "finger", "next_palm", "next_finger")
+
+
+def with_only(**kinds: object) -> Robot:
+    """A robot of one link whose name is free, and of parts whose names may be taken."""
+    robot = Robot("other", links=[Link("free"), Link("palm2")])
+    robot.add_joint(Joint("close2", "fixed", "free", "palm2"))
+    for kind, value in kinds.items():
+        setattr(robot, kind, value)
+    return robot
+
+
+CLASHES = {
+    "link": with_only(links=[Link("palm")], joints=()),
+    "joint": with_only(joints=[Joint("close", "fixed", "free", "palm2")]),
+    "sensor": with_only(sensors=[Sensor("imu", SensorType.IMU, "free", imu_info=IMUInfo())]),
+    "transmission": with_only(transmissions=[Transmission.create_simple("drive", "close2")]),
+    "ros2_control": with_only(
+        ros2_controls=[Ros2Control("motor", "system", "x/Y", [Ros2ControlJoint("close2", ["effort"])])]
+    ),
+    "material": with_only(materials={"skin": Material("skin", BLUE)}),
+    "group": with_only(semantic=gripper().semantic),
+    "group state": with_only(
+        semantic=SemanticRobotDescription(group_states=[GroupState("home", "fingers", {"close2": 1.0})])
+    ),
+}
+
+
+@pytest.mark.parametrize("component", CLASHES.values(), ids=CLASHES)
+def test_two_parts_of_one_name_are_an_error_and_the_robot_stays_as_it_was(component):
+    robot = station().merge(gripper(), "table", "mount")
+    before = robot.clone()
+    with pytest.raises(RobotModelError) as refused:
+        robot.merge(component, "table", "second")
+    assert refused.value.code is Code.DUPLICATE_NAME
+    assert robot == before
+    assert robot.merge(component, "table", "third", prefix="other_").joint("third").parent == "table"
+
+
+def test_states_of_one_name_belong_to_their_groups():
+    home = GroupState("home", "legs", {"close2": 1.0})
+    component = with_only(semantic=SemanticRobotDescription(group_states=[home]))
+    robot = station().merge(gripper(), "table", "mount").merge(component, "table", "second")
+    assert [(state.group, state.name) for state in robot.semantic.group_states] == [
+        ("fingers", "home"),
+        ("legs", "home"),
+    ]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [{"end_effectors": [EndEffector("tool", "g", "palm")]}, {"passive_joints": [PassiveJoint("wheel")]}],
+    ids=["end effector", "passive joint"],
+)
+def test_nothing_semantic_is_said_twice(said):
+    robot = station().add_semantic(SemanticRobotDescription(**said))
+    with pytest.raises(RobotModelError, match="Duplicate"):
+        robot.merge(with_only(semantic=SemanticRobotDescription(**said)), "table", "mount")
+
+
+def test_equal_materials_may_share_a_name():
+    robot = station().merge(gripper(), "table", "mount")
+    robot.merge(with_only(materials={"skin": Material("skin", RED)}), "table", "second")
+    assert robot.materials == {"skin": Material("skin", RED)}
+
+
+def test_the_connecting_joint_may_not_take_a_name_from_either_robot():
+    robot = station().merge(gripper(), "table", "mount", prefix="a_")
+    for taken in ("mount", "a_close", "b_close"):
+        with pytest.raises(RobotModelError, match=f"Duplicate joint name: '{taken}'"):
+            robot.merge(gripper(), "table", taken, prefix="b_")
+
+
+def ring(*extra: Link) -> Robot:
+    robot = Robot("ring", links=[Link("a"), Link("b"), *extra])
+    robot.add_joint(Joint("ab", "fixed", "a", "b"))
+    robot.add_joint(Joint("ba", "fixed", "b", "a"))
+    return robot
+
+
+REFUSED = {
+    "an unknown link": (gripper(), {"at_link": "nowhere"}, Code.NOT_FOUND),
+    "no name for the joint": (gripper(), {"joint_name": None}, Code.NAME_EMPTY),
+    "no root": (Robot("empty"), {}, Code.NO_ROOT),
+    "two roots": (Robot("two", links=[Link("a"), Link("b")]), {}, Code.MULTIPLE_ROOTS),
+    "a cycle beside the root": (ring(Link("root")), {}, Code.HAS_CYCLE),
+    "a cycle, laid in": (ring(), {"at_link": None, "joint_name": None}, Code.HAS_CYCLE),
+    "a loose joint": (Robot("loose", links=[Link("a")], joints=[Joint("j", "fixed", "a", "b")]), {}, Code.NOT_FOUND),
+    "a bad prefix": (gripper(), {"prefix": "left arm "}, Code.INVALID_NAME),
+    "an axis that a fixed joint has not": (gripper(), {"axis": Vector3(1, 0, 0)}, Code.INVALID_VALUE),
+}
+
+
+@pytest.mark.parametrize(("component", "arguments", "code"), REFUSED.values(), ids=REFUSED)
+def test_what_cannot_be_joined_is_refused_and_the_robot_stays_as_it_was(component, arguments, code):
+    robot = station().merge(gripper(), "table", "mount", prefix="left_")
+    before = robot.clone()
+    with pytest.raises(RobotModelError) as refused:
+        robot.merge(component, **{"at_link": "table", "joint_name": "second", **arguments})
+    assert refused.value.code is code
+    assert robot == before
+
+
+def test_an_absolute_topic_is_kept():
+    component = gripper()
+    component.sensors = [replace(component.sensors[0], topic="/imu")]
+    assert station().merge(component, "table", "mount", prefix="left_").sensors[0].topic == "/imu"
+
+
+def test_merging_and_finding_the_root_do_without_networkx_and_srdf():
+    script = """
+import sys
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.link import Link
+robot = Robot("r", links=[Link("a")])
+robot.merge(Robot("s", links=[Link("b")]), "a", "j", prefix="x_").root_link
+print("networkx" in sys.modules, "linkforge_compile.core.models.srdf" in sys.modules)
+"""
+    assert run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "False False\n"
