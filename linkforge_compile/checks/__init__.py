@@ -19,6 +19,7 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     tree.check_second_parents,
     tree.check_link_circles,
     tree.check_single_root,
+    joints.check_joint_range,
     joints.check_mimic_joints,
     joints.check_mimic_circles,
     joints.check_mimic_freedom,

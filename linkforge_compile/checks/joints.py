@@ -1,4 +1,4 @@
-"""Joints that follow other joints."""
+"""How far joints go, and joints that follow other joints."""
 
 from __future__ import annotations
 
@@ -9,11 +9,14 @@ from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.joint import Joint, JointMimic, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
-from linkforge_compile.diagnostics.codes.model import MIMIC_CIRCLE, MIMIC_FREEDOM
+from linkforge_compile.diagnostics.codes.model import MIMIC_CIRCLE, MIMIC_FREEDOM, NO_RANGE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT
 
 AXIS_JOINTS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 """The types whose position is one number, which is all that a mimic can multiply."""
+
+
+BOUNDED_JOINTS = (JointType.REVOLUTE, JointType.PRISMATIC)
 
 
 def check_mimic_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
@@ -47,6 +50,18 @@ def check_mimic_freedom(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         if leader and leader is not joint and not {joint.type, leader.type}.issubset(AXIS_JOINTS):
             use = _mimic(joint, joint.mimic)
             yield use.told(MIMIC_FREEDOM, joint=joint.name, type=joint.type, leader=leader.name, led=leader.type)
+
+
+def check_joint_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A revolute or prismatic joint says how far it goes.
+
+    URDF takes an unsaid `lower` or `upper` for 0, so a joint that says neither cannot move. Write both, make the
+    joint `continuous` if it turns without end, or `fixed` if it is not to move.
+    """
+    for joint in robot.joints:
+        limits = joint.limits
+        if joint.type in BOUNDED_JOINTS and limits and limits.lower is None and limits.upper is None:
+            yield NO_RANGE.at(joint.source, "limits", joint=joint.name)
 
 
 def _mimics(robot: Robot) -> dict[str, Use]:

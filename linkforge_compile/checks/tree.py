@@ -9,7 +9,7 @@ from linkforge_compile.checks.references import SHOWN, Use, listed, unknown
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps, Note
+from linkforge_compile.diagnostics import Diagnostic, Gaps, Note, Where
 from linkforge_compile.diagnostics.codes.model import LINK_CIRCLE, NO_LINKS, SECOND_PARENT, SEVERAL_ROOTS
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
 
@@ -83,13 +83,21 @@ def check_single_root(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     root = max(roots, key=lambda link: below[link.name])
     strays = [link for link in roots if link is not root]
     yield SEVERAL_ROOTS.at(
-        strays[0].source,
+        _missing_joint(strays[0], root),
         notes=[_beginning(link, below[link.name]) for link in (root, *strays)[:SHOWN]],
         count=len(roots),
         roots=listed([link.name for link in roots]),
         strays=listed([link.name for link in strays]),
         root=root.name,
     )
+
+
+def _missing_joint(stray: Link, root: Link) -> Where:
+    """Return where the joint is to be added: at the stray link, or at the use of a module that brought it in alone."""
+    trail = stray.source.trail if stray.source else ()
+    of_root = root.source.trail if root.source else ()
+    uses = [use for use in trail if use not in of_root]
+    return uses[-1] if uses else stray.source
 
 
 def _links_below(root: str, graph: Graph) -> int:

@@ -52,7 +52,6 @@ def _run(words: list[str]) -> int:
     arguments = parser.parse_intermixed_args(rest)
     try:
         code: int = command.run(arguments)
-        sys.stdout.flush()
     except UsageError as error:
         print(f"linkforge {name}: {error}", file=sys.stderr)
         return WRONG_USAGE

@@ -3,11 +3,25 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 from contextlib import suppress
 from pathlib import Path
 
 from linkforge_compile.cli.exits import UsageError
+
+
+def write_to_stdout(text: str) -> None:
+    """Write text to standard output as UTF-8 with line ends as they are; UsageError where it cannot be written."""
+    try:
+        if sys.stdout is None:
+            raise UsageError("cannot write to standard output: it is closed")
+        sys.stdout.buffer.write(text.encode("utf-8"))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise UsageError(f"cannot write to standard output: {error.strerror}") from error
 
 
 def write_if_changed(path: Path, text: str) -> bool:
@@ -22,11 +36,20 @@ def write_if_changed(path: Path, text: str) -> bool:
     try:
         if target.is_file() and target.read_bytes() == new:
             return False
+        if target.exists() and not target.is_file():
+            # A device or pipe, such as /dev/stdout or what a shell makes of >(…): there is nothing to move in place.
+            target.write_bytes(new)
+            return True
         target.parent.mkdir(parents=True, exist_ok=True)
         _replace(target, new)
     except OSError as error:
-        raise UsageError(f"cannot write '{path}': {error.strerror}") from error
+        raise UsageError(f"cannot write '{path}': {_reason(error, target)}") from error
     return True
+
+
+def _reason(error: OSError, target: Path) -> str:
+    blocked = next((folder for folder in target.parents if folder.exists() and not folder.is_dir()), None)
+    return f"'{blocked.name}' is not a folder" if blocked else str(error.strerror)
 
 
 def _replace(target: Path, new: bytes) -> None:

@@ -76,8 +76,15 @@ class Code:
 
         `near` lists the names that would have been right: the one like the fact `name`, if any, is offered.
         """
-        message = self.message.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
+        message = on_one_line(self.message.format(**facts) + did_you_mean(str(facts.get("name", "")), near))
         if not isinstance(where, SourceRef):
             return Diagnostic(self, message, where, tuple(notes))
         trail = (Note("used here", use) for use in where.trail)
         return Diagnostic(self, message, where.at(*path), (*notes, *trail))
+
+
+def on_one_line(text: str) -> str:
+    """Return the text with line ends and control characters spelled out: a message quotes what hostile files hold."""
+    if text.isprintable():
+        return text
+    return "".join(each if each.isprintable() else each.encode("unicode_escape").decode() for each in text)

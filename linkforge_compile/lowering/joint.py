@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -56,7 +57,7 @@ _WITHOUT_AXIS = (JointType.FIXED, JointType.FLOATING)
 # Nothing of it is ever written, since a robot with errors is not rendered.
 _STAND_IN_TYPE = JointType.REVOLUTE
 _STAND_IN_AXIS = Vector3(0.0, 0.0, 1.0)
-_STAND_IN_LIMITS = JointLimits(effort=0.0, velocity=0.0)
+_STAND_IN_LIMITS = JointLimits(-sys.float_info.max, sys.float_info.max, 0.0, 0.0)
 
 _EXAMPLES = {Dimension.TORQUE: "50 N*m", Dimension.FORCE: "50 N", Dimension.ANGULAR_VELOCITY: "90 deg/s"}
 
@@ -172,9 +173,12 @@ def _limits(fields: Fields, joint_type: JointType, motion: _Motion) -> JointLimi
     lower, upper = limits.number("lower", *motion.position), limits.number("upper", *motion.position)
     effort = limits.number("effort", *motion.effort, bound=NOT_NEGATIVE, required=_example(motion.effort))
     velocity = limits.number("velocity", *motion.velocity, bound=NOT_NEGATIVE, required=_example(motion.velocity))
-    if lower is not None and upper is not None and lower > upper:
+    are_crossed = lower is not None and upper is not None and lower > upper
+    if are_crossed:
         _tell_crossed(limits)
-        lower = upper = None
+    is_one_lost = (lower is None and limits.said("lower")) or (upper is None and limits.said("upper"))
+    if are_crossed or is_one_lost or limits.is_faulty:
+        lower, upper = _STAND_IN_LIMITS.lower, _STAND_IN_LIMITS.upper
     return limits.build(lambda: JointLimits(lower, upper, effort or 0.0, velocity or 0.0, source=limits.ref))
 
 

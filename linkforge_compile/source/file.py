@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -18,7 +18,7 @@ class SourceFile:
     """
 
     name: str
-    text: str
+    text: str = field(repr=False)
     path: Path | None = None
     order: int = 0
 

@@ -52,3 +52,13 @@ def test_a_missing_file_is_told(tmp_path: Path):
     run = linkforge("check", "nowhere.robot.yaml", cwd=tmp_path)
     assert run.returncode == 1
     assert "nowhere.robot.yaml" in run.stderr
+
+
+def test_a_fault_of_a_shared_module_is_told_once(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(FAULTY)
+    for name in ("a", "b"):
+        user = f"linkforge: 1\nname: {name}\nlinks: {{base: }}\nmodules: {{m: {{use: arm.robot.yaml, parent: base}}}}\n"
+        (tmp_path / f"{name}.robot.yaml").write_text(user)
+    run = linkforge("check", "a.robot.yaml", "b.robot.yaml", cwd=tmp_path)
+    assert run.stderr.count("[LF4105]") == 1
+    assert run.stderr.splitlines()[-1] == "checked 2 specs: 3 errors"

@@ -142,7 +142,37 @@ def test_output_that_cannot_be_written_is_wrong_usage(pendulum: Path):
     (pendulum / "file").touch()
     run = linkforge("compile", "swing.robot.yaml", "-o", "file/swing.urdf", cwd=pendulum)
     assert run.returncode == 2
-    assert "cannot write 'file/swing.urdf'" in run.stderr
+    assert "cannot write 'file/swing.urdf': 'file' is not a folder" in run.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="Linux's device that is always full")
+@pytest.mark.parametrize("output", ["> /dev/full", ">&-", "-o /dev/full"])
+def test_standard_output_that_cannot_be_written_is_no_fault_of_ours(pendulum: Path, output: str):
+    command = f"{sys.executable} -m linkforge_compile compile swing.robot.yaml {output}"
+    run = subprocess.run(command, shell=True, cwd=pendulum, capture_output=True, text=True, check=False, timeout=60)
+    assert run.returncode == 2
+    assert "cannot write" in run.stderr
+
+
+def test_a_reader_that_has_enough_is_no_fault(pendulum: Path):
+    command = f"{sys.executable} -m linkforge_compile schema | head -c 10"
+    run = subprocess.run(command, shell=True, cwd=pendulum, capture_output=True, text=True, check=False, timeout=60)
+    assert run.stderr == ""
+
+
+@pytest.mark.parametrize("output", ["swing.robot.yaml", "out.txt", "build.v2"])
+def test_an_ending_that_is_no_output_is_refused_and_nothing_is_overwritten(pendulum: Path, output: str):
+    run = linkforge("compile", "swing.robot.yaml", "-o", output, cwd=pendulum)
+    assert run.returncode == 2
+    assert "ends in .urdf, .srdf or .xml" in run.stderr
+    assert (pendulum / "swing.robot.yaml").read_text() == PENDULUM
+
+
+def test_standard_input_that_is_no_text_is_told(pendulum: Path):
+    command = f"printf '\\377\\376' | {sys.executable} -m linkforge_compile compile -"
+    run = subprocess.run(command, shell=True, cwd=pendulum, capture_output=True, text=True, check=False, timeout=60)
+    assert run.returncode == 2
+    assert "standard input is not UTF-8" in run.stderr
 
 
 def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp_path_factory: pytest.TempPathFactory):
@@ -161,6 +191,11 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         (("compile", "swing.robot.yaml", "--package", "arm"), "--package takes NAME=PATH"),
         (("compile", "swing.robot.yaml", "--package", "arm=nowhere"), "there is no folder 'nowhere'"),
         (("compile", "swing.robot.yaml", "--format", "sdf"), "invalid choice"),
+        (
+            ("compile", "swing.robot.yaml", "--format", "srdf", "-o", "a.urdf"),
+            "--format srdf does not go into 'a.urdf'",
+        ),
+        (("compile", "swing.robot.yaml", "length=1"), "write '-p length=1' to set a parameter"),
         (("complie", "swing.robot.yaml"), "'complie' is no command; did you mean 'compile'?"),
         (("--verbose",), "'--verbose' is no command"),
     ],

@@ -36,12 +36,14 @@ def run(arguments: argparse.Namespace) -> int:
     if not specs:
         raise UsageError("takes at least one spec")
     packages = packages_of(arguments)
-    told: list[Diagnostic] = []
+    # Specs that use one module share its faults: each is told and counted once.
+    told: dict[str, Diagnostic] = {}
     faulty = False
     for spec in specs:
         compilation = check_file(spec, parameters=[*arguments.parameters, *assignments], packages=packages)
-        tell(compilation.diagnostics)
-        told += compilation.diagnostics
+        new = {str(diagnostic): diagnostic for diagnostic in compilation.diagnostics if str(diagnostic) not in told}
+        tell(new.values())
+        told |= new
         faulty |= compilation.robot is None
-    print(f"checked {len(specs)} spec{'s' if len(specs) > 1 else ''}: {summary(told)}", file=sys.stderr)
+    print(f"checked {len(specs)} spec{'s' if len(specs) > 1 else ''}: {summary(told.values())}", file=sys.stderr)
     return FAULTY_SPEC if faulty else OK

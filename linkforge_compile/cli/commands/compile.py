@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from linkforge_compile.pipeline import Compilation
 
 FORMATS = ("urdf", "srdf")
+_FILE_ENDINGS = (".urdf", ".srdf", ".xml")
 
 _EXAMPLES = """\
 examples:
@@ -28,6 +29,7 @@ examples:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.usage = "linkforge compile [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
     parser.add_argument(
@@ -43,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     specs, assignments = split_assignments(arguments.words)
     if len(specs) != 1:
-        raise UsageError(f"takes one spec, found {len(specs)}" + (f": {', '.join(specs)}" if specs else ""))
+        raise UsageError(_not_one_spec(specs))
     spec = specs[0]
     targets = _targets(spec, arguments.output, arguments.format)
     compilation = _compile(spec, [*arguments.parameters, *assignments], packages_of(arguments))
@@ -58,7 +60,10 @@ def _compile(spec: str, parameters: list[str], packages: dict[str, str]) -> Comp
 
     if spec != "-":
         return compile_file(spec, parameters=parameters, packages=packages)
-    text = sys.stdin.buffer.read().decode("utf-8", errors="replace")
+    try:
+        text = sys.stdin.buffer.read().decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise UsageError(f"standard input is not UTF-8: {error.reason} at byte {error.start}") from None
     return compile_text(text, name="<stdin>", folder=Path.cwd(), parameters=parameters, packages=packages)
 
 
@@ -68,31 +73,52 @@ def _targets(spec: str, output: str | None, chosen: str | None) -> dict[str, Pat
         return {chosen or "urdf": None}
     path = Path(output)
     if _is_file(output, path):
+        other = "srdf" if chosen == "urdf" else "urdf"
+        if chosen and path.suffix == f".{other}":
+            raise UsageError(f"--format {chosen} does not go into '{output}'")
         return {chosen or ("srdf" if path.suffix == ".srdf" else "urdf"): path}
     name = "robot" if spec == "-" else Path(spec).name.removesuffix(".yaml").removesuffix(".yml").removesuffix(".robot")
     return {format_: path / f"{name}.{format_}" for format_ in FORMATS if chosen in (None, format_)}
 
 
+def _not_one_spec(specs: list[str]) -> str:
+    if not specs:
+        return "takes one spec, found none"
+    assignment = next((word for word in specs if "=" in word), None)
+    remedy = f"; write '-p {assignment}' to set a parameter" if assignment else ""
+    return f"takes one spec, found {len(specs)}: {', '.join(specs)}{remedy}"
+
+
 def _is_file(output: str, path: Path) -> bool:
-    """A folder is what ends in a slash, is one, or has no ending."""
-    return bool(path.suffix) and not output.endswith(("/", "\\")) and not path.is_dir()
+    """Whether `-o` names a file: one with one of the endings, a device or a pipe; all else are folders.
+
+    An ending that is neither is refused: `-o arm.robot.yaml` would else replace the spec, or make a folder of it.
+    """
+    if output.endswith(("/", "\\")) or path.is_dir():
+        return False
+    if path.suffix and path.suffix not in _FILE_ENDINGS:
+        raise UsageError(
+            f"-o takes a folder, or a file that ends in .urdf, .srdf or .xml; found '{output}'"
+            f" (for a folder of that name, write '{output}/')"
+        )
+    return bool(path.suffix) or (path.exists() and not path.is_file())
 
 
 def _write(robot: Robot, spec: str, targets: dict[str, Path | None]) -> int:
     from linkforge_compile.backends import BACKENDS
-    from linkforge_compile.cli.output import write_if_changed
+    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
 
     has_semantic = robot.semantic.normalized() != type(robot.semantic)(robot_name=robot.name)
     if not has_semantic:
         if "urdf" not in targets:
-            print(f"{spec}: the robot has no `semantic` part, so there is no SRDF to write", file=sys.stderr)
+            print(f"{spec}: error: the robot has no `semantic` part, so there is no SRDF to write", file=sys.stderr)
             return FAULTY_SPEC
         targets = {"urdf": targets["urdf"]}
     banner = None if spec == "-" else f"Compiled by linkforge from {Path(spec).name}; edit that file, not this one."
     texts = {format_: BACKENDS[format_](robot, banner=banner) for format_ in targets}
     for format_, path in targets.items():
         if path is None:
-            sys.stdout.buffer.write(texts[format_].encode("utf-8"))
+            write_to_stdout(texts[format_])
         elif write_if_changed(path, texts[format_]):
             print(f"wrote {path}", file=sys.stderr)
         else:

@@ -25,12 +25,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.output import write_if_changed
+    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
     from linkforge_compile.schema import bundle_text
 
     text = bundle_text()
     if arguments.output is None:
-        sys.stdout.buffer.write(text.encode("utf-8"))
+        write_to_stdout(text)
     elif write_if_changed(Path(arguments.output), text):
         print(f"wrote {arguments.output}", file=sys.stderr)
     else:
