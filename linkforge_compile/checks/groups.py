@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.circles import told_circles
-from linkforge_compile.checks.references import Use
+from linkforge_compile.checks.references import Use, own_positions
 from linkforge_compile.checks.tree import parent_joints, way_up
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
@@ -86,14 +86,17 @@ def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     links = group_links(robot)
     virtual = {joint.name: joint for joint in semantic.virtual_joints}
     for state in semantic.group_states:
-        for name, values in state.joint_values.items():
+        for name, key in own_positions(state).items():
+            values = state.joint_values[name]
             joint = robot.joints.get(name) or virtual.get(name)
             if joint is None:
                 continue
-            use = Use(name, f"state '{state.name}' of group '{state.group}'", state.source, (name,))
+            use = Use(name, f"state '{state.name}' of group '{state.group}'", state.source, (str(key),))
             members = links.get(state.group)
             if members is not None and _moved_link(joint) not in members:
-                yield use.told(STATE_OUTSIDE_GROUP, joint=name, group=state.group, state=state.name)
+                yield use._replace(path=(key,)).told(
+                    STATE_OUTSIDE_GROUP, joint=name, group=state.group, state=state.name
+                )
             elif isinstance(values, tuple):
                 yield from _faults_of_values(use, joint, values)
 

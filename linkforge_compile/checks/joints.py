@@ -55,13 +55,16 @@ def check_mimic_freedom(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
 def check_joint_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     """A revolute or prismatic joint says how far it goes.
 
-    URDF takes an unsaid `lower` or `upper` for 0, so a joint that says neither cannot move. Write both, make the
-    joint `continuous` if it turns without end, or `fixed` if it is not to move.
+    URDF takes an unsaid `lower` or `upper` for 0, so a joint that says neither, or one on the wrong side of 0,
+    cannot move. Write both, make the joint `continuous` if it turns without end, or `fixed` if it is not to move.
     """
     for joint in robot.joints:
         limits = joint.limits
-        if joint.type in BOUNDED_JOINTS and limits and limits.lower is None and limits.upper is None:
-            yield NO_RANGE.at(joint.source, "limits", joint=joint.name)
+        if joint.type not in BOUNDED_JOINTS or limits is None or None not in (limits.lower, limits.upper):
+            continue
+        if (limits.lower or 0.0) >= (limits.upper or 0.0):
+            unsaid = " and ".join(side for side in ("lower", "upper") if getattr(limits, side) is None)
+            yield NO_RANGE.at(joint.source, "limits", joint=joint.name, unsaid=unsaid)
 
 
 def _mimics(robot: Robot) -> dict[str, Use]:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Gaps, Note
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import Key, SourceRef
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.srdf import GroupState
 
 
 class Use(NamedTuple):
@@ -41,18 +44,42 @@ class Use(NamedTuple):
         written = span.file.line(span.line)[span.column - 1 : end].strip("'\"")
         return self.name.removesuffix(written) if written and self.name.endswith(written) else ""
 
+    def key(self, name: str) -> Key:
+        """Return the key by which this thing's file writes a name in it: without the prefix that both have got."""
+        return Key(name.removeprefix(self.prefix))
+
     def note(self, message: str) -> Note:
         return Note(message, self.source.at(*self.path) if self.source else None)
 
 
+def own_positions(state: GroupState) -> dict[str, Key]:
+    """Return the joints that a state sets by itself, with their keys in it; not those whose position it takes over.
+
+    A position taken over from another group's state is judged there, once. A state built in Python sets all its own.
+    """
+    holder = Use(state.name, "", state.source)
+    keys = {joint: holder.key(joint) for joint in state.joint_values}
+    if state.source is None:
+        return keys
+    return {joint: key for joint, key in keys.items() if state.source.node.child(key) is not None}
+
+
+MOST_OFFERED = 100
+"""So many wrong names are one bad rename: nobody reads more offers, and each costs a look at every name there is."""
+
+
 def unknown(uses: Iterable[Use], code: Code, known: Iterable[str], gaps: Gaps) -> Iterator[Diagnostic]:
     """Tell every use of a name that is neither known nor known to be missing, in the words of the file that uses it."""
+    told = 0
     names = dict.fromkeys(known)
     for use in uses:
         if use.name not in names and use.name not in gaps:
             prefix = use.prefix
-            near = (name.removeprefix(prefix) for name in names if name.startswith(prefix))
+            near = (
+                [name.removeprefix(prefix) for name in names if name.startswith(prefix)] if told < MOST_OFFERED else []
+            )
             yield use.told(code, name=use.name.removeprefix(prefix), near=near)
+            told += 1
 
 
 SHOWN = 8

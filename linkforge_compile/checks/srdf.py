@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkforge_compile.checks.references import Use, unknown
+from linkforge_compile.checks.references import Use, own_positions, unknown
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
 from linkforge_compile.diagnostics.codes.model import PAIR_TWICE, PASSIVE_COMMANDED, VIRTUAL_JOINT_NOT_AT_ROOT
@@ -114,8 +114,8 @@ def _joints(robot: Robot) -> Iterator[Use]:
         for place, joint in enumerate(group.joints):
             yield Use(joint, f"planning group '{group.name}'", group.source, ("joints", place))
     for state in semantic.group_states:
-        for joint in state.joint_values:
-            yield Use(joint, f"state '{state.name}' of group '{state.group}'", state.source, (joint,))
+        for joint, key in own_positions(state).items():
+            yield Use(joint, f"state '{state.name}' of group '{state.group}'", state.source, (key,))
     for passive in semantic.passive_joints:
         yield Use(passive.name, "passive_joints", passive.source)
     for remark in semantic.joint_properties:

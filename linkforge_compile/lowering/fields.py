@@ -168,9 +168,13 @@ class Fields:
             for entry in inner.node if inner else ():
                 yield outer.key, entry
 
-    def arranged(self, owner: str, key: Span, **nodes: YamlNode) -> Fields:
-        """Return an object whose fields stand in the tree as keys or apart: its `source` finds them by field."""
-        entries = {name: YamlEntry(YamlScalar(name, name, node.span), node) for name, node in nodes.items()}
+    def arranged(self, owner: str, key: Span, *written: YamlEntry, **nodes: YamlNode) -> Fields:
+        """Return an object whose fields stand in the tree as keys or apart: its `source` finds them by field.
+
+        `written` are entries that stand in the tree as they are; `nodes` go before one of the same name.
+        """
+        entries = {entry.name: entry for entry in written}
+        entries |= {name: YamlEntry(YamlScalar(name, name, node.span), node) for name, node in nodes.items()}
         return Fields(YamlMap(entries, key), owner, self.sink, self.trail, key)
 
     def items(self, key: str) -> tuple[YamlNode, ...]:

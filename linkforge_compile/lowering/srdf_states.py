@@ -67,9 +67,7 @@ def written_states(semantic: Fields) -> Iterator[WrittenState]:
             yield WrittenState(group.text, entry.name, semantic.arranged(owner, entry.key.span), None)
             continue
         said = tuple(value for value in values if values.get(value.name) is not None)
-        # The group's name goes first: a joint may be called 'group' as well.
-        nodes = {"group": group, **{value.name: value.value for value in said}}
-        yield WrittenState(group.text, entry.name, semantic.arranged(owner, entry.key.span, **nodes), said)
+        yield WrittenState(group.text, entry.name, semantic.arranged(owner, entry.key.span, *said, group=group), said)
 
 
 def resolve_states(written: Sequence[WrittenState], around: Surroundings) -> list[GroupState]:

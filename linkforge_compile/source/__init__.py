@@ -1,7 +1,7 @@
 """Where things were written: files, spans in them, and the references by which every later value finds back."""
 
 from linkforge_compile.source.file import SourceFile
-from linkforge_compile.source.ref import Located, Sourced, SourceRef
+from linkforge_compile.source.ref import Key, Located, Sourced, SourceRef
 from linkforge_compile.source.span import Position, Span
 
-__all__ = ["Located", "Position", "SourceFile", "SourceRef", "Sourced", "Span"]
+__all__ = ["Key", "Located", "Position", "SourceFile", "SourceRef", "Sourced", "Span"]

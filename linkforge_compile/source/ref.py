@@ -9,6 +9,12 @@ if TYPE_CHECKING:
     from linkforge_compile.source.span import Span
 
 
+class Key(str):
+    """The last step of a path that ends at a key itself, not at what stands under it."""
+
+    __slots__ = ()
+
+
 class Located(Protocol):
     """A node of a positioned tree, YAML's or XML's; all that a reference asks of it."""
 
@@ -17,6 +23,10 @@ class Located(Protocol):
 
     def child(self, key: str | int) -> Located | None:
         """Return the node under a key or position, None where nothing is said."""
+        ...
+
+    def key_span(self, key: str) -> Span | None:
+        """Return where a key stands, None where there is none."""
         ...
 
 
@@ -42,6 +52,8 @@ class SourceRef:
         node = self.node
         span = self.span
         for key in path:
+            if isinstance(key, Key):
+                return node.key_span(key) or span
             inner = node.child(key)
             if inner is None:
                 break

@@ -31,6 +31,9 @@ class YamlScalar:
     def child(self, key: str | int) -> None:
         return None
 
+    def key_span(self, key: str) -> None:
+        return None
+
     def __deepcopy__(self, memo: object) -> YamlScalar:
         return self
 
@@ -44,6 +47,9 @@ class YamlList:
 
     def child(self, key: str | int) -> YamlNode | None:
         return self.items[key] if isinstance(key, int) and 0 <= key < len(self.items) else None
+
+    def key_span(self, key: str) -> None:
+        return None
 
     def __iter__(self) -> Iterator[YamlNode]:
         return iter(self.items)
@@ -88,6 +94,10 @@ class YamlMap:
         entry = self.entries.get(str(key))
         return entry.value if entry else None
 
+    def key_span(self, key: str) -> Span | None:
+        entry = self.entries.get(key)
+        return entry.key.span if entry else None
+
     def __iter__(self) -> Iterator[YamlEntry]:
         return iter(self.entries.values())
 
@@ -105,6 +115,9 @@ class YamlFault:
     span: Span
 
     def child(self, key: str | int) -> None:
+        return None
+
+    def key_span(self, key: str) -> None:
         return None
 
     def __deepcopy__(self, memo: object) -> YamlFault:

@@ -86,6 +86,17 @@ def test_a_parameter_is_set_in_any_of_the_spellings(pendulum: Path, words: tuple
     assert box_height(run.stdout) == "0.7"
 
 
+def test_a_package_is_where_the_option_says(pendulum: Path):
+    (pendulum / "vendor" / "robots").mkdir(parents=True)
+    (pendulum / "vendor" / "robots" / "arm.robot.yaml").write_text(PENDULUM)
+    user = "linkforge: 1\nname: cell\nmodules: {arm: {use: package://vendor_arm/robots/arm.robot.yaml}}\n"
+    (pendulum / "cell.robot.yaml").write_text(user)
+    assert linkforge("compile", "cell.robot.yaml", cwd=pendulum).returncode == 1
+    run = linkforge("compile", "cell.robot.yaml", "--package", "vendor_arm=vendor", cwd=pendulum)
+    assert run.returncode == 0
+    assert etree.fromstring(run.stdout.encode()).find(".//joint").get("name") == "arm_hinge"
+
+
 def test_a_spec_comes_from_standard_input(pendulum: Path):
     run = linkforge("compile", "-", cwd=pendulum, stdin=PENDULUM)
     assert run.returncode == 0

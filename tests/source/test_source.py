@@ -4,7 +4,7 @@ import copy
 import pickle
 from dataclasses import dataclass, replace
 
-from linkforge_compile.source import Position, Sourced, SourceFile, SourceRef, Span
+from linkforge_compile.source import Key, Position, Sourced, SourceFile, SourceRef, Span
 
 
 @dataclass(frozen=True)
@@ -16,6 +16,9 @@ class Leaf:
 
     def child(self, key: str | int) -> "Leaf | None":
         return dict(self.children).get(key)
+
+    def key_span(self, key: str) -> Span | None:
+        return span(7, 7, len(key)) if key in dict(self.children) else None
 
 
 FILE = SourceFile("arm.robot.yaml", "links:\r\n  base: {mass: 3}\n")
@@ -57,6 +60,12 @@ def test_a_reference_finds_the_deepest_node_that_exists():
     assert elbow.at("limits", "upper") == span(2, 25, 3)
     assert elbow.at("limits", "lower") == LIMITS.span
     assert elbow.at("mimic", "joint") == elbow.span
+
+
+def test_a_path_may_end_at_a_key_itself():
+    elbow = SourceRef(JOINT, key=span(2, 3, 4))
+    assert elbow.at("limits", Key("upper")) == span(7, 7, 5)
+    assert elbow.at("limits", Key("lower")) == LIMITS.span
 
 
 def test_a_thing_without_a_name_is_placed_at_its_node():

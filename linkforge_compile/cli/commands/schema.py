@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import OK
+from linkforge_compile.cli.exits import OK, UsageError
 
 if TYPE_CHECKING:
     import argparse
@@ -31,6 +31,8 @@ def run(arguments: argparse.Namespace) -> int:
     text = bundle_text()
     if arguments.output is None:
         write_to_stdout(text)
+    elif not arguments.output.endswith(".json"):
+        raise UsageError(f"-o takes a file that ends in .json, found '{arguments.output}'")
     elif write_if_changed(Path(arguments.output), text):
         print(f"wrote {arguments.output}", file=sys.stderr)
     else:

@@ -65,9 +65,7 @@ SEVERAL_ROOTS = Code(
 # LF55xx: joints that follow others
 MIMIC_CIRCLE = Code("LF5501", _E, "joints mimic one another in a circle: {path}")
 MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis")
-NO_RANGE = Code(
-    "LF5503", _W, "joint '{joint}' cannot move: its limits say neither lower nor upper, and URDF takes both for 0"
-)
+NO_RANGE = Code("LF5503", _W, "joint '{joint}' cannot move: its limits do not say {unsaid}, which URDF takes for 0")
 
 # LF56xx: groups, states and end effectors
 GROUP_CIRCLE = Code("LF5601", _E, "planning groups contain one another in a circle: {path}")

@@ -1,0 +1,25 @@
+"""`linkforge schema`, run as a program."""
+
+import json
+from pathlib import Path
+
+from jsonschema import Draft7Validator
+
+from tests.cli.test_compile import linkforge
+
+
+def test_the_schema_is_one_that_validators_take(tmp_path: Path):
+    run = linkforge("schema", cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    schema = json.loads(run.stdout)
+    Draft7Validator.check_schema(schema)
+    assert Draft7Validator(schema).is_valid({"linkforge": 1, "name": "arm", "links": {"base": None}})
+    assert not Draft7Validator(schema).is_valid({"linkforge": 1, "name": "arm", "linkss": {}})
+
+
+def test_the_schema_goes_to_a_file_that_is_one(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text("linkforge: 1")
+    assert linkforge("schema", "-o", "arm.robot.yaml", cwd=tmp_path).returncode == 2
+    assert (tmp_path / "arm.robot.yaml").read_text() == "linkforge: 1"
+    assert linkforge("schema", "-o", "robot.schema.json", cwd=tmp_path).returncode == 0
+    assert (tmp_path / "robot.schema.json").read_text() == linkforge("schema", cwd=tmp_path).stdout
