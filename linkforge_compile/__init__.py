@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
     from linkforge_compile.pipeline import Compilation, CompileError, check_file, compile_file, compile_text
     from linkforge_compile.source import Span
+    from linkforge_compile.writers import write_spec
 
 __all__ = [
     "Compilation",
@@ -37,6 +38,7 @@ __all__ = [
     "compile_text",
     "render_srdf",
     "render_urdf",
+    "write_spec",
 ]
 
 _HOMES = {
@@ -52,6 +54,7 @@ _HOMES = {
     "compile_text": "pipeline",
     "render_srdf": "backends",
     "render_urdf": "backends",
+    "write_spec": "writers",
 }
 
 

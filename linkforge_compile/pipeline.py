@@ -8,23 +8,46 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends import srdf_limits, urdf_limits
 from linkforge_compile.checks import check
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps
-from linkforge_compile.lowering import lower
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Severity
+from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
+from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
+    Arguments,
+    ListedParameter,
+    Listing,
     Loader,
+    Plain,
     SpecFile,
     Unset,
     arguments_from_text,
     arguments_from_values,
     expand,
+    list_parameters,
+    variants_of,
 )
 
 if TYPE_CHECKING:
+    from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
+
+__all__ = [
+    "Compilation",
+    "CompileError",
+    "ListedParameter",
+    "Listing",
+    "Packages",
+    "Parameters",
+    "Plain",
+    "check_file",
+    "check_variants",
+    "compile_file",
+    "compile_text",
+    "parameters_of",
+]
 
 Parameters: TypeAlias = Mapping[str, object] | Iterable[str]
 """Values by name, as Python values or text with units; or `name=value` pairs as the command line has them."""
@@ -46,25 +69,41 @@ class CompileError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Compilation:
-    """What one compile gave: the robot (None where the spec has errors) and all that was told about the spec.
+    """What one compile gave: the robot and all that was told about the spec.
 
-    `files` lists every spec file that was read, the compiled one first.
+    `robot` is None where the spec has errors, and where a check left out what depends on parameters without a value.
+    `files` lists every spec file that was read, the compiled one first, then the meshes read for their inertia.
     """
 
     robot: Robot | None
     diagnostics: tuple[Diagnostic, ...]
     files: tuple[Path, ...] = ()
 
+    @property
+    def has_errors(self) -> bool:
+        return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
+
     def result(self) -> Robot:
-        """Return the robot; raise CompileError where the spec has errors."""
+        """Return the robot; raise CompileError where there is none."""
         if self.robot is None:
             raise CompileError(self.diagnostics)
         return self.robot
 
 
-def compile_file(path: str | Path, *, parameters: Parameters = (), packages: Packages | None = None) -> Compilation:
-    """Compile a spec file; a required parameter without a value is an error."""
-    return _compile(lambda loader, sink: loader.open(Path(path), sink), parameters, packages, Unset.ERROR)
+def compile_file(
+    path: str | Path,
+    *,
+    parameters: Parameters = (),
+    packages: Packages | None = None,
+    variant: str | None = None,
+    gazebo: Gazebo = "gz",
+) -> Compilation:
+    """Compile a spec file; a required parameter without a value is an error.
+
+    `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults. `gazebo`
+    is the simulator, Gazebo Sim or Classic, whose limits are told; give it to `render_urdf` as well.
+    """
+    return _compile(_file(path), _Settings(parameters, packages, variant, gazebo))
 
 
 def compile_text(
@@ -74,43 +113,89 @@ def compile_text(
     folder: str | Path | None = None,
     parameters: Parameters = (),
     packages: Packages | None = None,
+    variant: str | None = None,
+    gazebo: Gazebo = "gz",
 ) -> Compilation:
     """Compile a spec given as text; `name` stands in its diagnostics, `folder` is where relative paths start."""
     place = Path(folder) if folder is not None else None
-    return _compile(lambda loader, sink: loader.parse(text, name, place, sink), parameters, packages, Unset.ERROR)
+    settings = _Settings(parameters, packages, variant, gazebo)
+    return _compile(lambda loader, sink: loader.parse(text, name, place, sink), settings)
 
 
-def check_file(path: str | Path, *, parameters: Parameters = (), packages: Packages | None = None) -> Compilation:
-    """Tell all that is wrong with a spec file; what depends on a required parameter without a value is not judged."""
-    return _compile(lambda loader, sink: loader.open(Path(path), sink), parameters, packages, Unset.NOTE)
-
-
-def _compile(
-    read: Callable[[Loader, Diagnostics], SpecFile | None],
-    parameters: Parameters,
-    packages: Packages | None,
-    unset: Unset,
+def check_file(
+    path: str | Path,
+    *,
+    parameters: Parameters = (),
+    packages: Packages | None = None,
+    variant: str | None = None,
+    gazebo: Gazebo = "gz",
 ) -> Compilation:
+    """Tell all that is wrong with a spec file; what depends on a required parameter without a value is not judged."""
+    return _compile(_file(path), _Settings(parameters, packages, variant, gazebo, Unset.NOTE))
+
+
+def check_variants(
+    path: str | Path, *, parameters: Parameters = (), packages: Packages | None = None, gazebo: Gazebo = "gz"
+) -> dict[str | None, Compilation]:
+    """Check a spec file with its defaults (None) and with each of its variants, by name."""
+    spec = Loader().open(Path(path), Diagnostics())
+    variants = (None, *(variants_of(spec) if spec else ()))
+    return {
+        name: check_file(path, parameters=parameters, packages=packages, variant=name, gazebo=gazebo)
+        for name in variants
+    }
+
+
+def parameters_of(path: str | Path) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
+    """List the parameters and variants of a spec file, None where it cannot be read, and what is wrong with them."""
+    sink, loader = Diagnostics(), Loader()
+    spec = loader.open(Path(path), sink)
+    listing = list_parameters(spec, loader, sink) if spec else None
+    return listing, sink.sorted()
+
+
+_Read: TypeAlias = Callable[[Loader, Diagnostics], SpecFile | None]
+
+
+class _Settings(NamedTuple):
+    """How to compile a spec."""
+
+    parameters: Parameters
+    packages: Packages | None
+    variant: str | None
+    gazebo: Gazebo
+    unset: Unset = Unset.ERROR
+
+    def arguments(self, sink: Diagnostics) -> Arguments:
+        if isinstance(self.parameters, Mapping):
+            return arguments_from_values(self.parameters)
+        return arguments_from_text(tuple(self.parameters), sink)
+
+
+def _file(path: str | Path) -> _Read:
+    return lambda loader, sink: loader.open(Path(path), sink)
+
+
+def _compile(read: _Read, settings: _Settings) -> Compilation:
     sink = Diagnostics()
-    loader = Loader({name: Path(folder) for name, folder in (packages or {}).items()})
+    loader = Loader({name: Path(folder) for name, folder in (settings.packages or {}).items()})
     spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them
-    robot = _robot(spec, parameters, loader, sink, unset) if spec else None
-    if sink.has_errors:
+    meshes = MeshSolids()
+    robot = _robot(spec, settings, loader, meshes, sink) if spec else None
+    is_whole = not any(diagnostic.code is NOT_JUDGED for diagnostic in sink)
+    if sink.has_errors or not is_whole:
         robot = None
-    return Compilation(robot, sink.sorted(), loader.files)
+    return Compilation(robot, sink.sorted(), (*loader.files, *meshes.files))
 
 
-def _robot(spec: SpecFile, parameters: Parameters, loader: Loader, sink: Diagnostics, unset: Unset) -> Robot | None:
-    if isinstance(parameters, Mapping):
-        arguments = arguments_from_values(parameters)
-    else:
-        arguments = arguments_from_text(tuple(parameters), sink)
-    instance = expand(spec, arguments, loader, sink, unset=unset)
-    lowered = lower(instance, sink)
+def _robot(spec: SpecFile, settings: _Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:
+    arguments = settings.arguments(sink)
+    instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant)
+    lowered = lower(instance, sink, meshes)
     for component in lowered.unmerged:
         sink.report_all(check(component, Gaps()))
     if lowered.robot is not None:
         sink.report_all(check(lowered.robot, lowered.gaps))
-        sink.report_all(urdf_limits(lowered.robot))
+        sink.report_all(urdf_limits(lowered.robot, gazebo=settings.gazebo))
         sink.report_all(srdf_limits(lowered.robot))
     return lowered.robot

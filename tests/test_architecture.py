@@ -22,8 +22,9 @@ MAY_IMPORT = {
     "lowering": "source diagnostics units syntax modules core",
     "checks": "source diagnostics core",
     "backends": "source diagnostics units core resources",
-    "pipeline": "source diagnostics units syntax schema modules lowering checks backends core",
-    "cli": "source diagnostics core checks schema pipeline backends resources _version",
+    "writers": "source units syntax core modules",
+    "pipeline": "source diagnostics units syntax schema modules lowering checks backends core writers",
+    "cli": "source diagnostics core checks schema pipeline backends writers resources _version",
 }
 
 # `Robot.export_urdf` and `export_srdf` are methods because the contract says so: the one place that reaches up.

@@ -70,20 +70,10 @@ def test_mujoco_finds_the_same_mass_and_freedom(spec: Path):
     assert sum(model.body_mass) == pytest.approx(robot.total_mass, rel=1e-9)
 
 
-def test_the_ur5e_is_the_vendors_robot(shared: Path, tmp_path: Path):
-    """An independent judge compares every element and number, and what three consumers make of both files."""
-    robot = compiled(ROOT / "examples" / "02_ur5e" / "ur5e.robot.yaml")
-    urdf, srdf = tmp_path / "ur5e.urdf", tmp_path / "ur5e.srdf"
-    urdf.write_text(render_urdf(robot))
-    srdf.write_text(render_srdf(robot))
-    theirs = shared / "corpus"
+def judge(shared: Path, *words: str) -> None:
+    """Have an independent judge compare every element and number, and what consumers make of both files."""
     run = subprocess.run(
-        [
-            *(sys.executable, str(shared / "tools" / "urdf_equiv.py")),
-            *(str(theirs / "ur_ur5e.urdf"), str(urdf)),
-            *("--srdf", str(theirs / "ur_ur5e.srdf"), str(srdf)),
-            *("--with", "xml,pin,mujoco,urdfdom", "--json"),
-        ],
+        [sys.executable, str(shared / "tools" / "urdf_equiv.py"), *words, "--json"],
         capture_output=True,
         text=True,
         check=False,
@@ -91,6 +81,28 @@ def test_the_ur5e_is_the_vendors_robot(shared: Path, tmp_path: Path):
     )
     assert run.returncode == 0, run.stdout + run.stderr
     assert "skipped" not in json.dumps(json.loads(run.stdout)), run.stdout
+
+
+@pytest.mark.parametrize("name", ["ur5e", "ur5e_mocked"])
+def test_the_ur5e_is_the_vendors_robot(name: str, shared: Path, tmp_path: Path):
+    robot = compiled(ROOT / "examples" / "02_ur5e" / f"{name}.robot.yaml")
+    urdf, srdf = tmp_path / "ur5e.urdf", tmp_path / "ur5e.srdf"
+    urdf.write_text(render_urdf(robot))
+    srdf.write_text(render_srdf(robot))
+    theirs = shared / "corpus"
+    judge(
+        shared,
+        *(str(theirs / f"ur_{name}.urdf"), str(urdf)),
+        *("--srdf", str(theirs / "ur_ur5e.srdf"), str(srdf)),
+        *("--with", "xml,pin,mujoco,urdfdom"),
+    )
+
+
+def test_the_rrbot_is_that_of_the_demos_of_ros2_control(shared: Path, tmp_path: Path):
+    """Not to MuJoCo, which numbers shapes: theirs writes collisions before visuals."""
+    urdf = tmp_path / "rrbot.urdf"
+    urdf.write_text(render_urdf(compiled(ROOT / "tests" / "cases" / "good" / "rrbot" / "rrbot.robot.yaml")))
+    judge(shared, str(shared / "corpus" / "rc2demo_ex1_rrbot.urdf"), str(urdf), "--with", "xml,pin,urdfdom")
 
 
 def test_two_arms_are_two_of_the_same_arm():

@@ -145,7 +145,9 @@ def _parse(text: str) -> list[Content]:
         # Wrapped, so that any number of elements is one document and a DOCTYPE is a fault.
         parser.Parse(f"<extra>{text}</extra>", True)
     except expat.ExpatError as error:
-        raise RobotGeneratorError(f"raw XML is not well-formed: {error}: {text!r}") from None
+        # Its column counts the wrapper.
+        reason = f"{expat.ErrorString(error.code)} in line {error.lineno}"
+        raise RobotGeneratorError(f"raw XML is not well-formed: {reason}: {text!r}") from None
     [wrapper] = document.content
     assert isinstance(wrapper, Node)
     return wrapper.content

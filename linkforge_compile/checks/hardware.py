@@ -79,7 +79,7 @@ def check_gazebo_references(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     remove the block.
     """
     references = (
-        Use(element.reference, "Gazebo block", element.source)
+        Use(element.reference, "Gazebo block", element.source, ("reference",))
         for element in robot.gazebo_elements
         if element.reference is not None
     )

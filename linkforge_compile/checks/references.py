@@ -75,10 +75,10 @@ def unknown(uses: Iterable[Use], code: Code, known: Iterable[str], gaps: Gaps) -
     for use in uses:
         if use.name not in names and use.name not in gaps:
             prefix = use.prefix
-            near = (
-                [name.removeprefix(prefix) for name in names if name.startswith(prefix)] if told < MOST_OFFERED else []
-            )
-            yield use.told(code, name=use.name.removeprefix(prefix), near=near)
+            why = [gaps.removed[use.name]] if use.name in gaps.removed else []
+            is_offered = not why and told < MOST_OFFERED
+            near = [name.removeprefix(prefix) for name in names if name.startswith(prefix)] if is_offered else []
+            yield use.told(code, name=use.name.removeprefix(prefix), near=near, notes=why)
             told += 1
 
 

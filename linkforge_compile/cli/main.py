@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 _COMMANDS = {
     "compile": "compile a spec to URDF and SRDF",
     "check": "tell all that is wrong with specs, writing nothing",
+    "params": "list the parameters and variants of a spec",
+    "expand": "print a spec as one flat file: no modules, expressions, loops or defaults left",
+    "explain": "tell where a value of the finished robot comes from",
     "schema": "print the JSON Schema of specs, for editors",
 }
 

@@ -27,12 +27,21 @@ def add_spec_options(parser: argparse.ArgumentParser) -> None:
         help="set a parameter of the spec, such as reach=0.7m; ROS's NAME:=VALUE works too, with or without -p",
     )
     parser.add_argument(
+        "--variant", metavar="NAME", help="the variant of the spec that sets what -p does not, before the defaults"
+    )
+    parser.add_argument(
         "--package",
         metavar="NAME=PATH",
         dest="packages",
         action="append",
         default=[],
         help="the folder that package://NAME/ stands for, before any other place it is looked for",
+    )
+    parser.add_argument(
+        "--gazebo",
+        choices=("gz", "classic"),
+        default="gz",
+        help="the simulator that reads the sensors (gz unless said)",
     )
 
 

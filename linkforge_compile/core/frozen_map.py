@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import TypeVar
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TypeAlias, TypeVar
 
 K = TypeVar("K")
 V_co = TypeVar("V_co", covariant=True)
+
+FreePart: TypeAlias = "str | Mapping[str, FreePart] | Sequence[FreePart]"
+"""What a plugin reads from an element: its text; or its children by tag, where a key `_x` is its attribute `x` and
+`_text` its text; or, for a tag that repeats, one of these for each element."""
 
 
 class FrozenMap(Mapping[K, V_co]):
@@ -57,3 +61,10 @@ class FrozenMap(Mapping[K, V_co]):
     def copy(self) -> dict[K, V_co]:
         """Return the items as a dict of the caller's own."""
         return dict(self._items)
+
+
+def frozen(value: object) -> object:
+    """Return a value that nobody changes: FrozenMaps for mappings and tuples for lists, all the way down."""
+    if isinstance(value, Mapping):
+        return FrozenMap({name: frozen(item) for name, item in value.items()})
+    return tuple(map(frozen, value)) if isinstance(value, list | tuple) else value

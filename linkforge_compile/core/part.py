@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar, Self
 
-from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.frozen_map import FrozenMap, frozen
 from linkforge_compile.core.prefixing import prefixed_copy
 from linkforge_compile.source import Sourced
 
@@ -58,14 +58,14 @@ class Element(Part):
 
 
 def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) -> None:
-    """Make tuples of the named sequences and FrozenMaps of the named mappings, and both kinds of extras tuples.
+    """Make tuples of the named sequences and FrozenMaps of the named mappings, all the way down; extras are tuples.
 
     For `__post_init__` only. An element without collections of its own inherits it; one that has them calls it.
     """
     for name in sequences:
         set_field(element, name, tuple(getattr(element, name)))
     for name in mappings:
-        set_field(element, name, FrozenMap(getattr(element, name)))
+        set_field(element, name, frozen(FrozenMap(getattr(element, name))))
     if element.extra_elements != ():
         set_field(element, "extra_elements", tuple(element.extra_elements))
     if element.extra_attributes != ():

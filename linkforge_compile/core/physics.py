@@ -1,11 +1,11 @@
-"""Inertia of bodies: of each primitive shape, moved, turned and summed, exactly."""
+"""Inertia of bodies: of each primitive shape and of meshes as solids, moved, turned and summed, exactly."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
 from linkforge_compile.core.models.geometry import (
@@ -19,6 +19,9 @@ from linkforge_compile.core.models.geometry import (
     Vector3,
 )
 from linkforge_compile.core.models.link import Inertial, InertiaTensor
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.solid import Solid
 
 Matrix: TypeAlias = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
 """Three rows of three."""
@@ -138,30 +141,31 @@ def combined_inertial(bodies: Sequence[Inertial]) -> Inertial:
 
 
 def inertial_of_shapes(
-    shapes: Sequence[tuple[Geometry, Transform]], *, mass: float | None = None, density: float | None = None
+    shapes: Sequence[tuple[Geometry, Transform]],
+    *,
+    mass: float | None = None,
+    density: float | None = None,
+    meshes: Mapping[Mesh, Solid] | None = None,
 ) -> Inertial:
     """Return the inertial of a solid body made of shapes, each with its pose in the link frame.
 
     Either the `mass` [kg] of all of them is given, spread by volume, or the `density` [kg/m³] of each; where shapes
-    overlap, the common part counts for both. The origin is the centre of mass in the link frame, the tensor is in
-    the axes of the link.
+    overlap, the common part counts for both. `meshes` has the solid of each mesh, in its own frame and scaled.
+    The origin is the centre of mass in the link frame, the tensor is in the axes of the link.
 
     Raises:
-        RobotPhysicsError: VALUE_EMPTY without shapes, INVALID_VALUE for a mesh or unless exactly one of mass and
-            density is given, OUT_OF_RANGE if that is not above 0.
+        RobotPhysicsError: VALUE_EMPTY without shapes, INVALID_VALUE for a mesh that `meshes` has not, or unless
+            exactly one of mass and density is given, OUT_OF_RANGE if that is not above 0.
 
     """
     if not shapes:
         raise RobotPhysicsError(
             ValidationErrorCode.VALUE_EMPTY, "there is no shape to compute an inertia from", target="Inertial"
         )
-    volumes = [_volume(geometry) for geometry, _ in shapes]
-    masses = _masses(volumes, mass, density)
+    solids = meshes or {}
+    masses = _masses([_volume(geometry, solids) for geometry, _ in shapes], mass, density)
     body = combined_inertial(
-        [
-            Inertial(share, pose, calculate_inertia(geometry, share))
-            for share, (geometry, pose) in zip(masses, shapes, strict=True)
-        ]
+        [_body(share, geometry, pose, solids) for share, (geometry, pose) in zip(masses, shapes, strict=True)]
     )
     # The shares may add up to a last digit more or less than what was asked for.
     return body if mass is None else replace(body, mass=mass)
@@ -184,17 +188,32 @@ def _masses(volumes: Sequence[float], mass: float | None, density: float | None)
     )
 
 
-def _volume(geometry: Geometry) -> float:
-    if isinstance(geometry, Mesh):
-        raise _no_primitive(geometry)
-    return geometry.volume()
+def _volume(geometry: Geometry, meshes: Mapping[Mesh, Solid]) -> float:
+    return _solid(geometry, meshes).volume if isinstance(geometry, Mesh) else geometry.volume()
+
+
+def _body(mass: float, geometry: Geometry, pose: Transform, meshes: Mapping[Mesh, Solid]) -> Inertial:
+    """Return a shape as a body of that mass: a primitive's centre is where its pose is, a mesh's anywhere."""
+    if not isinstance(geometry, Mesh):
+        return Inertial(mass, pose, calculate_inertia(geometry, mass))
+    solid = _solid(geometry, meshes)
+    turned = (_dot(row, solid.centre.to_tuple()) for row in rotation_matrix(pose.rpy))
+    centre = Vector3(*(at + offset for at, offset in zip(pose.xyz, turned, strict=True)))
+    return Inertial(mass, Transform(centre, pose.rpy), solid.inertia(mass))
+
+
+def _solid(mesh: Mesh, meshes: Mapping[Mesh, Solid]) -> Solid:
+    solid = meshes.get(mesh)
+    if solid is None:
+        raise _no_primitive(mesh)
+    return solid
 
 
 def _no_primitive(mesh: Mesh) -> RobotPhysicsError:
     return RobotPhysicsError(
         ValidationErrorCode.INVALID_VALUE,
         f"mesh '{mesh.resource}' is not a primitive, so its inertia cannot be computed from its dimensions; "
-        "state mass and inertia, or use primitive collision shapes",
+        "state mass and inertia, use primitive collision shapes, or give its solid in `meshes`",
         target="Geometry",
         value=mesh.resource,
     )

@@ -77,10 +77,11 @@ class Code:
         `near` lists the names that would have been right: the one like the fact `name`, if any, is offered.
         """
         message = on_one_line(self.message.format(**facts) + did_you_mean(str(facts.get("name", "")), near))
-        if not isinstance(where, SourceRef):
-            return Diagnostic(self, message, where, tuple(notes))
-        trail = (Note("used here", use) for use in where.trail)
-        return Diagnostic(self, message, where.at(*path), (*notes, *trail))
+        span = where.at(*path) if isinstance(where, SourceRef) else where
+        trail = where.trail if isinstance(where, SourceRef) else ()
+        includes = [Note("included here", include) for include in (span.file.includes if span else ())]
+        uses = [Note("used here", use) for use in trail]
+        return Diagnostic(self, message, span, (*notes, *includes, *uses))
 
 
 def on_one_line(text: str) -> str:

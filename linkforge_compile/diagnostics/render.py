@@ -32,10 +32,10 @@ def summary(diagnostics: Iterable[Diagnostic]) -> str:
 def _lines(diagnostic: Diagnostic, colour: bool) -> Iterator[str]:
     severity = diagnostic.severity
     yield _headline(diagnostic.span, severity, f"{diagnostic.message} [{diagnostic.code.id}]", colour)
-    yield from _snippet(diagnostic.span, _COLOURS[severity] if colour else "")
+    yield from snippet(diagnostic.span, _COLOURS[severity] if colour else "")
     for note in diagnostic.notes:
         yield _headline(note.span, Severity.NOTE, note.message, colour)
-        yield from _snippet(note.span, _COLOURS[Severity.NOTE] if colour else "")
+        yield from snippet(note.span, _COLOURS[Severity.NOTE] if colour else "")
 
 
 def _headline(span: Span | None, severity: Severity, message: str, colour: bool) -> str:
@@ -45,8 +45,11 @@ def _headline(span: Span | None, severity: Severity, message: str, colour: bool)
     return f"{_BOLD}{place}{_COLOURS[severity]}{severity}:{_RESET}{_BOLD} {message}{_RESET}"
 
 
-def _snippet(span: Span | None, colour: str) -> Iterator[str]:
-    """Yield the first line of the span and the caret line; nothing where the file has no such line."""
+def snippet(span: Span | None, colour: str = "") -> Iterator[str]:
+    """Yield the first line of the span and a caret line in the colour, an ANSI sequence or "" for none.
+
+    Nothing where the file has no such line.
+    """
     if span is None or not (line := span.file.line(span.line)).strip():
         return
     start, end = span.column - 1, span.end_column - 1 if span.end_line == span.line else len(line)

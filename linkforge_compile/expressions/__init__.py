@@ -3,7 +3,7 @@
 from linkforge_compile.expressions.evaluate import evaluate
 from linkforge_compile.expressions.functions import RESERVED_NAMES
 from linkforge_compile.expressions.parse import has_expression, parse_template
-from linkforge_compile.expressions.scope import Lazy, Scope
+from linkforge_compile.expressions.scope import FileFunction, Lazy, Scope
 from linkforge_compile.expressions.template import Expression, Template
 from linkforge_compile.expressions.types import FAULT, Fault, Value, as_text, kind_name
 
@@ -12,6 +12,7 @@ __all__ = [
     "RESERVED_NAMES",
     "Expression",
     "Fault",
+    "FileFunction",
     "Lazy",
     "Scope",
     "Template",

@@ -11,7 +11,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.access import field, item
 from linkforge_compile.expressions.comparisons import COMPARISONS
-from linkforge_compile.expressions.functions import CONSTANTS, FUNCTIONS
+from linkforge_compile.expressions.functions import CONSTANTS, FILE_FUNCTIONS, FUNCTIONS
 from linkforge_compile.expressions.operators import ARITHMETIC, MAX_TEXT, signed, truth
 from linkforge_compile.expressions.scope import Scope
 from linkforge_compile.expressions.template import Expression, Template
@@ -64,6 +64,12 @@ class _FaultError(Exception):
     """A part of the expression has no value, and that has been reported."""
 
 
+def _text(taker: str, value: Value) -> str:
+    if isinstance(value, str):
+        return value
+    raise RefusedError(codes.WRONG_KIND, operand=0, taker=taker, expected="text", found=kind_name(value))
+
+
 class _Evaluation:
     """One evaluation of one expression; what is at fault is reported where it stands."""
 
@@ -92,8 +98,8 @@ class _Evaluation:
                 return self._compared(node)
             case ast.IfExp(test=condition, body=chosen, orelse=other):
                 return self.value(chosen if self._truth(condition, "'if'") else other)
-            case ast.Call(func=ast.Name(id=name), args=arguments):
-                return self._apply(FUNCTIONS[name], node, *arguments)
+            case ast.Call(func=ast.Name() as function, args=arguments):
+                return self._called(node, function, arguments)
             case ast.Subscript(value=whole, slice=index):
                 return self._apply(item, node, whole, index)
             case ast.Attribute(value=whole, attr=key):
@@ -102,6 +108,22 @@ class _Evaluation:
 
     def _named(self, name: str) -> Value:
         value = self._scope.lookup(name, self._sink)
+        if isinstance(value, Fault):
+            raise _FaultError
+        return value
+
+    def _called(self, call: ast.Call, function: ast.Name, arguments: list[ast.expr]) -> Value:
+        if function.id in FILE_FUNCTIONS:
+            return self._asked_of_the_file(function, arguments[0])
+        return self._apply(FUNCTIONS[function.id], call, *arguments)
+
+    def _asked_of_the_file(self, name: ast.Name, argument: ast.expr) -> Value:
+        text = self._apply(partial(_text, f"{name.id}()"), name, argument)
+        function = self._scope.function(name.id)
+        if function is None:
+            self._sink.report(codes.UNKNOWN_FUNCTION.at(self._expression.span(name), name=name.id))
+            raise _FaultError
+        value = function(text, self._expression.span(argument), self._sink)
         if isinstance(value, Fault):
             raise _FaultError
         return value

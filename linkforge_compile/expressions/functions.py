@@ -34,6 +34,16 @@ class Function:
         return count >= self.least and (self.most is None or count <= self.most)
 
 
+@dataclass(frozen=True, slots=True)
+class FileFunction:
+    """A function of one text that means something only in the file around the expression: its scope computes it."""
+
+    signature: str
+
+    def takes(self, count: int) -> bool:
+        return count == 1
+
+
 def _values(values: Sequence[Value], taker: str) -> tuple[list[Number], Dimension | None]:
     """Return the numbers of several values, or of the one list, and their dimension."""
     if len(values) == 1 and isinstance(values[0], tuple):
@@ -197,10 +207,14 @@ FUNCTIONS: dict[str, Function] = {
 CONSTANTS: dict[str, Value] = {"pi": math.pi, "true": True, "false": False, "null": None}
 """The names that mean the same everywhere."""
 
-FUNCTIONS_TO_COME = frozenset({"path", "link", "joint"})
-"""Functions of the language that are refused with that answer until they are there."""
+FILE_FUNCTIONS: dict[str, FileFunction] = {
+    "path": FileFunction("path(file)"),
+    "link": FileFunction("link(name)"),
+    "joint": FileFunction("joint(name)"),
+}
+"""The functions that ask the file: where a file of the disk is, and what a link or joint is called in the end."""
 
-RESERVED_NAMES: frozenset[str] = frozenset(
-    {*FUNCTIONS, *FUNCTIONS_TO_COME, *CONSTANTS, *keyword.kwlist, "prefix", "name", "standalone"}
-)
+SIGNATURES: dict[str, Function | FileFunction] = {**FUNCTIONS, **FILE_FUNCTIONS}
+
+RESERVED_NAMES: frozenset[str] = frozenset({*SIGNATURES, *CONSTANTS, *keyword.kwlist, "prefix", "name", "standalone"})
 """What nobody may declare as a parameter, variable, data or `for` name."""

@@ -10,7 +10,7 @@ from dataclasses import replace
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.comparisons import COMPARISONS
-from linkforge_compile.expressions.functions import CONSTANTS, FUNCTIONS, FUNCTIONS_TO_COME
+from linkforge_compile.expressions.functions import CONSTANTS, SIGNATURES
 from linkforge_compile.expressions.operators import ARITHMETIC, MAX_INTEGER_BITS
 from linkforge_compile.expressions.template import Expression
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
@@ -155,14 +155,10 @@ def _constant_fault(node: ast.Constant, value: object, expression: Expression) -
 
 
 def _name_fault(node: ast.Name, expression: Expression) -> Diagnostic | None:
-    span = expression.span(node)
-    if node.id == "prefix":
-        return codes.NOT_YET_AVAILABLE.at(span, what="the name 'prefix'")
-    if node.id in FUNCTIONS:
-        return codes.FUNCTION_NOT_CALLED.at(span, function=node.id, signature=FUNCTIONS[node.id].signature)
-    if node.id in FUNCTIONS_TO_COME:
-        return codes.NOT_YET_AVAILABLE.at(span, what=f"the function {node.id}()")
-    return None
+    if node.id not in SIGNATURES:
+        return None
+    signature = SIGNATURES[node.id].signature
+    return codes.FUNCTION_NOT_CALLED.at(expression.span(node), function=node.id, signature=signature)
 
 
 def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
@@ -171,11 +167,9 @@ def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
         instead = "the functions are called by their names alone, sqrt(x)"
         return codes.NOT_IN_EXPRESSIONS.at(span, what=f"a call of '{expression.written(call.func)}'", instead=instead)
     name = call.func.id
-    if name in FUNCTIONS_TO_COME:
-        return codes.NOT_YET_AVAILABLE.at(span, what=f"the function {name}()")
-    function = FUNCTIONS.get(name)
+    function = SIGNATURES.get(name)
     if function is None:
-        return codes.UNKNOWN_FUNCTION.at(span, name=name, near=FUNCTIONS)
+        return codes.UNKNOWN_FUNCTION.at(span, name=name, near=SIGNATURES)
     if call.keywords:
         instead = f"the order tells what each is: {function.signature}"
         return codes.NOT_IN_EXPRESSIONS.at(expression.span(call), what="an argument with a name", instead=instead)

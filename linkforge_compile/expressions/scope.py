@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes import expressions as codes
@@ -22,15 +23,26 @@ class Lazy:
     declared: Span
 
 
+FileFunction: TypeAlias = Callable[[str, Span, Diagnostics], Value | Fault]
+"""Computes `path()`, `link()` or `joint()` of a text; the span is where that stands, for what is at fault."""
+
+
 class Scope:
     """Names and their values; a `for` entry's scope lies inside its file's.
 
     Lazy values may use one another in any order; a circle of them is reported once, as the path round it.
     """
 
-    def __init__(self, values: Mapping[str, Value | Fault | Lazy], outer: Scope | None = None) -> None:
+    def __init__(
+        self,
+        values: Mapping[str, Value | Fault | Lazy],
+        outer: Scope | None = None,
+        functions: Mapping[str, FileFunction] | None = None,
+    ) -> None:
+        """`functions` are those that only the file around an expression can compute."""
         self._values = dict(values)
         self._outer = outer
+        self._functions = functions or {}
         self._open: list[str] = []  # the lazy values being computed, each for the one before it
         self._told_of_a_chain = False
 
@@ -53,6 +65,12 @@ class Scope:
             return self._outer.lookup(name, sink)
         value = self._values[name]
         return self._compute(name, value, sink) if isinstance(value, Lazy) else value
+
+    def function(self, name: str) -> FileFunction | None:
+        """Return what computes a function of the file, None where no file is around."""
+        if name in self._functions or self._outer is None:
+            return self._functions.get(name)
+        return self._outer.function(name)
 
     def _compute(self, name: str, lazy: Lazy, sink: Diagnostics) -> Value | Fault:
         if name in self._open:

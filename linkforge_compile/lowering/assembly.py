@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.graph import refuse_cycles
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostics, Gaps
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Note
 from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
+from linkforge_compile.lowering.asked_names import tell_unknown_names
 from linkforge_compile.lowering.duplicates import tell_duplicate
 from linkforge_compile.lowering.file import LoweredFile, gaps_of, lower_file
+from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.lowering.mount import Mount, lower_mount, module_fields
+from linkforge_compile.lowering.own_mount import handed_on, hang_on_world, hung_by, only_mount
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import SemanticRobotDescription
+    from linkforge_compile.lowering.unprefixed import PassedOn
 
 PartKey: TypeAlias = tuple[str, Hashable]
 """What no two parts of a robot may share: a kind, "link", and the name or whatever else tells its parts apart."""
@@ -31,48 +35,65 @@ class Lowered:
     `robot` is None where its file could not be read. `unmerged` are the robots of modules, each free of gaps,
     that could not be joined to it because they are no tree or repeat a name: checking them alone tells why.
     `gaps` names what the robot lacks because of faults, the parts of `unmerged` among them.
+    `mount` is the joint by which it hangs where it is used, with `world` for the link that it hangs on.
+    `under_a_prefix` is what there is to tell once the names of the robot take one.
     """
 
     robot: Robot | None
     unmerged: tuple[Robot, ...]
     gaps: Gaps
+    under_a_prefix: tuple[Diagnostic, ...] = ()
+    mount: Mount | None = None
 
 
-def lower(instance: Instance, sink: Diagnostics) -> Lowered:
+def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = None) -> Lowered:
     """Make one robot of a file and of all its modules, in the order written: its own parts, then each module's.
 
     A module's parts take its prefix and are followed by its connecting joint. Every fault is reported, and what
-    is faulty left out.
+    is faulty left out. `meshes` are those read so far in this compile, and takes up more.
     """
     if instance.tree is None:
         return Lowered(None, (), Gaps(prefixes=("",)))
-    fold = _Fold(lower_file(instance.tree, instance.mesh_base, instance.trail, sink), sink)
+    meshes = meshes or MeshSolids()
+    reader = MeshReader(instance.find_mesh, meshes)
+    fold = _Fold(lower_file(instance.tree, instance.mesh_bases, instance.trail, sink, reader), instance.removed, sink)
     for module in instance.modules:
-        fold.add(module, lower(module, sink))
-    return fold.finished()
+        fold.add(module, lower(module, sink, meshes))
+    lowered = fold.finished(hangs_alone=instance.entry is None)
+    if instance.references and lowered.robot:
+        known = gaps_of([lowered.mount.name]) if lowered.mount else Gaps()
+        tell_unknown_names(instance.references, lowered.robot, lowered.gaps | known, sink)
+    return lowered
 
 
 class _Fold:
     """A robot while modules are being joined to it."""
 
-    def __init__(self, file: LoweredFile, sink: Diagnostics) -> None:
+    def __init__(self, file: LoweredFile, removed: Mapping[str, Note], sink: Diagnostics) -> None:
         self._robot = file.robot
         self._states = file.states
-        self._gaps = file.gaps
+        self._gaps = file.gaps | Gaps(removed=removed)
         self._sink = sink
         self._unmerged: list[Robot] = []
         self._parts = dict(_parts(file.robot))
         self._parts.update((("group state", state.key), state.fields.ref) for state in file.states)
         self._held = {joint.child for joint in file.robot.joints}
+        self._mounts = list(file.mounts)
+        self._passed_on = _passed_on(file.robot)
+        self._under_a_prefix: list[Diagnostic] = []
 
     def add(self, module: Instance, lowered: Lowered) -> None:
         """Join a module and the joint that it hangs by, or record what is missing now."""
         self._unmerged += lowered.unmerged
+        if module.prefix:
+            self._sink.report_all(lowered.under_a_prefix)
+        else:
+            self._under_a_prefix += lowered.under_a_prefix
         self._gaps |= lowered.gaps.with_prefix(module.prefix)
         component = lowered.robot
         root = _root_of(component) if component else None
         final_root = None if root is None else module.prefix + root
-        mount = lower_mount(module, final_root, self._sink)
+        mount = self._mount(module, lowered.mount, final_root)
         if component is None:
             joined = False
         elif (root is None and not lowered.gaps) or not self._prefixed(component, module):
@@ -85,21 +106,44 @@ class _Fold:
         if mount and not (joined and self._connect(mount)):
             self._gaps |= gaps_of([mount.name])
 
-    def finished(self) -> Lowered:
-        """Return the robot with its group states, which may name those of its modules."""
+    def _mount(self, module: Instance, own: Mount | None, root: str | None) -> Mount | None:
+        """Return the joint by which a module hangs: its own, or that of its entry; None for the base of this robot."""
+        if own is None:
+            return lower_mount(module, root, self._sink)
+        if module.entry is not None and module.entry.node.child("parent") is not None:
+            return hung_by(own, module, root, self._sink)
+        self._mounts.append(handed_on(own, module.prefix))
+        return lower_mount(module, root, self._sink)
+
+    def finished(self, *, hangs_alone: bool) -> Lowered:
+        """Return the robot with its group states, which may name those of its modules.
+
+        One that has a mount and is nobody's module (`hangs_alone`) hangs on the world by it.
+        """
+        mount = only_mount(self._mounts, self._sink)
+        if mount and hangs_alone and not hang_on_world(self._robot, mount, _root_of(self._robot), self._sink):
+            self._gaps |= gaps_of([mount.name])
         if self._states:
             from linkforge_compile.lowering.srdf_states import Surroundings, resolve_states
 
             semantic = self._robot.semantic
             around = Surroundings(
                 groups=dict.fromkeys(group.name for group in semantic.groups),
-                joints=frozenset(self._robot.joints.names),
+                joints=frozenset((*self._robot.joints.names, *(mount.name for mount in self._mounts))),
                 states={(state.group, state.name): state.joint_values for state in semantic.group_states},
                 lost=self._gaps,
             )
             states = resolve_states(self._states, around)
             self._robot.semantic = replace(semantic, group_states=(*states, *semantic.group_states))
-        return Lowered(self._robot, tuple(self._unmerged), self._gaps)
+        if hangs_alone and self._robot.says_semantic:
+            from linkforge_compile.lowering.srdf_order import side_by_side
+
+            self._robot.semantic = side_by_side(self._robot.semantic)
+        if self._passed_on:
+            from linkforge_compile.lowering.unprefixed import warnings_under_a_prefix
+
+            self._under_a_prefix += warnings_under_a_prefix(self._passed_on, self._robot)
+        return Lowered(self._robot, tuple(self._unmerged), self._gaps, tuple(self._under_a_prefix), mount)
 
     def _prefixed(self, component: Robot, module: Instance) -> bool:
         """Give a component its final names; False, and told, for a prefix that no name may begin with."""
@@ -168,6 +212,8 @@ class _Fold:
             return False
         self._parts["joint", joint.name] = joint.source
         self._robot.joints = self._robot.joints.extended((joint,))
+        if mount.gazebo:
+            self._robot.gazebo_elements = self._robot.gazebo_elements.extended(mount.gazebo)
         return True
 
     def _leave_out(self, component: Robot, prefix: str, gaps: Gaps) -> bool:
@@ -177,6 +223,15 @@ class _Fold:
         if not gaps:
             self._unmerged.append(component)
         return False
+
+
+def _passed_on(robot: Robot) -> PassedOn | None:
+    """Return what a file says that takes no prefix; None for one that says nothing of the kind."""
+    if not (robot.sensors or robot.transmissions or robot.ros2_controls or robot.gazebo_elements):
+        return None
+    from linkforge_compile.lowering.unprefixed import passed_on
+
+    return passed_on(robot)
 
 
 def _parts(robot: Robot) -> Iterator[tuple[PartKey, SourceRef | None]]:

@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_KIND,
 )
 from linkforge_compile.diagnostics.codes.names import INVALID_NAME
+from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.quantities import Bound, Measure, Refusal, doubt, found, si_number
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
@@ -128,7 +129,7 @@ class Fields:
             return Transform.identity()
         zero = Vector3(0.0, 0.0, 0.0)
         xyz, rpy = pose.vector3("xyz", Dimension.LENGTH), pose.vector3("rpy", Dimension.ANGLE)
-        return Transform(xyz or zero, rpy or zero, source=pose.ref)
+        return Transform(xyz or zero, rpy or zero, source=pose.ref, **extras_of(pose))
 
     # Opening what is nested
 
@@ -250,12 +251,16 @@ class Fields:
         if not self.is_faulty:
             self.tell(code, self.ref, near=(), **facts)
 
-    def build(self, make: Callable[[], T]) -> T | None:
-        """Make an object of the IR; what its constructor refuses is told at the field it names."""
+    def build(self, make: Callable[[], T], *, is_whole: bool = True) -> T | None:
+        """Make an object of the IR; what its constructor refuses is told at the field it names.
+
+        Of an object that is not whole, since faulty parts were left out, it may refuse just that: silently.
+        """
         try:
             return make()
         except RobotModelError as error:
-            self.sink.report(REFUSED.at(self.ref, *error.field, owner=self.title, reason=error.message))
+            if is_whole:
+                self.sink.report(REFUSED.at(self.ref, *error.field, owner=self.title, reason=error.message))
             return None
 
     def said(self, key: str, required: str = "") -> YamlNode | None:
@@ -274,3 +279,8 @@ class Fields:
 
 def _is_null(node: YamlNode) -> bool:
     return isinstance(node, YamlScalar) and node.value is None
+
+
+def or_default(said: T | None, default: T) -> T:
+    """Return what a field said, the default where it said nothing."""
+    return default if said is None else said

@@ -1,8 +1,8 @@
-"""One file by itself: its links, joints, frames and materials as a robot, without its modules."""
+"""One file by itself: all that it says of a robot, without its modules."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -12,21 +12,28 @@ from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics, Gaps
 from linkforge_compile.lowering.duplicates import tell_duplicate
+from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.frame import Frame, lower_frames
 from linkforge_compile.lowering.joint import lower_joints
 from linkforge_compile.lowering.link import lower_links
 from linkforge_compile.lowering.material import lower_materials
+from linkforge_compile.lowering.mesh_solids import MeshReader
 from linkforge_compile.lowering.scope import FileScope
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity
 
 if TYPE_CHECKING:
+    from linkforge_compile.core.models.gazebo import GazeboElement
+    from linkforge_compile.core.models.ros2_control import Ros2Control
+    from linkforge_compile.core.models.sensor import Sensor
+    from linkforge_compile.core.models.transmission import Transmission
+    from linkforge_compile.lowering.mount import Mount
     from linkforge_compile.lowering.srdf import Semantic
     from linkforge_compile.lowering.srdf_states import WrittenState
 
-_SECTIONS_OF_NAMES = ("links", "joints", "frames", "modules", "semantic")
+_SECTIONS_OF_NAMES = ("links", "joints", "frames", "mount", "modules", "semantic", "include")
 
 Plain: TypeAlias = "None | bool | int | float | str | list[Plain] | dict[str, Plain]"
 
@@ -38,16 +45,20 @@ class LoweredFile:
     robot: Robot
     states: tuple[WrittenState, ...]
     gaps: Gaps
+    mounts: tuple[Mount, ...] = ()
 
 
-def lower_file(tree: YamlMap, mesh_base: str, trail: tuple[Span, ...], sink: Diagnostics) -> LoweredFile:
+def lower_file(
+    tree: YamlMap, mesh_bases: Mapping[SourceFile, str], trail: tuple[Span, ...], sink: Diagnostics, meshes: MeshReader
+) -> LoweredFile:
     """Lower all that a file says itself; a name that is written twice is told at the second."""
     file = Fields(tree, "robot", sink, trail)
-    materials = lower_materials(file, FileScope(mesh_base))
+    materials = lower_materials(file, FileScope(mesh_bases))
     lost_materials = gaps_of(name for name, material in materials.items() if material is None)
-    if isinstance(tree.get("materials"), YamlFault):
+    if any(isinstance(tree.get(section), YamlFault) for section in ("materials", "include")):
         lost_materials |= Gaps(prefixes=("",))
-    scope = FileScope(mesh_base, {name: material for name, material in materials.items() if material}, lost_materials)
+    kept_materials = {name: material for name, material in materials.items() if material}
+    scope = FileScope(mesh_bases, kept_materials, lost_materials, meshes)
     links, joints = dict(lower_links(file, scope)), dict(lower_joints(file))
     for frame in lower_frames(file):
         _add_frame(frame, links, joints, sink)
@@ -61,14 +72,19 @@ def lower_file(tree: YamlMap, mesh_base: str, trail: tuple[Span, ...], sink: Dia
         metadata=_metadata(tree),
         links=[link for link in links.values() if link],
         joints=[joint for joint in joints.values() if joint],
+        sensors=_sensors(file),
+        transmissions=_transmissions(file),
+        ros2_controls=_ros2_controls(file),
+        gazebo_elements=_gazebo_elements(file),
         semantic=semantic.description if semantic else None,
         source=SourceRef(tree, said.span if said else None, trail),
+        **extras_of(file),
     )
     lost = [name for parts in (links, joints) for name, part in parts.items() if part is None]
     gaps = gaps_of([*lost, *(semantic.lost_groups if semantic else ())])
     if any(isinstance(tree.get(section), YamlFault) for section in _SECTIONS_OF_NAMES):
         gaps |= Gaps(prefixes=("",))
-    return LoweredFile(robot, semantic.states if semantic else (), gaps)
+    return LoweredFile(robot, semantic.states if semantic else (), gaps, tuple(_mounts(file)))
 
 
 def gaps_of(names: Iterable[str]) -> Gaps:
@@ -101,10 +117,54 @@ def _add_frame(frame: Frame, links: dict[str, Link | None], joints: dict[str, Jo
     links[frame.link_name], joints[frame.joint_name] = frame.link, frame.joint
 
 
+# What a file does not say is not imported for it either: the classes of each concept cost start-up time.
+
+
+def _mounts(file: Fields) -> Iterable[Mount]:
+    if file.node.get("mount") is None:
+        return ()
+    from linkforge_compile.lowering.own_mount import lower_own_mounts
+
+    return lower_own_mounts(file)
+
+
+def _sensors(file: Fields) -> tuple[Sensor, ...]:
+    if file.node.get("sensors") is None:
+        return ()
+    from linkforge_compile.lowering.sensor import lower_sensors
+
+    return tuple(lower_sensors(file))
+
+
+def _transmissions(file: Fields) -> tuple[Transmission, ...]:
+    if file.node.get("transmissions") is None:
+        return ()
+    from linkforge_compile.lowering.transmission import lower_transmissions
+
+    return tuple(lower_transmissions(file))
+
+
+def _ros2_controls(file: Fields) -> tuple[Ros2Control, ...]:
+    if file.node.get("ros2_control") is None:
+        return ()
+    from linkforge_compile.lowering.ros2_control import lower_ros2_controls
+
+    return tuple(lower_ros2_controls(file))
+
+
+def _gazebo_elements(file: Fields) -> tuple[GazeboElement, ...]:
+    sections = (file.node.get("links"), file.node.get("joints"))
+    entries = (entry.value for section in sections if isinstance(section, YamlMap) for entry in section)
+    if not any(isinstance(node, YamlMap) and "gazebo" in node.entries for node in (file.node, *entries)):
+        return ()
+    from linkforge_compile.lowering.gazebo import lower_gazebo_elements
+
+    return tuple(lower_gazebo_elements(file))
+
+
 def _semantic(file: Fields) -> Semantic | None:
     if file.node.get("semantic") is None:
         return None
-    # Most modules say nothing semantic, and the classes of SRDF cost start-up time.
     from linkforge_compile.lowering.srdf import lower_semantic
 
     return lower_semantic(file)

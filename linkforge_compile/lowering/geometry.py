@@ -6,10 +6,11 @@ from collections.abc import Callable
 
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Vector3
 from linkforge_compile.diagnostics.codes.model import NO_GEOMETRY, NO_MESH_FILE, SEVERAL_GEOMETRIES
+from linkforge_compile.lowering.extra import NO_EXTRAS, Extras, extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_ZERO, Measure
 from linkforge_compile.lowering.scope import FileScope
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 
@@ -35,48 +36,50 @@ def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
 
 
 def _cylinder(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
-    radius, length = _radius_and_length(shape, node, "cylinder")
-    if radius is None or length is None:
-        return None
-    return shape.build(lambda: Cylinder(radius, length, source=_ref(shape, node)))
+    return _round(Cylinder, shape.map_at(node, "cylinder"))
 
 
 def _capsule(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
-    radius, length = _radius_and_length(shape, node, "capsule")
-    if radius is None or length is None:
-        return None
-    return shape.build(lambda: Capsule(radius, length, source=_ref(shape, node)))
+    return _round(Capsule, shape.map_at(node, "capsule"))
 
 
 def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
-    if isinstance(node, YamlMap):
-        sphere = shape.map_at(node, "sphere")
-        radius = sphere.number("radius", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.1") if sphere else None
+    body = shape.map_at(node, "sphere") if isinstance(node, YamlMap) else None
+    if body:
+        radius, extras = body.number("radius", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.1"), extras_of(body)
     else:
-        radius = shape.number_at(node, "sphere", _SIZE)
+        radius, extras = shape.number_at(node, "sphere", _SIZE), NO_EXTRAS
     if radius is None:
         return None
-    return shape.build(lambda: Sphere(radius, source=_ref(shape, node)))
+    return shape.build(lambda: Sphere(radius, source=_ref(shape, node), **extras))
 
 
 def _mesh(shape: Fields, node: YamlNode, scope: FileScope) -> Geometry | None:
     if not isinstance(node, YamlMap):
-        return _mesh_file(shape, shape.text_at(node, "mesh"), node, Vector3(1.0, 1.0, 1.0), scope)
+        return _mesh_file(shape, shape.text_at(node, "mesh"), node, Vector3(1.0, 1.0, 1.0), scope, NO_EXTRAS)
     mesh = shape.map_at(node, "mesh")
     if mesh is None:
         return None
     file = mesh.text("file", required="meshes/part.stl")
     scale = _scale(mesh)
-    return None if scale is None else _mesh_file(mesh, file, node, scale, scope)
+    return None if scale is None else _mesh_file(mesh, file, node, scale, scope, extras_of(mesh))
 
 
-def _mesh_file(fields: Fields, file: str | None, node: YamlNode, scale: Vector3, scope: FileScope) -> Geometry | None:
+def _mesh_file(  # noqa: PLR0917 both forms of a mesh end here
+    fields: Fields, file: str | None, node: YamlNode, scale: Vector3, scope: FileScope, extras: Extras
+) -> Geometry | None:
     if file is None:
         return None
     if not file.strip():
         fields.tell(NO_MESH_FILE, node.child("file") or node, owner=fields.title)
         return None
-    return fields.build(lambda: Mesh(scope.resource(file), scale, source=_ref(fields, node)))
+    return fields.build(
+        lambda: Mesh(scope.resource(file, _file_span(node)), scale, source=_ref(fields, node), **extras)
+    )
+
+
+def _file_span(mesh: YamlNode) -> Span:
+    return (mesh.child("file") or mesh).span
 
 
 def _scale(mesh: Fields) -> Vector3 | None:
@@ -91,12 +94,14 @@ def _scale(mesh: Fields) -> Vector3 | None:
     return None if number is None else Vector3(number, number, number)
 
 
-def _radius_and_length(shape: Fields, node: YamlNode, kind: str) -> tuple[float | None, float | None]:
-    body = shape.map_at(node, kind)
+def _round(kind: type[Cylinder | Capsule], body: Fields | None) -> Geometry | None:
     if body is None:
-        return None, None
+        return None
     radius = body.number("radius", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.1")
-    return radius, body.number("length", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.5")
+    length = body.number("length", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.5")
+    if radius is None or length is None:
+        return None
+    return body.build(lambda: kind(radius, length, source=body.ref, **extras_of(body)))
 
 
 def _ref(shape: Fields, node: YamlNode) -> SourceRef:

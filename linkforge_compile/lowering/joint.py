@@ -25,6 +25,7 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_AXIS,
     ZERO_AXIS,
 )
+from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import NOT_NEGATIVE, Measure, found
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlScalar
@@ -125,6 +126,7 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
             calibration,
             axis_as_written=axis_as_written,
             source=fields.ref,
+            **extras_of(fields),
         )
     )
 
@@ -179,7 +181,9 @@ def _limits(fields: Fields, joint_type: JointType, motion: _Motion) -> JointLimi
     is_one_lost = (lower is None and limits.said("lower")) or (upper is None and limits.said("upper"))
     if are_crossed or is_one_lost or limits.is_faulty:
         lower, upper = _STAND_IN_LIMITS.lower, _STAND_IN_LIMITS.upper
-    return limits.build(lambda: JointLimits(lower, upper, effort or 0.0, velocity or 0.0, source=limits.ref))
+    return limits.build(
+        lambda: JointLimits(lower, upper, effort or 0.0, velocity or 0.0, source=limits.ref, **extras_of(limits))
+    )
 
 
 def _tell_crossed(limits: Fields) -> None:
@@ -194,7 +198,7 @@ def _dynamics(fields: Fields, motion: _Motion) -> JointDynamics | None:
         return None
     damping = dynamics.number("damping", bound=NOT_NEGATIVE) or 0.0
     friction = dynamics.number("friction", *motion.effort, bound=NOT_NEGATIVE) or 0.0
-    return dynamics.build(lambda: JointDynamics(damping, friction, source=dynamics.ref))
+    return dynamics.build(lambda: JointDynamics(damping, friction, source=dynamics.ref, **extras_of(dynamics)))
 
 
 def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:
@@ -206,7 +210,7 @@ def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:
     if joint is None:
         return None
     factor = 1.0 if multiplier is None else multiplier
-    return mimic.build(lambda: JointMimic(joint, factor, offset or 0.0, source=mimic.ref))
+    return mimic.build(lambda: JointMimic(joint, factor, offset or 0.0, source=mimic.ref, **extras_of(mimic)))
 
 
 def _safety_controller(fields: Fields, motion: _Motion) -> JointSafetyController | None:
@@ -216,7 +220,9 @@ def _safety_controller(fields: Fields, motion: _Motion) -> JointSafetyController
     lower = safety.number("soft_lower_limit", *motion.position)
     upper = safety.number("soft_upper_limit", *motion.position)
     k_position, k_velocity = safety.number("k_position"), safety.number("k_velocity") or 0.0
-    return safety.build(lambda: JointSafetyController(lower, upper, k_position, k_velocity, source=safety.ref))
+    return safety.build(
+        lambda: JointSafetyController(lower, upper, k_position, k_velocity, source=safety.ref, **extras_of(safety))
+    )
 
 
 def _calibration(fields: Fields, motion: _Motion) -> JointCalibration | None:
@@ -224,7 +230,9 @@ def _calibration(fields: Fields, motion: _Motion) -> JointCalibration | None:
     if calibration is None:
         return None
     rising, falling = calibration.number("rising", *motion.position), calibration.number("falling", *motion.position)
-    return calibration.build(lambda: JointCalibration(rising, falling, source=calibration.ref))
+    return calibration.build(
+        lambda: JointCalibration(rising, falling, source=calibration.ref, **extras_of(calibration))
+    )
 
 
 def _refuse(fields: Fields, key: str, joint_type: JointType) -> None:

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from linkforge_compile.core.constants import DEFAULT_LINK_MASS
 from linkforge_compile.core.models.geometry import Geometry, Mesh, Transform
-from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, Visual
+from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
 from linkforge_compile.core.physics import inertial_of_shapes
 from linkforge_compile.diagnostics.codes.model import (
     COPY_OF_NOTHING,
     DENSITY_WITH_INERTIA,
-    INERTIA_OF_MESH,
     INERTIA_OF_NOTHING,
     MASS_AND_DENSITY,
     NO_MASS,
     ORIGIN_WITHOUT_INERTIA,
     WRONG_KIND,
 )
-from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.geometry import lower_geometry
 from linkforge_compile.lowering.material import lower_visual_material
 from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_NEGATIVE, found
@@ -42,18 +43,39 @@ def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
     valid = fields.name_is_valid(name, "link", fields.ref)
     visuals = [_visual(shape, scope) for shape in _shapes(fields, "visual")]
     collisions = _collisions(fields, visuals, scope)
-    inertial = _inertial(fields, collisions or visuals)
+    inertial, physics = _inertial(fields, collisions or visuals, scope), _physics(fields)
     if not valid:
         return None
     return fields.build(
         lambda: Link(
             name,
             inertial,
-            visuals=[visual for visual in visuals if visual],
-            collisions=[collision for collision in collisions if collision],
+            physics,
+            [visual for visual in visuals if visual],
+            [collision for collision in collisions if collision],
             source=fields.ref,
+            **extras_of(fields),
         )
     )
+
+
+def _physics(link: Fields) -> LinkPhysics:
+    """Lower how a simulator treats a link in contact; what is unsaid or faulty is as the simulator has it."""
+    unsaid, physics = LinkPhysics(), link.map("physics")
+    if physics is None:
+        return unsaid
+    lowered = physics.build(
+        lambda: LinkPhysics(
+            or_default(physics.flag("self_collide"), unsaid.self_collide),
+            or_default(physics.flag("gravity"), unsaid.gravity),
+            or_default(physics.number("mu"), unsaid.mu),
+            or_default(physics.number("mu2"), unsaid.mu2),
+            or_default(physics.number("kp"), unsaid.kp),
+            or_default(physics.number("kd"), unsaid.kd),
+            source=physics.ref,
+        )
+    )
+    return lowered or unsaid
 
 
 def _shapes(link: Fields, key: str) -> Iterator[Fields | None]:
@@ -66,7 +88,7 @@ def _visual(shape: Fields | None, scope: FileScope) -> Visual | None:
         return None
     geometry, origin = lower_geometry(shape, scope), shape.origin()
     material, name = lower_visual_material(shape, scope), shape.text("name")
-    return Visual(geometry, origin, material, name, source=shape.ref) if geometry else None
+    return Visual(geometry, origin, material, name, source=shape.ref, **extras_of(shape)) if geometry else None
 
 
 def _collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) -> list[Collision | None]:
@@ -87,19 +109,19 @@ def _collision(shape: Fields | None, scope: FileScope) -> Collision | None:
     if shape is None:
         return None
     geometry, origin, name = lower_geometry(shape, scope), shape.origin(), shape.text("name")
-    return Collision(geometry, origin, name, source=shape.ref) if geometry else None
+    return Collision(geometry, origin, name, source=shape.ref, **extras_of(shape)) if geometry else None
 
 
-def _inertial(link: Fields, shapes: Shapes) -> Inertial | None:
+def _inertial(link: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
     """Lower the inertial: as written, or computed from these shapes; without `inertial`, none."""
     if link.node.get("inertial") is None:
         return None
     inertial = link.map("inertial")
     # What is faulty has been told: a stand-in keeps the checks from telling of a link without mass as well.
-    return (inertial and _written_or_computed(link, inertial, shapes)) or Inertial(DEFAULT_LINK_MASS)
+    return (inertial and _written_or_computed(link, inertial, shapes, scope)) or Inertial(DEFAULT_LINK_MASS)
 
 
-def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes) -> Inertial | None:
+def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
     written = inertial.node.get("inertia") is not None
     mass = inertial.number("mass", Dimension.MASS, bound=NOT_NEGATIVE if written else ABOVE_ZERO)
     density = inertial.number("density", Dimension.DENSITY, bound=ABOVE_ZERO)
@@ -109,7 +131,7 @@ def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes) -> Iner
     if (node := inertial.node.get("origin")) is not None:
         inertial.tell(ORIGIN_WITHOUT_INERTIA, node, owner=inertial.title)
     elif _one_of_mass_and_density(inertial) and _has_shapes(link, inertial, shapes):
-        return _computed(inertial, shapes, mass, density)
+        return _computed(inertial, shapes, scope, mass, density)
     return None
 
 
@@ -122,7 +144,7 @@ def _written(inertial: Fields, mass: float | None, origin: Transform) -> Inertia
         inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass'")
     if mass is None or tensor is None:
         return None
-    return inertial.build(lambda: Inertial(mass, origin, tensor, source=inertial.ref))
+    return inertial.build(lambda: Inertial(mass, origin, tensor, source=inertial.ref, **extras_of(inertial)))
 
 
 def _tensor(inertial: Fields) -> InertiaTensor | None:
@@ -134,7 +156,7 @@ def _tensor(inertial: Fields) -> InertiaTensor | None:
     known = [moment for moment in moments if moment is not None]
     if len(known) < len(moments):
         return None
-    return inertia.build(lambda: InertiaTensor(*known, *products, source=inertia.ref))
+    return inertia.build(lambda: InertiaTensor(*known, *products, source=inertia.ref, **extras_of(inertia)))
 
 
 def _one_of_mass_and_density(inertial: Fields) -> bool:
@@ -154,12 +176,19 @@ def _has_shapes(link: Fields, inertial: Fields, shapes: Shapes) -> bool:
     return bool(shapes)
 
 
-def _computed(inertial: Fields, shapes: Shapes, mass: float | None, density: float | None) -> Inertial | None:
+def _computed(
+    inertial: Fields, shapes: Shapes, scope: FileScope, mass: float | None, density: float | None
+) -> Inertial | None:
     """Compute mass, centre and tensor over all shapes together; None where one of them is faulty, or none there."""
     bodies: list[tuple[Geometry, Transform]] = [(shape.geometry, shape.origin) for shape in shapes if shape]
-    if any(isinstance(geometry, Mesh) for geometry, _ in bodies):
-        inertial.tell(INERTIA_OF_MESH, inertial.ref, owner=inertial.title)
-        return None
-    if len(bodies) < len(shapes) or (mass is None and density is None):
-        return None
-    return inertial.build(lambda: inertial_of_shapes(bodies, mass=mass, density=density))
+
+    def compute() -> Inertial | None:
+        meshes = [geometry for geometry, _ in bodies if isinstance(geometry, Mesh)]
+        read = {mesh: scope.meshes.solid(mesh, inertial.ref, inertial.sink) for mesh in meshes}
+        solids = {mesh: solid for mesh, solid in read.items() if solid}
+        if len(bodies) < len(shapes) or len(solids) < len(read) or (mass is None and density is None):
+            return None
+        computed = inertial_of_shapes(bodies, mass=mass, density=density, meshes=solids)
+        return replace(computed, source=inertial.ref, **extras_of(inertial))
+
+    return inertial.build(compute)

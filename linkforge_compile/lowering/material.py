@@ -5,6 +5,7 @@ from __future__ import annotations
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
+from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import ZERO_TO_ONE, Measure
 from linkforge_compile.lowering.scope import FileScope
@@ -41,8 +42,8 @@ def _material(fields: Fields, name: str, scope: FileScope) -> Material | None:
     rgba, file = _color(fields), fields.text("texture")
     if rgba is None and file is None:
         return None
-    image = None if file is None else scope.resource(file)
-    return fields.build(lambda: Material(name, rgba, image, source=fields.ref))
+    image = scope.resource(file, texture.span) if file is not None and texture is not None else None
+    return fields.build(lambda: Material(name, rgba, image, source=fields.ref, **extras_of(fields)))
 
 
 def _color(fields: Fields) -> Color | None:

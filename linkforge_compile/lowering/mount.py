@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.diagnostics import Diagnostics
@@ -12,12 +12,16 @@ from linkforge_compile.lowering.joint import Ends, joint_between
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
 
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.gazebo import GazeboElement
+
 
 class Mount(NamedTuple):
-    """The name of a module's joint, and the joint, None where it is lost."""
+    """The name of a module's joint, the joint, None where it is lost, and what a simulator is told about it."""
 
     name: str
     joint: Joint | None
+    gazebo: tuple[GazeboElement, ...] = ()
 
 
 def module_fields(module: Instance, sink: Diagnostics) -> Fields | None:
@@ -46,7 +50,16 @@ def lower_mount(module: Instance, root: str | None, sink: Diagnostics) -> Mount 
     joint = _as_joint(written, name or default)
     joint_type = JointType.FIXED if joint.node.get("type") is None else joint.choice("type", JointType)
     ends = Ends(joint.text("parent"), root, joint.origin())
-    return Mount(name or default, joint_between(joint, name, joint_type, ends))
+    return Mount(name or default, joint_between(joint, name, joint_type, ends), gazebo_of(joint, name or default))
+
+
+def gazebo_of(joint: Fields, name: str) -> tuple[GazeboElement, ...]:
+    """Lower what a simulator is told of a joint that stands in no section of joints."""
+    if joint.node.get("gazebo") is None:
+        return ()
+    from linkforge_compile.lowering.gazebo import lower_gazebo
+
+    return tuple(lower_gazebo(joint, name))
 
 
 def _name(module: Fields, default: str) -> str | None:

@@ -55,10 +55,14 @@ ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1)
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """What a number field takes: a bare number or a quantity of one of `dimensions`, none for bare numbers only."""
+    """What a number field takes: a bare number or a quantity of one of `dimensions`, none for bare numbers only.
+
+    A length of more than 100 m is doubted, unless it is how far something sees.
+    """
 
     dimensions: tuple[Dimension, ...] = ()
     bound: Bound | None = None
+    may_be_far: bool = False
 
     @property
     def words(self) -> str:
@@ -107,7 +111,7 @@ def doubt(node: YamlNode, number: float, measure: Measure) -> Code | None:
     bare = isinstance(node, YamlScalar) and isinstance(node.value, int | float)
     if measure.dimensions == (Dimension.ANGLE,) and bare and abs(number) > _WIDEST_ANGLE:
         return WIDE_ANGLE
-    if measure.dimensions == (Dimension.LENGTH,) and abs(number) > _LONGEST_LENGTH:
+    if measure.dimensions == (Dimension.LENGTH,) and abs(number) > _LONGEST_LENGTH and not measure.may_be_far:
         return LONG_LENGTH
     return None
 

@@ -8,21 +8,29 @@ from dataclasses import dataclass, field
 
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
+from linkforge_compile.modules.mesh_files import no_mesh
+from linkforge_compile.source import SourceFile, Span
 
 
 @dataclass(frozen=True, slots=True)
 class FileScope:
-    """`mesh_base` is as in Instance, `materials` are those that the file declares, without those that are lost."""
+    """`mesh_bases` are as in Instance, `materials` are those that the file declares, without those that are lost.
 
-    mesh_base: str = ""
+    `meshes` reads those that an inertia is to be computed from.
+    """
+
+    mesh_bases: Mapping[SourceFile, str] = field(default_factory=dict)
     materials: Mapping[str, Material] = field(default_factory=dict)
     lost_materials: Gaps = field(default_factory=Gaps)
+    meshes: MeshReader = field(default_factory=lambda: MeshReader(no_mesh, MeshSolids()))
 
-    def resource(self, path: str) -> str:
-        """Return a relative path as the compiled file would write it; a URI or an absolute path as written."""
-        if not self.mesh_base or "://" in path or path.startswith("/"):
+    def resource(self, path: str, where: Span) -> str:
+        """Return a relative path, written at a place, as the compiled file would; any other path as written."""
+        base = self.mesh_bases.get(where.file)
+        if not base or "://" in path or path.startswith("/"):
             return path
-        whole = self.mesh_base + path
+        whole = base + path
         package, separator, inside = _in_package(whole)
         normal = posixpath.normpath(inside)
         climbs_out = separator and normal.startswith("..")

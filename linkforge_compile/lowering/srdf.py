@@ -21,6 +21,7 @@ from linkforge_compile.core.models.srdf import (
 )
 from linkforge_compile.diagnostics.codes.model import EMPTY_GROUP, PAIR_WITH_ITSELF
 from linkforge_compile.lowering.duplicates import tell_duplicate
+from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import NOT_NEGATIVE
 from linkforge_compile.lowering.srdf_states import WrittenState, written_states
@@ -62,6 +63,7 @@ def lower_semantic(file: Fields) -> Semantic | None:
         link_sphere_approximations=tuple(_sphere_approximations(semantic)),
         joint_properties=tuple(_joint_properties(semantic)),
         source=semantic.ref,
+        **extras_of(semantic),
     )
     lost = frozenset(name for name, group in groups.items() if group is None)
     return Semantic(description, tuple(written_states(semantic)), lost)
@@ -73,7 +75,9 @@ def _virtual_joint(fields: Fields, name: str) -> VirtualJoint | None:
     child_link = fields.text("child_link", required="base")
     if joint_type is None or parent_frame is None or child_link is None:
         return None
-    return fields.build(lambda: VirtualJoint(name, joint_type.value, parent_frame, child_link, source=fields.ref))
+    return fields.build(
+        lambda: VirtualJoint(name, joint_type.value, parent_frame, child_link, source=fields.ref, **extras_of(fields))
+    )
 
 
 def _group(fields: Fields, name: str) -> PlanningGroup | None:
@@ -85,7 +89,9 @@ def _group(fields: Fields, name: str) -> PlanningGroup | None:
     whole = [chain for chain in chains if chain]
     if not (whole or links or joints or subgroups):
         return None  # all its members are faulty and told
-    return fields.build(lambda: PlanningGroup(name, links, joints, whole, subgroups, source=fields.ref))
+    return fields.build(
+        lambda: PlanningGroup(name, links, joints, whole, subgroups, source=fields.ref, **extras_of(fields))
+    )
 
 
 def _chain(group: Fields, node: YamlNode) -> Chain | None:
@@ -95,7 +101,7 @@ def _chain(group: Fields, node: YamlNode) -> Chain | None:
     base, tip = chain.text("base_link", required="base"), chain.text("tip_link", required="tool0")
     if base is None or tip is None:
         return None
-    return chain.build(lambda: Chain(base, tip, source=chain.ref))
+    return chain.build(lambda: Chain(base, tip, source=chain.ref, **extras_of(chain)))
 
 
 def _end_effector(fields: Fields, name: str) -> EndEffector | None:
@@ -103,7 +109,9 @@ def _end_effector(fields: Fields, name: str) -> EndEffector | None:
     parent_group = fields.text("parent_group")
     if group is None or parent_link is None:
         return None
-    return fields.build(lambda: EndEffector(name, group, parent_link, parent_group, source=fields.ref))
+    return fields.build(
+        lambda: EndEffector(name, group, parent_link, parent_group, source=fields.ref, **extras_of(fields))
+    )
 
 
 def _passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
@@ -152,7 +160,9 @@ def _sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
     radius = sphere.number("radius", Dimension.LENGTH, bound=NOT_NEGATIVE, required="0.1")
     if center is None or radius is None:
         return None
-    return sphere.build(lambda: SrdfSphere(center.x, center.y, center.z, radius, source=sphere.ref))
+    return sphere.build(
+        lambda: SrdfSphere(center.x, center.y, center.z, radius, source=sphere.ref, **extras_of(sphere))
+    )
 
 
 def _joint_properties(semantic: Fields) -> Iterator[JointProperty]:

@@ -4,15 +4,22 @@ from linkforge_compile.modules.arguments import Arguments, arguments_from_text, 
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.modules.expand import expand
 from linkforge_compile.modules.given import Unset
+from linkforge_compile.modules.listing import ListedParameter, Listing, Plain, list_parameters
 from linkforge_compile.modules.loader import Loader, SpecFile
+from linkforge_compile.modules.variants import variants_of
 
 __all__ = [
     "Arguments",
     "Instance",
+    "ListedParameter",
+    "Listing",
     "Loader",
+    "Plain",
     "SpecFile",
     "Unset",
     "arguments_from_text",
     "arguments_from_values",
     "expand",
+    "list_parameters",
+    "variants_of",
 ]

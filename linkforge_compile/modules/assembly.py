@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.diagnostics import Note
+from linkforge_compile.modules.mesh_files import FindMesh, no_mesh
+from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlMap
+
+
+class NameReference(NamedTuple):
+    """A name in `$(link('x'))` or `$(joint('x'))`, as the file calls what it names, and where it is written."""
+
+    kind: str
+    name: str
+    where: SourceRef
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Instance:
     """One use of one spec file: the compiled file itself, or an entry of `modules`.
 
-    `tree` is the file's tree with every expression evaluated and without `parameters`, `variables` and `x-`
-    keys; None where the file could not be read, which has been reported. An entry whose value is a YamlFault
-    was reported, too; where its key still holds `$(`, so was its name.
+    `tree` is the file's tree, its included files laid in, with every expression evaluated and without what only
+    serves to compute it (`parameters`, `variables`, `data`, …) and `x-` keys; None where the file could not be
+    read, which has been reported. An entry whose value is a YamlFault was reported, too; where its key still holds
+    `$(`, so was its name.
     `entry` is the evaluated entry of `modules` (`parent`, `origin`, `joint`), None for the compiled file.
     `prefix` is this use's own, not that of the files around it.
-    `mesh_base` is put before a relative mesh path of this file to make it relative to the compiled file:
-    "" for the compiled file, "../arm/", or "package://arm_description/robots/".
+    `mesh_bases` says for each file that may have written in the tree what is put before a relative path in it to
+    make it relative to the compiled file: "../arm/", or "package://arm_description/robots/"; "" for no other file.
+    `references` are the names that expressions asked for, which must be names of this file or its modules.
+    `find_mesh` finds the meshes that an inertia is to be computed from.
+    `removed` says of names of this file why it has nothing of that name: a `when`, or an override.
     `trail` lists the `use` that brought the file in, then the use of the file that wrote that, and outwards.
     """
 
@@ -26,6 +42,9 @@ class Instance:
     tree: YamlMap | None
     entry: SourceRef | None = None
     prefix: str = ""
-    mesh_base: str = ""
+    mesh_bases: Mapping[SourceFile, str] = field(default_factory=dict)
     trail: tuple[Span, ...] = ()
     modules: tuple[Instance, ...] = ()
+    references: tuple[NameReference, ...] = ()
+    find_mesh: FindMesh = no_mesh
+    removed: Mapping[str, Note] = field(default_factory=dict)

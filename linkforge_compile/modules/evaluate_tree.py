@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TEXT_NOT_NUMBER, TREE_TOO_LARGE
+from linkforge_compile.diagnostics.codes.repetition import RESERVED_KEY
 from linkforge_compile.expressions import (
     FAULT,
     Fault,
+    Lazy,
     Scope,
     Template,
     Value,
@@ -19,7 +22,11 @@ from linkforge_compile.expressions import (
     kind_name,
     parse_template,
 )
+from linkforge_compile.modules.conditions import MAX_REPEATED, occurrences
 from linkforge_compile.modules.values import node_of, plain_value, size_of
+from linkforge_compile.schema.repetition import WORDS
+from linkforge_compile.schema.shapes import FREE, Shape
+from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
 from linkforge_compile.units import parse_quantity
 
@@ -27,7 +34,9 @@ MAX_COMPUTED_NODES = 1_000_000
 """How many nodes the expressions of all files together may give."""
 
 _TEXT_KEYS = frozenset(
-    {"name", "version", "description", "metadata", "joint_properties"}
+    {"name", "version", "description", "metadata", "joint_properties", "parameters", "properties"}
+    | {"extra", "extra_attributes", "command_interfaces", "state_interfaces", "hardware_interfaces"}
+    | {"hardware_plugin", "filename", "topic", "frame", "link", "reference"}
     | {"use", "prefix", "parent", "child", "file", "texture", "base_link", "tip_link", "child_link", "parent_link"}
 )
 """Keys under which text may look like a number: names, paths, and the free parts with all that is in them."""
@@ -41,7 +50,10 @@ class Expressions:
     def __init__(self) -> None:
         self._templates: dict[YamlScalar, Template | None] = {}
         self._live: dict[YamlList | YamlMap, bool] = {}
+        self._changing: dict[YamlList | YamlMap, bool] = {}
+        self._sizes: dict[YamlList | YamlMap, int] = {}
         self._computed_nodes = 0
+        self._repeated_nodes = 0
 
     def template(self, scalar: YamlScalar, sink: Diagnostics) -> Template | None:
         """Return a scalar's text with its expressions parsed; None where they cannot be, which is reported once."""
@@ -61,6 +73,39 @@ class Expressions:
             else:
                 self._live[node] = any(has_expression(entry.name) or self.are_in(entry.value) for entry in node)
         return self._live[node]
+
+    def change(self, node: YamlNode) -> bool:
+        """Whether a node or anything in it, keys too, holds an expression or a word of repetition."""
+        if isinstance(node, YamlScalar):
+            return has_expression(node.text)
+        if isinstance(node, YamlFault):
+            return False
+        changing = self._changing.get(node)
+        if changing is None:
+            if isinstance(node, YamlList):
+                changing = any(map(self.change, node.items))
+            else:
+                changing = any(
+                    name in WORDS or has_expression(name) or self.change(entry.value)
+                    for name, entry in node.entries.items()
+                )
+            self._changing[node] = changing
+        return changing
+
+    def size(self, node: YamlNode) -> int:
+        """Return how many nodes a node is, itself counted."""
+        if not isinstance(node, YamlList | YamlMap):
+            return 1
+        if node not in self._sizes:
+            parts = node if isinstance(node, YamlList) else (entry.value for entry in node)
+            self._sizes[node] = 1 + sum(self.size(part) for part in parts)
+        return self._sizes[node]
+
+    def may_repeat(self, nodes: int) -> bool | None:
+        """Count nodes that a `for` writes again; None for those that go beyond the bound, False for all behind."""
+        within = self._repeated_nodes <= MAX_REPEATED
+        self._repeated_nodes += nodes
+        return within and (True if self._repeated_nodes <= MAX_REPEATED else None)
 
     def admit(self, value: Value) -> bool | None:
         """Count a value's nodes; None for the one that goes beyond the bound, False for all behind it."""
@@ -86,11 +131,42 @@ class Expressions:
 
 @dataclass(frozen=True, slots=True)
 class TreeEvaluator:
-    """Evaluates nodes of one file in one scope."""
+    """Evaluates nodes of one file in one scope.
+
+    `elsewhere` holds, for each included file that lies in another folder, the paths among the names as seen from it.
+    `disabled` collects the names of the entries that a `when` takes out, each with the place of the `when`.
+    """
 
     scope: Scope
     expressions: Expressions
     sink: Diagnostics
+    elsewhere: Mapping[SourceFile, Mapping[str, Lazy]] = field(default_factory=dict)
+    disabled: dict[str, Span] = field(default_factory=dict)
+
+    def inside(self, values: Mapping[str, Value]) -> TreeEvaluator:
+        """Return one that knows these names as well."""
+        return replace(self, scope=self.scope.inside(values))
+
+    @property
+    def silent(self) -> TreeEvaluator:
+        """One that reports nothing, for what is not part of the robot."""
+        return replace(self, sink=Diagnostics(), expressions=Expressions())
+
+    def disable(self, key: YamlScalar, where: Span) -> None:
+        """Remember the name of an entry that the `when` at a place takes out, if it can be told."""
+        name = self.silent.key(key)
+        if name:
+            self.disabled.setdefault(name.text, where)
+
+    @property
+    def removed(self) -> dict[str, Note]:
+        """Why a name is not there, by the name."""
+        return {name: Note(f"'{name}' is disabled by 'when' here", where) for name, where in self.disabled.items()}
+
+    def names_in(self, node: YamlNode) -> frozenset[str]:
+        """Return the names that the expressions of a scalar use."""
+        template = self.expressions.template(node, self.sink) if isinstance(node, YamlScalar) else None
+        return template.names if template else frozenset()
 
     def value(self, node: YamlNode) -> Value | Fault:
         """Return what a node means in an expression; FAULT if anything in it is at fault, which is reported."""
@@ -107,22 +183,27 @@ class TreeEvaluator:
                 return self._map_value(node)
         return FAULT
 
-    def node(self, node: YamlNode, *, is_text: bool = False) -> YamlNode:
-        """Return the tree with every expression computed; what holds none is the same object.
+    def node(self, node: YamlNode, shape: Shape = FREE, *, is_text: bool = False) -> YamlNode:
+        """Return the tree with every expression computed, and repeated where it says so; what says nothing is as it is.
 
-        What is at fault becomes a YamlFault; an entry whose key is keeps the key as written. `is_text` says that
-        nothing in the node is read as a number.
+        What is at fault becomes a YamlFault; an entry whose key is keeps the key as written. `shape` tells where
+        `for` and `when` are more than keys, `is_text` that nothing in the node is read as a number.
         """
-        if not self.expressions.are_in(node):
+        if not self.expressions.change(node):
             return node
         match node:
             case YamlScalar():
                 return self._scalar(node, is_text)
             case YamlList():
-                return YamlList(tuple(self.node(item, is_text=is_text) for item in node), node.span)
+                item = shape.item or (shape if shape.is_object else FREE)
+                return YamlList(tuple(self._items(node, item, is_text)), node.span)
             case YamlMap():
-                return self._map(node, is_text)
+                return self._map(node, shape, is_text)
         return node
+
+    def part(self, node: YamlNode, shape: Shape) -> YamlNode | None:
+        """Return the computed part of an object, None where its `when` takes it out."""
+        return next((tree.node(copy, shape) for tree, copy in occurrences(node, shape, self)), None)
 
     def key(self, key: YamlScalar) -> YamlScalar | None:
         """Return a key with its expressions computed; None where it is at fault, which is reported."""
@@ -137,20 +218,49 @@ class TreeEvaluator:
             return None
         return YamlScalar(text, text, key.span)
 
-    def _map(self, node: YamlMap, is_text: bool) -> YamlMap:
-        entries: dict[str, YamlEntry] = {}
+    def _items(self, items: Iterable[YamlNode], shape: Shape, is_text: bool) -> Iterator[YamlNode]:
+        for item in items:
+            for tree, copy in occurrences(item, shape, self, is_item=True):
+                yield tree.node(copy, shape, is_text=is_text)
+
+    def entries(self, node: YamlMap, shape: Shape) -> Iterator[tuple[TreeEvaluator, YamlEntry]]:
+        """Yield each entry of a map as often as it is there, as written, with what computes it."""
         for written in node:
-            # The key of what is faulty stays as it is: its names may be those of the fault itself.
-            key = written.key if isinstance(written.value, YamlFault) else self.key(written.key)
-            if key is None:
-                entries[written.name] = YamlEntry(written.key, YamlFault(written.value.span))
-            elif key.text in entries:
-                self._tell_same_key(key, entries[key.text])
-            else:
-                value = self.node(written.value, is_text=is_text or key.text in _TEXT_KEYS)
-                unchanged = key is written.key and value is written.value
-                entries[key.text] = written if unchanged else YamlEntry(key, value)
+            if shape.has_names and written.name in WORDS:
+                self.sink.report(RESERVED_KEY.at(written.key.span, name=written.name, owner=shape.things))
+                continue
+            if not self.expressions.change(written.value):
+                yield self, written
+                continue
+            inner, value = shape.under(written.name), written.value
+            if not shape.has_names and inner.may_repeat and isinstance(value, YamlMap) and "for" in value.entries:
+                # One object that repeats is an item of the list that might stand in its place.
+                yield self, YamlEntry(written.key, YamlList((value,), value.span))
+                continue
+            key = written.key if shape.has_names else None
+            for tree, copy in occurrences(value, inner, self, key=key):
+                yield tree, written if copy is value else YamlEntry(written.key, copy)
+
+    def _map(self, node: YamlMap, shape: Shape, is_text: bool) -> YamlMap:
+        entries: dict[str, YamlEntry] = {}
+        for tree, written in self.entries(node, shape):
+            tree._add(entries, written, shape, is_text)
         return YamlMap(entries, node.span)
+
+    def _add(self, entries: dict[str, YamlEntry], written: YamlEntry, around: Shape, is_text: bool) -> None:
+        """Compute an entry and add it to others; of two with one key, the second is reported."""
+        # The key of what is faulty stays as it is: its names may be those of the fault itself.
+        key = written.key if isinstance(written.value, YamlFault) else self.key(written.key)
+        if key is None or isinstance(written.value, YamlFault):
+            entries.setdefault(written.name, YamlEntry(written.key, YamlFault(written.value.span)))
+        elif key.text in entries:
+            self._tell_same_key(key, entries[key.text])
+        else:
+            value: YamlNode = written.value
+            if self.expressions.change(value):
+                value = self.node(value, around.under(written.name), is_text=is_text or key.text in _TEXT_KEYS)
+            unchanged = key is written.key and value is written.value
+            entries[key.text] = written if unchanged else YamlEntry(key, value)
 
     def _map_value(self, node: YamlMap) -> Value | Fault:
         values: dict[str, Value] = {}
@@ -171,7 +281,10 @@ class TreeEvaluator:
 
     def _computed(self, scalar: YamlScalar) -> Value | Fault:
         template = self.expressions.template(scalar, self.sink)
-        return FAULT if template is None else evaluate(template, self.scope, self.sink)
+        if template is None:
+            return FAULT
+        moved = self.elsewhere.get(scalar.span.file)
+        return evaluate(template, self.scope.inside(moved) if moved else self.scope, self.sink)
 
     def _scalar(self, scalar: YamlScalar, is_text: bool) -> YamlNode:
         value = self._computed(scalar)

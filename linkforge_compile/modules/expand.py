@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import (
@@ -13,33 +12,50 @@ from linkforge_compile.diagnostics.codes.modules import (
     USE_CIRCLE,
     USE_TOO_DEEP,
 )
+from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.assembly import Instance
-from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
+from linkforge_compile.modules.defaults import with_defaults, without_repetition
+from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.given import Given, Unset
-from linkforge_compile.modules.loader import Loader, SpecFile, follow
+from linkforge_compile.modules.loader import Loader, SpecFile
+from linkforge_compile.modules.mesh_files import MakeSite, mesh_finder
 from linkforge_compile.modules.module_entry import ModuleEntry, found, read_entry
-from linkforge_compile.modules.names import FileNames
+from linkforge_compile.modules.module_overrides import Body
+from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
 from linkforge_compile.modules.noted import used_from
-from linkforge_compile.modules.uses import UseSite, mesh_base, name_from, open_use
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.modules.uses import mesh_base, name_from, open_use
+from linkforge_compile.modules.variants import tell_unknown_variant, variants_of
+from linkforge_compile.schema.shapes import FREE, shapes
+from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax import YamlFault, YamlMap, YamlScalar
 
 MAX_DEPTH = 50
 MAX_MODULES = 10_000
 
-_LEFT_OUT = frozenset({"parameters", "variables", "packages", "modules"})
+_LEFT_OUT = frozenset({"parameters", "variables", "data", "variants", "packages", "modules", "defaults"})
 
 
 def expand(
-    spec: SpecFile, arguments: Arguments, loader: Loader, sink: Diagnostics, *, unset: Unset = Unset.ERROR
+    spec: SpecFile,
+    arguments: Arguments,
+    loader: Loader,
+    sink: Diagnostics,
+    *,
+    unset: Unset = Unset.ERROR,
+    variant: str | None = None,
 ) -> Instance:
     """Compute every expression of a file and of the modules it uses.
 
     What is at fault is reported and stands as a YamlFault; a module that cannot be had is an Instance without a
-    tree. `unset` says what it is when nothing sets a required parameter of the compiled file.
+    tree. `unset` says what it is when nothing sets a required parameter of the compiled file. `variant` is the one
+    of its `variants` that sets what the arguments do not.
     """
-    return _Expansion(spec, loader, sink, unset).instance(_Use(spec, Given(arguments, sink)))
+    if variant is not None and variant not in variants_of(spec):
+        tell_unknown_variant(variant, spec, sink)
+        # Nobody knows what it would have set.
+        arguments = replace(arguments, is_partial=True)
+    return _Expansion(spec, Shared(loader, unset, variant), sink).instance(_Use(spec, Given(arguments, sink)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,11 +66,20 @@ class _Use:
     given: Given
     entry: ModuleEntry | None = None
     outer: _Use | None = None
+    sites_around: Mapping[SourceFile, MakeSite] = field(default_factory=dict)
 
     @property
     def chain(self) -> tuple[_Use, ...]:
         """The use itself and those around it, the compiled file last."""
         return (self, *self.outer.chain) if self.outer else (self,)
+
+    @property
+    def prefix(self) -> str | Fault:
+        """What is put before every name of the file in the end; FAULT where a part of it is at fault."""
+        if self.entry is None or self.outer is None:
+            return ""
+        outer = self.outer.prefix
+        return outer + self.entry.prefix if self.entry.is_named and not isinstance(outer, Fault) else FAULT
 
     @property
     def trail(self) -> tuple[Span, ...]:
@@ -65,60 +90,52 @@ class _Use:
 class _Expansion:
     """One compile: what all its uses share, and how many there are."""
 
-    def __init__(self, compiled: SpecFile, loader: Loader, sink: Diagnostics, unset: Unset) -> None:
+    def __init__(self, compiled: SpecFile, shared: Shared, sink: Diagnostics) -> None:
         self._compiled = compiled
-        self._loader = loader
+        self._shared = shared
         self._sink = sink
-        self._unset = unset
-        self._expressions = Expressions()
         self._modules_read = 0
 
     def instance(self, use: _Use) -> Instance:
         """Expand one use of one file, and all that it uses."""
-        names = FileNames(use.spec, use.given, self._unset, self._expressions, used_from(self._sink, use.trail))
+        file = UseOfFile(use.spec, use.given, use.prefix, use.trail)
+        names = FileNames(file, self._shared, used_from(self._sink, use.trail))
         names.judge_parameters()
-        tree = names.tree.node(_robot_part(use.spec.tree))
-        assert isinstance(tree, YamlMap), "a map that is computed is a map"
-        modules = self._modules(use, names.tree)
+        body = Body(_tree(use, names.tree), tuple(_entries(use, names.tree)), names.tree.removed)
+        for override in use.entry.overrides if use.entry else ():
+            body = body.under(override)
+        tree = body.tree
+        modules = tuple(self._module(entry, use, names) for entry in body.entries)
         names.judge_unused_variables()
         if use.entry is None:
             name = tree.get("name")
-            return Instance(name.text if isinstance(name, YamlScalar) else "", tree, modules=modules)
-        return Instance(
-            name=use.entry.name,
-            tree=tree,
-            entry=use.entry.ref,
-            prefix=use.entry.prefix,
-            mesh_base=mesh_base(use.spec, self._compiled),
-            trail=use.trail,
+            instance = Instance(name.text if isinstance(name, YamlScalar) else "", tree)
+        else:
+            instance = Instance(use.entry.name, tree, use.entry.ref, use.entry.prefix, trail=use.trail)
+        return replace(
+            instance,
+            mesh_bases=self._mesh_bases(use),
+            find_mesh=mesh_finder(_sites(use, names), self._shared.loader),
             modules=modules,
+            references=names.own.asked,
+            removed=body.removed,
         )
 
-    def _modules(self, use: _Use, tree: TreeEvaluator) -> tuple[Instance, ...]:
-        section = use.spec.tree.get("modules")
-        if isinstance(section, YamlScalar):
-            section = tree.node(section)
-        if section is None or (isinstance(section, YamlScalar) and section.value is None):
-            return ()
-        if isinstance(section, YamlMap):
-            packages = _packages(use.spec, tree)
-            return tuple(
-                self._module(read_entry(entry, tree, use.spec.folder, use.trail), use, tree, packages)
-                for entry in section
-            )
-        if not isinstance(section, YamlFault):
-            tree.sink.report(MODULES_NOT_MAP.at(section.span, found=found(section)))
-        return (Instance("", None, SourceRef(YamlFault(section.span), None, use.trail)),)
+    def _mesh_bases(self, use: _Use) -> dict[SourceFile, str]:
+        """Return what makes a path of the compiled file of one that this use's files wrote, or those around it."""
+        files = [part for one in reversed(use.chain) for part in (one.spec, *one.spec.included.values())]
+        return {part.file: mesh_base(part, self._compiled) for part in files if part.folder is not None}
 
-    def _module(self, entry: ModuleEntry, outer: _Use, tree: TreeEvaluator, packages: Mapping[str, Path]) -> Instance:
+    def _module(self, entry: ModuleEntry, outer: _Use, names: FileNames) -> Instance:
         if entry.use is None:
             return _unread(entry)
-        site = UseSite(entry.use.text, entry.use.span, outer.spec, packages)
-        spec = open_use(site, self._loader, tree.sink)
+        sink = names.tree.sink
+        spec = open_use(names.own.site(entry.use.text, entry.use.span), self._shared.loader, sink)
         if spec is None:
             return _unread(entry)
-        use = _Use(spec, Given(entry.arguments, tree.sink, entry.tree, entry.use.span), entry, outer)
-        instance = self.instance(use) if self._is_bounded(use, tree.sink) else None
+        given = Given(entry.arguments, sink, entry.tree, entry.use.span)
+        use = _Use(spec, given, entry, outer, _sites(outer, names))
+        instance = self.instance(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
 
     def _is_bounded(self, use: _Use, sink: Diagnostics) -> bool:
@@ -140,21 +157,40 @@ class _Expansion:
         return False
 
 
+def _sites(use: _Use, names: FileNames) -> dict[SourceFile, MakeSite]:
+    """Return how paths are read that a use's files wrote, and those around it."""
+    return {**use.sites_around, **dict.fromkeys((use.spec.file, *use.spec.included), names.own.site)}
+
+
+def _tree(use: _Use, tree: TreeEvaluator) -> YamlMap:
+    """Return what a file says of the robot, computed, with its defaults in it."""
+    computed = tree.node(_robot_part(use.spec.tree), shapes())
+    assert isinstance(computed, YamlMap), "a map that is computed is a map"
+    defaults = use.spec.tree.get("defaults")
+    if defaults is None:
+        return computed
+    filling = tree.part(without_repetition(defaults, tree.sink), shapes().under("defaults"))
+    return with_defaults(computed, filling) if filling else computed
+
+
+def _entries(use: _Use, tree: TreeEvaluator) -> Iterator[ModuleEntry]:
+    """Yield the entries of `modules`, each as often as it says; one without a name for what nobody can read."""
+    written = use.spec.tree.get("modules")
+    section = tree.node(written) if isinstance(written, YamlScalar) else written
+    if isinstance(section, YamlMap):
+        shape = shapes().under("modules") if section is written else FREE
+        for scope, entry in tree.entries(section, shape):
+            yield read_entry(entry, scope, use.spec.writer(entry.key.span).folder, use.trail)
+    elif section is not None and not (isinstance(section, YamlScalar) and section.value is None):
+        if not isinstance(section, YamlFault):
+            tree.sink.report(MODULES_NOT_MAP.at(section.span, found=found(section)))
+        yield ModuleEntry("", SourceRef(YamlFault(section.span), None, use.trail), is_named=False)
+
+
 def _robot_part(tree: YamlMap) -> YamlMap:
     """Return what describes the robot, without what only computes it and the author's own keys."""
     kept = {name: entry for name, entry in tree.entries.items() if name not in _LEFT_OUT and not name.startswith("x-")}
     return YamlMap(kept, tree.span)
-
-
-def _packages(spec: SpecFile, tree: TreeEvaluator) -> dict[str, Path]:
-    """Return the folders that a file declares for packages, those that lead somewhere."""
-    section = spec.tree.get("packages")
-    folders = tree.node(section) if section else None
-    return {
-        entry.name: follow(spec.folder, entry.value.text) if spec.folder else Path(entry.value.text)
-        for entry in (folders if isinstance(folders, YamlMap) else ())
-        if isinstance(entry.value, YamlScalar) and (spec.folder is not None or Path(entry.value.text).is_absolute())
-    }
 
 
 def _unread(entry: ModuleEntry) -> Instance:

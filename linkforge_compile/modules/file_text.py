@@ -11,26 +11,42 @@ class UnreadableError(Exception):
     """There is something at the path, and no text that could be a spec; says why."""
 
 
+class TooLargeError(UnreadableError):
+    """There is a file at the path, and it is larger than anybody should read."""
+
+
 def file_text(path: Path, *, only_regular: bool) -> str | None:
     """Return the text of a file, None where there is none; raise UnreadableError for what is no UTF-8 text.
 
     `only_regular` refuses pipes and terminals, for which a reader would wait.
     """
-    if path.is_dir():
-        raise UnreadableError("it is a folder")
-    if only_regular and path.exists() and not path.is_file():
-        raise UnreadableError("it is no regular file")
+    content = file_bytes(path, MAX_BYTES, only_regular=only_regular)
     try:
+        return None if content is None else content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise UnreadableError(f"it is not UTF-8: line {line} has the byte {error.object[error.start]:#04x}") from error
+
+
+def file_bytes(path: Path, limit: int, *, only_regular: bool) -> bytes | None:
+    """Return what is in a file, None where there is none; raise UnreadableError for what has no content.
+
+    Raises TooLargeError beyond `limit` bytes, of which no more are read.
+    """
+    try:
+        if path.is_dir():
+            raise UnreadableError("it is a folder")
+        if only_regular and path.exists() and not path.is_file():
+            raise UnreadableError("it is no regular file")
         with path.open("rb") as stream:
-            content = stream.read(MAX_BYTES + 1)
+            content = stream.read(limit + 1)
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError as error:
         raise UnreadableError((error.strerror or type(error).__name__).lower()) from error
-    if len(content) > MAX_BYTES:
-        raise UnreadableError(f"it is larger than {MAX_BYTES // 1024**2} MiB")
-    try:
-        return content.decode("utf-8")
-    except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        raise UnreadableError(f"it is not UTF-8: line {line} has the byte {content[error.start]:#04x}") from error
+    except ValueError as error:
+        # A name with a NUL in it, which no file can have.
+        raise UnreadableError(str(error)) from error
+    if len(content) > limit:
+        raise TooLargeError(f"it is larger than {limit // 1024**2} MiB")
+    return content

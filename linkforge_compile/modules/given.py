@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import (
@@ -20,6 +21,7 @@ from linkforge_compile.modules.noted import NotedSink
 from linkforge_compile.modules.parameters import Declaration, Parameter, parameter_of, written
 from linkforge_compile.modules.uses import rebased
 from linkforge_compile.modules.values import plain_value
+from linkforge_compile.modules.variants import Variants
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlFault, YamlNode, YamlScalar, read
 
@@ -45,14 +47,17 @@ class Given:
     tree: TreeEvaluator | None = None
     use: Span | None = None
 
-    def tell_unknown(self, declared: dict[str, Declaration], spec: SpecFile) -> None:
-        """Report arguments for parameters that the file does not have."""
+    def tell_unknown(self, declared: dict[str, Declaration], variants: Variants, spec: SpecFile) -> None:
+        """Report arguments, and settings of variants, for parameters that the file does not have."""
         section = spec.tree.entries.get("parameters")
         note = Note("its parameters are declared here" if section else "this file declares no parameters")
         note = Note(note.message, section.key.span if section else spec.file.whole)
         for name, entry in self.arguments.entries.items():
             if name not in declared:
                 self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=declared, notes=[note]))
+        for entry in variants.entries():
+            if entry.name not in declared:
+                self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=entry.name, near=declared, notes=[note]))
 
     def node(self, name: str, kind: Kind, sink: Diagnostics) -> YamlNode | None:
         """Return what is given to a parameter, None for nothing; a list or map that was typed as text is read."""
@@ -74,27 +79,29 @@ class Given:
 
 
 def parameter_value(
-    declaration: Declaration, given: Given, spec: SpecFile, tree: TreeEvaluator
+    declaration: Declaration, given: Given, variants: Variants, spec: SpecFile, tree: TreeEvaluator
 ) -> Value | Fault | None:
-    """Return the value of a parameter: the given one, else the default; None where there is neither.
+    """Return the value of a parameter: the given one, else the chosen variant's, else the default; None for none.
 
     `tree` computes the declaration, in the scope of the file `spec` that has it. FAULT for what was reported.
     """
-    kind = _kind(declaration, tree)
+    kind = declared_kind(declaration, tree)
     if kind is None:
         return FAULT
     parameter = parameter_of(declaration, kind, tree)
-    node = given.node(declaration.name, kind, given.sink)
-    value = None if node is None else given.value(node, kind)
-    if node is None or value is None:
-        return _default(declaration, parameter, tree)
-    if declaration.default is not None and not tree.expressions.are_in(declaration.default):
-        _default(declaration, parameter, tree)  # what is wrong with it is wrong unused, too
-    sink = NotedSink(given.sink, [Note("the parameter is declared here", declaration.key.span)])
-    taken = _judged(parameter, node, value, tree, sink)
-    if kind.name == "file" and isinstance(taken, str):
-        return rebased(taken, given.arguments.folder, spec)
-    return taken
+    declared = [Note("the parameter is declared here", declaration.key.span)]
+    in_force = _given_value(parameter, given, spec, tree, NotedSink(given.sink, declared))
+    for node, sink, may_win in (
+        (variants.value_of(declaration.name), NotedSink(tree.sink, declared), True),
+        *((other, NotedSink(tree.sink, declared), False) for other in variants.other_values_of(declaration.name)),
+        (declaration.default, tree.sink, True),
+    ):
+        wins = may_win and in_force is None
+        # What is wrong with a value whatever the names stand for is wrong unused, too.
+        if node is not None and (wins or not tree.expressions.are_in(node)):
+            value = _own_value(parameter, node, spec, tree, sink)
+            in_force = value if wins else in_force
+    return in_force
 
 
 def tell_unset(declaration: Declaration, given: Given) -> None:
@@ -107,7 +114,7 @@ def tell_unset(declaration: Declaration, given: Given) -> None:
     given.sink.report(PARAMETER_NOT_SET.at(given.use, name=name, remedy=f"with: {{{name}: VALUE}}", notes=notes))
 
 
-def _kind(declaration: Declaration, tree: TreeEvaluator) -> Kind | None:
+def declared_kind(declaration: Declaration, tree: TreeEvaluator) -> Kind | None:
     """Return the declared type, or that of the default; None where neither tells, which has been reported."""
     if declaration.kind or declaration.is_faulty:
         return declaration.kind
@@ -118,11 +125,30 @@ def _kind(declaration: Declaration, tree: TreeEvaluator) -> Kind | None:
     return None if value is FAULT else kind_of(value)
 
 
-def _default(declaration: Declaration, parameter: Parameter, tree: TreeEvaluator) -> Value | Fault | None:
-    if declaration.default is None:
+def _given_value(
+    parameter: Parameter, given: Given, spec: SpecFile, tree: TreeEvaluator, sink: Diagnostics
+) -> Value | Fault | None:
+    """Return what the user of the file gives, None for nothing."""
+    node = given.node(parameter.name, parameter.kind, given.sink)
+    value = None if node is None else given.value(node, parameter.kind)
+    if node is None or value is None:
         return None
-    value = written(declaration.default, parameter.kind, tree)
-    return None if value is None else _judged(parameter, declaration.default, value, tree, tree.sink)
+    return _in_the_file(parameter, _judged(parameter, node, value, tree, sink), given.arguments.folder, spec)
+
+
+def _own_value(
+    parameter: Parameter, node: YamlNode, spec: SpecFile, tree: TreeEvaluator, sink: Diagnostics
+) -> Value | Fault | None:
+    """Return what the file itself says, in a default or a variant; None for nothing."""
+    value = written(node, parameter.kind, tree)
+    if value is None:
+        return None
+    return _in_the_file(parameter, _judged(parameter, node, value, tree, sink), spec.writer(node.span).folder, spec)
+
+
+def _in_the_file(parameter: Parameter, value: Value | Fault, writer: Path | None, spec: SpecFile) -> Value | Fault:
+    """Return a path that was written in one folder as one of the file that reads it; any other value as it is."""
+    return rebased(value, writer, spec) if parameter.kind.name == "file" and isinstance(value, str) else value
 
 
 def _judged(

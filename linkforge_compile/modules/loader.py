@@ -4,17 +4,25 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.files import TOO_MUCH_DATA
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
-from linkforge_compile.modules.file_text import UnreadableError, file_text
+from linkforge_compile.modules.file_text import MAX_BYTES, UnreadableError, file_text
+from linkforge_compile.modules.includes import Whole, lay_together, reached
+from linkforge_compile.modules.noted import NotedSink
 from linkforge_compile.modules.packages import Package
+from linkforge_compile.modules.paths import as_typed
+from linkforge_compile.modules.places import judge_places
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlMap, read
+from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read, read_data
+
+MAX_DATA_BYTES = MAX_BYTES
+"""How much the files of `data` of one compile may hold together."""
 
 _MAX_NEAR_NAMES = 10_000
 
@@ -25,12 +33,18 @@ class SpecFile:
 
     `folder` is where its relative paths start, with symbolic links as they were walked; None for a text that
     lies nowhere. `package` is the one through whose `package://` it was reached, and all that it uses from there.
+    `included` are the files that were laid into the tree, each as if it stood by itself.
     """
 
     file: SourceFile
     tree: YamlMap
     folder: Path | None
     package: Package | None = None
+    included: Mapping[SourceFile, SpecFile] = field(default_factory=dict)
+
+    def writer(self, where: Span) -> SpecFile:
+        """Return the one of the files that are this one in which a place lies: its relative paths start there."""
+        return self.included.get(where.file, self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,18 +62,19 @@ class Loader:
         """`packages` come before every other place where `package://` is looked for."""
         self.packages = dict(packages or {})
         self._sources: list[SourceFile] = []
-        self._trees: dict[str, tuple[SourceFile, YamlMap | None]] = {}  # by real path
+        self._specs: dict[str, Whole | None] = {}  # by real path
+        self._data: dict[str, YamlNode | None] = {}  # by real path
+        self._data_bytes = 0
 
     @property
     def files(self) -> tuple[Path, ...]:
         """Every file that was read, in that order, as its user would type it."""
-        return tuple(source.path for source in self._sources if source.path)
+        return tuple(dict.fromkeys(source.path for source in self._sources if source.path))
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:
         """Read a spec from text that is no file; `folder` is where its relative paths start, None for nowhere."""
-        source = self._source(name, text, None)
-        tree = _tree(source, sink)
-        return SpecFile(source, tree, folder) if tree else None
+        whole = self._whole(self._source(name, text, None), folder, sink)
+        return _spec(whole, folder, None) if whole else None
 
     def open(
         self, path: Path, sink: Diagnostics, *, package: Package | None = None, used: Used | None = None
@@ -70,41 +85,65 @@ class Loader:
         """
         # Paths are compared by what they lead to and shown as they were reached.
         real = os.path.realpath(path)
-        if real not in self._trees:
-            text = _text(path, used or Used(str(_as_typed(path)), None), sink)
+        if real not in self._specs:
+            text = _text(path, used or Used(str(as_typed(path)), None), sink)
             if text is None:
                 return None
-            source = self._source(str(_as_typed(path)), text, _as_typed(path))
-            self._trees[real] = source, _tree(source, sink)
-        source, tree = self._trees[real]
-        return SpecFile(source, tree, path.parent, package) if tree else None
+            source = self._source(str(as_typed(path)), text, as_typed(path))
+            self._specs[real] = self._whole(source, path.parent, sink)
+        whole = self._specs[real]
+        return _spec(whole, path.parent, package) if whole else None
 
-    def _source(self, name: str, text: str, path: Path | None) -> SourceFile:
-        source = SourceFile(name, text, path, order=len(self._sources))
+    def open_data(self, path: Path, sink: Diagnostics, tags: Tags, used: Used) -> YamlNode | None:
+        """Read a file of data, which may be of any shape and hold `tags`; None where it cannot be had, as reported."""
+        real = os.path.realpath(path)
+        if real not in self._data:
+            text = _text(path, used, sink)
+            self._data_bytes += 0 if text is None else len(text)
+            if text is None or self._data_bytes > MAX_DATA_BYTES:
+                if text is not None:
+                    sink.report(TOO_MUCH_DATA.at(used.where, limit=MAX_DATA_BYTES // 1024**2))
+                return None
+            source = self._source(str(as_typed(path)), text, as_typed(path))
+            notes = [Note("read here", used.where)]
+            self._data[real] = read_data(source, NotedSink(sink, notes), tags)
+        return self._data[real]
+
+    def _whole(self, source: SourceFile, folder: Path | None, sink: Diagnostics) -> Whole | None:
+        """Read a spec with all that it includes; None where its own text is no spec."""
+        tree = _tree(source, sink)
+
+        def read_included(path: Path, item: YamlScalar) -> tuple[SourceFile, YamlMap] | None:
+            text = _text(path, Used(item.text, item.span), sink)
+            if text is None:
+                return None
+            included = self._source(str(as_typed(path)), text, as_typed(path), item.span)
+            part = _tree(included, sink)
+            return None if part is None else (included, part)
+
+        return None if tree is None else lay_together(source, tree, folder, read_included, sink)
+
+    def _source(self, name: str, text: str, path: Path | None, included: Span | None = None) -> SourceFile:
+        source = SourceFile(name, text, path, order=len(self._sources), included=included)
         self._sources.append(source)
         return source
 
 
-def follow(folder: Path, target: str) -> Path:
-    """Return where a relative path leads from a folder, in the shortest form that leads there too.
-
-    `a/..` is nowhere else but here, unless `a` is a symbolic link.
-    """
-    for part in Path(target).parts:
-        back = part == ".." and folder.name not in ("", "..") and not folder.is_symlink()
-        folder = folder.parent if back else folder / part
-    return folder
-
-
 def _tree(source: SourceFile, sink: Diagnostics) -> YamlMap | None:
     tree = read(source, sink)
-    return validate(tree, sink) if tree is not None else None
+    if tree is None:
+        return None
+    return judge_places(validate(tree, sink, is_included=source.included is not None), sink)
 
 
-def _as_typed(path: Path) -> Path:
-    """Return the path as a person in the working directory would type it: relative where it lies below."""
-    here = Path.cwd()
-    return path.relative_to(here) if path.is_relative_to(here) else path
+def _spec(whole: Whole, folder: Path | None, package: Package | None) -> SpecFile:
+    """Return a spec as it was reached in a folder, and its included files from there."""
+    included = {}
+    for file, way in whole.ways.items():
+        path = reached(folder or Path(), way)
+        inside = package if package is not None and path.is_relative_to(package.folder) else None
+        included[file] = SpecFile(file, whole.tree, path.parent, inside)
+    return SpecFile(whole.file, whole.tree, folder, package, included)
 
 
 def _text(path: Path, used: Used, sink: Diagnostics) -> str | None:
@@ -115,7 +154,7 @@ def _text(path: Path, used: Used, sink: Diagnostics) -> str | None:
         sink.report(UNREADABLE_FILE.at(used.where, path=used.text, reason=error))
         return None
     if text is None:
-        notes = [Note(f"looked for it at {_as_typed(path)}")] if used.where else []
+        notes = [Note(f"looked for it at {as_typed(path)}")] if used.where else []
         near = _neighbours(path)
         sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
     return text

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import MODULE_FIELD, MODULE_WITHOUT_FILE, NOT_A_MODULE, SAME_KEY
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
+from linkforge_compile.modules.overrides import Override, refuse_empty
+from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
@@ -18,7 +20,8 @@ class ModuleEntry:
     """What an entry says: `ref` is the entry without `with`, `use` None where no file is named.
 
     `arguments` are those of `with`, computed with `tree`, or already where it is None. Where the name or the
-    prefix is at fault (not `is_named`), nobody knows the final names of what is in the module.
+    prefix is at fault (not `is_named`), nobody knows the final names of what is in the module. `overrides` change
+    the module, one after the other.
     """
 
     name: str
@@ -28,6 +31,7 @@ class ModuleEntry:
     is_named: bool = True
     arguments: Arguments = field(default_factory=Arguments)
     tree: TreeEvaluator | None = None
+    overrides: tuple[Override, ...] = ()
 
 
 def read_entry(entry: YamlEntry, tree: TreeEvaluator, folder: Path | None, trail: tuple[Span, ...]) -> ModuleEntry:
@@ -42,34 +46,62 @@ def read_entry(entry: YamlEntry, tree: TreeEvaluator, folder: Path | None, trail
         if not isinstance(body, YamlFault):
             tree.sink.report(NOT_A_MODULE.at(body.span, name=name, found=found(body)))
         return ModuleEntry(name, SourceRef(YamlFault(body.span), entry.key.span, trail), is_named=False)
-    rest = YamlMap({key: inner for key, inner in body.entries.items() if key != "with"}, body.span)
-    fields = tree.node(rest)
+    rest = YamlMap({key: inner for key, inner in body.entries.items() if key not in {"with", "override"}}, body.span)
+    fields = tree.node(rest, module_shape())
     assert isinstance(fields, YamlMap), "a map that is computed is a map"
-    prefix = _text(fields, "prefix", "text", name, tree)
     arguments, is_computed = _arguments(body, name, tree, folder)
-    return ModuleEntry(
+    override = _override(body.get("override"), name, tree)
+    read = ModuleEntry(
         name,
         SourceRef(fields, entry.key.span, trail),
-        use=_use(fields, name, entry.key.span, tree),
-        prefix=prefix.text if isinstance(prefix, YamlScalar) else f"{name}_",
-        is_named=key is not None and not isinstance(prefix, YamlFault),
+        is_named=key is not None and not isinstance(override, YamlFault),
         arguments=arguments,
         tree=None if is_computed or body is not written else tree,
+        overrides=(override,) if isinstance(override, Override) else (),
+    )
+    return with_fields(read, fields, tree.sink)
+
+
+def module_shape() -> Shape:
+    """Return the shape of an entry of `modules`."""
+    return shapes().under("modules").under("")
+
+
+def with_fields(entry: ModuleEntry, fields: YamlMap, sink: Diagnostics) -> ModuleEntry:
+    """Return an entry that says these fields, all of it but `with` and `override`; what is at fault is reported."""
+    use = _text(fields, "use", "a file name", entry.name, sink)
+    prefix = _text(fields, "prefix", "text", entry.name, sink)
+    if use is None:
+        sink.report(MODULE_WITHOUT_FILE.at(entry.ref.span, name=entry.name))
+    return replace(
+        entry,
+        ref=replace(entry.ref, node=fields),
+        use=use if isinstance(use, YamlScalar) else None,
+        prefix=prefix.text if isinstance(prefix, YamlScalar) else f"{entry.name}_",
+        is_named=entry.is_named and not isinstance(prefix, YamlFault),
     )
 
 
-def _use(fields: YamlMap, name: str, key: Span, tree: TreeEvaluator) -> YamlScalar | None:
-    use = _text(fields, "use", "a file name", name, tree)
-    if use is None:
-        tree.sink.report(MODULE_WITHOUT_FILE.at(key, name=name))
-    return use if isinstance(use, YamlScalar) else None
+def _override(written: YamlNode | None, name: str, tree: TreeEvaluator) -> Override | YamlFault | None:
+    if written is None:
+        return None
+    shape = module_shape().under("override")
+    refuse_empty(written, shape, tree.sink)
+    patch = tree.part(written, shape)
+    if isinstance(patch, YamlMap):
+        return Override(patch, tree.sink)
+    if patch is None or isinstance(patch, YamlFault) or (isinstance(patch, YamlScalar) and patch.value is None):
+        return patch if isinstance(patch, YamlFault) else None
+    expected = "a map of what to change in the module"
+    tree.sink.report(MODULE_FIELD.at(patch.span, field="override", name=name, expected=expected, found=found(patch)))
+    return YamlFault(patch.span)
 
 
-def _text(fields: YamlMap, field: str, expected: str, name: str, tree: TreeEvaluator) -> YamlScalar | YamlFault | None:
+def _text(fields: YamlMap, field: str, expected: str, name: str, sink: Diagnostics) -> YamlScalar | YamlFault | None:
     """Return a field that is text, None where nothing is said."""
     node = fields.get(field)
     if isinstance(node, YamlList | YamlMap):
-        tree.sink.report(MODULE_FIELD.at(node.span, field=field, name=name, expected=expected, found=found(node)))
+        sink.report(MODULE_FIELD.at(node.span, field=field, name=name, expected=expected, found=found(node)))
         return YamlFault(node.span)
     return node
 

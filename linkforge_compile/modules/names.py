@@ -3,23 +3,33 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
+from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes import expressions as expression_codes
 from linkforge_compile.diagnostics.codes.modules import (
     INVALID_VARIABLE_NAME,
+    NAME_OF_TWO_KINDS,
     NOT_JUDGED,
-    PARAMETER_AND_VARIABLE,
     RESERVED_NAME,
 )
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Lazy, Scope, Value
+from linkforge_compile.modules.data import data_value
 from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
 from linkforge_compile.modules.given import Given, Unset, parameter_value, tell_unset
-from linkforge_compile.modules.loader import SpecFile
+from linkforge_compile.modules.kinds import KINDS
+from linkforge_compile.modules.loader import Loader, SpecFile
+from linkforge_compile.modules.own_names import OwnNames
 from linkforge_compile.modules.parameters import Declaration, declarations
-from linkforge_compile.syntax import YamlFault, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.modules.paths import follow
+from linkforge_compile.modules.uses import rebased
+from linkforge_compile.modules.variants import Variants, variants_of
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
@@ -29,34 +39,85 @@ _SEEN_IN_THE_TEXT = {
 """The faults of an expression that it has whatever the values of its names are."""
 
 
+_KINDS = {"parameters": "parameter", "variables": "variable", "data": "data name"}
+"""The sections that declare names, and what each is called."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shared:
+    """What all uses of all files in one compile share; `variant` is the one chosen for the compiled file."""
+
+    loader: Loader
+    unset: Unset = Unset.ERROR
+    variant: str | None = None
+    expressions: Expressions = field(default_factory=Expressions)
+
+
+class UseOfFile(NamedTuple):
+    """One use of a file: what it is given, its whole prefix (FAULT where that is at fault), and each `use` to it."""
+
+    spec: SpecFile
+    given: Given
+    prefix: str | Fault = ""
+    trail: tuple[Span, ...] = ()
+
+
 class FileNames:
     """The scope of one use of a file; each name is computed when first used, in any order, and once."""
 
-    def __init__(self, spec: SpecFile, given: Given, unset: Unset, expressions: Expressions, sink: Diagnostics) -> None:
+    def __init__(self, use: UseOfFile, shared: Shared, sink: Diagnostics) -> None:
+        spec, given = use.spec, use.given
         self._spec = spec
         self._given = given
-        self._is_unset_told = unset is Unset.ERROR or given.use is not None
-        self._declared = declarations(spec.tree.get("parameters"))
+        self._loader = shared.loader
+        self._packages: dict[str, Path] | None = None
+        self._is_unset_told = shared.unset is Unset.ERROR or given.use is not None
+        self._variants = Variants() if given.use else Variants(variants_of(spec), shared.variant)
+        self.declared = declarations(spec.tree.get("parameters"))
         self._unset: list[Declaration] = []
         self._sink = sink
         self._parameters = {
             name: Lazy(partial(self._parameter, declaration), declaration.key.span)
-            for name, declaration in self._declared.items()
+            for name, declaration in self.declared.items()
             if self._is_name(declaration.key, "parameter")
         }
-        self._variables = self._lazy_variables()
+        self._variables = {name: self._lazy(self._variable, entry) for name, entry in self._entries("variables")}
+        self._data = {name: self._lazy(self._data_value, entry) for name, entry in self._entries("data")}
         always: dict[str, Value | Fault | Lazy] = {
             "name": Lazy(self._name, spec.file.whole),
             "standalone": given.use is None,
+            "prefix": use.prefix,
         }
-        scope = Scope({**always, **self._variables, **self._parameters}, self._names_unread())
-        self.tree = TreeEvaluator(scope, expressions, sink)
+        self.own = OwnNames(spec, use.prefix, lambda: self.packages, shared.loader, use.trail)
+        values = {**always, **self._variables, **self._data, **self._parameters}
+        scope = Scope(values, self._names_unread(), self.own.functions)
+        self.tree = TreeEvaluator(scope, shared.expressions, sink, self._paths_seen_from_elsewhere())
+
+    @property
+    def packages(self) -> Mapping[str, Path]:
+        """The folders that the file declares for packages, those that lead somewhere."""
+        if self._packages is None:
+            # None of them is found by way of another one: that may be the way back.
+            self._packages = {}
+            self._packages.update(self._declared_packages())
+        return self._packages
+
+    def _declared_packages(self) -> dict[str, Path]:
+        section = self._spec.tree.get("packages")
+        declared = self.tree.node(section) if section else None
+        folders = {}
+        for entry in declared if isinstance(declared, YamlMap) else ():
+            if isinstance(entry.value, YamlScalar):
+                folder, target = self._spec.writer(entry.value.span).folder, entry.value.text
+                if folder is not None or Path(target).is_absolute():
+                    folders[entry.name] = follow(folder or Path(), target)
+        return folders
 
     def judge_parameters(self) -> None:
         """Report what is wrong with the parameters and with what sets them, used or not."""
-        if not isinstance(self._spec.tree.get("parameters"), YamlFault):
-            self._given.tell_unknown(self._declared, self._spec)
-        for name in self._parameters:
+        if not self._is_faulty("parameters", "include"):
+            self._given.tell_unknown(self.declared, self._variants, self._spec)
+        for name in (*self._parameters, *self._data):
             self.tree.scope.lookup(name, self._sink)
         if self._unset and not self._is_unset_told:
             names = ", ".join(f"'{declaration.name}'" for declaration in self._unset)
@@ -64,16 +125,18 @@ class FileNames:
             self._sink.report(NOT_JUDGED.at(self._unset[0].key.span, names=names, pronoun=pronoun))
 
     def judge_unused_variables(self) -> None:
-        """Report of the variables that nothing used what is wrong with them whatever their values are.
+        """Report of the variables that nothing used, and of variants, what is wrong whatever the values are.
 
         They are computed when used: that one divides by zero is no fault of a robot that does not need it.
         """
         self.tree = replace(self.tree, sink=_TextFaults(self._sink))
         for name in self._variables:
             self.tree.scope.lookup(name, self.tree.sink)
+        for setting in self._variants.entries():
+            self.tree.value(setting.value)
 
     def _parameter(self, declaration: Declaration) -> Value | Fault:
-        value = parameter_value(declaration, self._given, self._spec, self.tree)
+        value = parameter_value(declaration, self._given, self._variants, self._spec, self.tree)
         if value is not None:
             return value
         self._unset.append(declaration)
@@ -81,20 +144,51 @@ class FileNames:
             tell_unset(declaration, self._given)
         return FAULT
 
-    def _lazy_variables(self) -> dict[str, Lazy]:
-        section = self._spec.tree.get("variables")
-        lazy = {}
-        for entry in section if isinstance(section, YamlMap) else ():
-            name = entry.name
-            if name in self._declared:
-                notes = [Note("the parameter is declared here", self._declared[name].key.span)]
-                self._sink.report(PARAMETER_AND_VARIABLE.at(entry.key.span, name=name, notes=notes))
-            elif self._is_name(entry.key, "variable"):
-                lazy[name] = Lazy(partial(self._variable, entry.value), entry.key.span)
-        return lazy
+    def _entries(self, section: str) -> Iterator[tuple[str, YamlEntry]]:
+        """Yield the entries of `variables` or `data` whose names are theirs alone."""
+        kind = _KINDS[section]
+        declared = self._spec.tree.get(section)
+        for entry in declared if isinstance(declared, YamlMap) else ():
+            other = self._kind_of_other(entry.name, section)
+            if other:
+                notes = [Note(f"the {other[0]} is declared here", other[1].span)]
+                kinds = f"a {other[0]} and a {kind}"
+                self._sink.report(NAME_OF_TWO_KINDS.at(entry.key.span, name=entry.name, kinds=kinds, notes=notes))
+            elif self._is_name(entry.key, kind):
+                yield entry.name, entry
 
-    def _variable(self, node: YamlNode) -> Value | Fault:
-        return self.tree.value(node)
+    def _kind_of_other(self, name: str, section: str) -> tuple[str, YamlScalar] | None:
+        """Return what declares a name of a section before it, and where."""
+        for other, kind in _KINDS.items():
+            if other == section:
+                return None
+            declared = self._spec.tree.get(other)
+            if isinstance(declared, YamlMap) and name in declared.entries:
+                return kind, declared.entries[name].key
+        return None
+
+    def _lazy(self, compute: Callable[[YamlEntry], Value | Fault], entry: YamlEntry) -> Lazy:
+        return Lazy(partial(compute, entry), entry.key.span)
+
+    def _variable(self, entry: YamlEntry) -> Value | Fault:
+        return self.tree.value(entry.value)
+
+    def _data_value(self, entry: YamlEntry) -> Value | Fault:
+        path = self.tree.value(entry.value)
+        return data_value(entry, path, self.own.site, self._loader, self._sink)
+
+    def _paths_seen_from_elsewhere(self) -> dict[SourceFile, dict[str, Lazy]]:
+        """Return the parameters that are paths, for each included file that lies in another folder than this one."""
+        paths = [one for one in self.declared.values() if one.kind is KINDS["file"] and one.name in self._parameters]
+        return {
+            file: {path.name: Lazy(partial(self._seen_from, part, path.name), path.key.span) for path in paths}
+            for file, part in self._spec.included.items()
+            if part.folder != self._spec.folder
+        }
+
+    def _seen_from(self, part: SpecFile, name: str) -> Value | Fault:
+        path = self.tree.scope.lookup(name, self._sink)
+        return rebased(path, self._spec.folder, part) if isinstance(path, str) else path
 
     def _is_name(self, key: YamlScalar, kind: str) -> bool:
         """Whether an expression can use the name; reports why not."""
@@ -113,8 +207,10 @@ class FileNames:
 
     def _names_unread(self) -> Scope | None:
         """Return a scope for what a faulty section may have declared, None where all was read."""
-        sections = (self._spec.tree.get("parameters"), self._spec.tree.get("variables"))
-        return _AnyName({}) if any(isinstance(section, YamlFault) for section in sections) else None
+        return _AnyName({}) if self._is_faulty(*_KINDS, "include") else None
+
+    def _is_faulty(self, *sections: str) -> bool:
+        return any(isinstance(self._spec.tree.get(section), YamlFault) for section in sections)
 
 
 class _AnyName(Scope):

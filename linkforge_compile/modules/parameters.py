@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.model import WIDE_ANGLE
@@ -25,6 +25,9 @@ from linkforge_compile.modules.values import describe
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity, number_text
+
+if TYPE_CHECKING:
+    from linkforge_compile.modules.patterns import Pattern
 
 _CONSTRAINTS = ("minimum", "maximum", "enum", "pattern")
 _WHOLE_TURN = 2 * math.pi + 0.005
@@ -77,7 +80,7 @@ class Parameter:
     minimum: Value = None
     maximum: Value = None
     choices: tuple[Value, ...] | None = None
-    pattern: re.Pattern[str] | None = None
+    pattern: Pattern | None = None
 
     def take(self, given: Value, where: Span, sink: Diagnostics) -> Value:
         """Return the value as one of this parameter's type; None where it does not fit, which is reported."""
@@ -104,8 +107,8 @@ class Parameter:
             yield PARAMETER_CHOICE.at(
                 where, parameter=name, choices=", ".join(choices), name=_plain(value), near=choices
             )
-        if self.pattern is not None and not self.pattern.search(str(value)):
-            yield PARAMETER_PATTERN.at(where, parameter=name, pattern=self.pattern.pattern, found=found)
+        if self.pattern is not None and not self.pattern.is_in(str(value)):
+            yield PARAMETER_PATTERN.at(where, parameter=name, pattern=self.pattern.text, found=found)
 
 
 def parameter_of(declaration: Declaration, kind: Kind, tree: TreeEvaluator) -> Parameter:
@@ -140,13 +143,15 @@ def _choices(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) -> tu
     return None if None in choices else tuple(choices)
 
 
-def _pattern(node: YamlNode | None, sink: Diagnostics) -> re.Pattern[str] | None:
+def _pattern(node: YamlNode | None, sink: Diagnostics) -> Pattern | None:
     if not isinstance(node, YamlScalar):
         return None
+    from linkforge_compile.modules.patterns import Pattern, PatternError
+
     try:
-        return re.compile(node.text)
-    except re.error as error:
-        sink.report(BAD_PATTERN.at(node.span, pattern=node.text, reason=error.msg))
+        return Pattern(node.text)
+    except PatternError as error:
+        sink.report(BAD_PATTERN.at(node.span, pattern=node.text, reason=error))
         return None
 
 

@@ -1,4 +1,4 @@
-"""From the text of a `use` to the file that it names, and back to how that file's meshes are written."""
+"""From a path in a spec to the file that it names, and back to how that file's meshes are written."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, NOT_A_SPEC_YET, UNKNOWN_PACKAGE, USE_OF_NOWHERE
-from linkforge_compile.modules.loader import Loader, SpecFile, Used, follow
+from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.packages import Package, find_package
+from linkforge_compile.modules.paths import follow
 from linkforge_compile.source import Span
 
 _SPEC_ENDINGS = (".yaml", ".yml")
@@ -22,7 +24,7 @@ _PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
 
 @dataclass(frozen=True, slots=True)
 class UseSite:
-    """A `use` as it is written: in the file `user`, which declares where some packages are."""
+    """A `use`, or another path, as it is written: in the file `user`, which declares where some packages are."""
 
     text: str
     where: Span
@@ -34,6 +36,16 @@ class UseSite:
         return Used(self.text, self.where)
 
 
+class Target(NamedTuple):
+    """Where a path leads, and the package through which."""
+
+    path: Path
+    package: Package | None = None
+
+
+_ZERO_BYTE = "no path holds a zero byte"
+
+
 def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:
     """Read the file that a `use` names; None where there is none, which is reported there."""
     lowered = site.text.lower()
@@ -42,21 +54,28 @@ def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | Non
         code = NOT_A_SPEC_YET if coming else NOT_A_SPEC
         sink.report(code.at(site.where, kind=coming, path=site.text))
         return None
+    target = locate(site, loader, sink)
+    return loader.open(target.path, sink, package=target.package, used=site.used) if target else None
+
+
+def locate(site: UseSite, loader: Loader, sink: Diagnostics) -> Target | None:
+    """Return where a path leads, be there a file or not; None where it leads nowhere, which is reported there."""
     if "\0" in site.text:
-        return _leads_nowhere(site, "no path holds a zero byte", sink)
+        return _nowhere(site, _ZERO_BYTE, sink)
     scheme = _SCHEME.match(site.text)
     if scheme is None:
-        return _open_path(site, loader, sink)
+        return _beside_the_user(site, sink)
     if scheme[1] == "package":
-        return _open_in_package(site, scheme[2], loader, sink)
+        return _in_package(site, scheme[2], loader, sink)
     if scheme[1] != "file":
-        return _leads_nowhere(site, "a module is a path, package:// or file://", sink)
+        return _nowhere(site, "a file is named by a path, package:// or file://", sink)
     if not scheme[2].startswith("/"):
-        return _leads_nowhere(site, "file:// takes an absolute path", sink)
+        return _nowhere(site, "file:// takes an absolute path", sink)
     # urllib.request costs 20 ms to import, and hardly a spec needs it.
     from urllib.request import url2pathname
 
-    return loader.open(Path(url2pathname(scheme[2])), sink, used=site.used)
+    path = url2pathname(scheme[2])
+    return _nowhere(site, _ZERO_BYTE, sink) if "\0" in path else Target(Path(path))
 
 
 def mesh_base(module: SpecFile, compiled: SpecFile) -> str:
@@ -98,30 +117,30 @@ def _steps(target: Path, start: Path) -> str:
     return f"{way.as_posix()}/" if way.parts else ""
 
 
-def _open_path(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:
+def _beside_the_user(site: UseSite, sink: Diagnostics) -> Target | None:
     if Path(site.text).is_absolute():
-        return loader.open(Path(site.text), sink, used=site.used)
+        return Target(Path(site.text))
     user = site.user
     if user.folder is None:
-        return _leads_nowhere(site, "it is relative, and this text lies in no folder", sink)
+        return _nowhere(site, "it is relative, and this text lies in no folder", sink)
     path = follow(user.folder, site.text)
     package = user.package if user.package is not None and path.is_relative_to(user.package.folder) else None
-    return loader.open(path, sink, package=package, used=site.used)
+    return Target(path, package)
 
 
-def _open_in_package(site: UseSite, path: str, loader: Loader, sink: Diagnostics) -> SpecFile | None:
+def _in_package(site: UseSite, path: str, loader: Loader, sink: Diagnostics) -> Target | None:
     match = _PACKAGE_PATH.fullmatch(path)
     if match is None:
-        return _leads_nowhere(site, "it takes the form package://NAME/PATH", sink)
+        return _nowhere(site, "it takes the form package://NAME/PATH", sink)
     name = match[1]
     declared = {**site.packages, **loader.packages}
     folder = find_package(name, declared, site.user.folder)
     if folder is None:
         sink.report(UNKNOWN_PACKAGE.at(site.where, name=name, near=declared))
         return None
-    return loader.open(follow(folder, match[2]), sink, package=Package(name, folder), used=site.used)
+    return Target(follow(folder, match[2]), Package(name, folder))
 
 
-def _leads_nowhere(site: UseSite, reason: str, sink: Diagnostics) -> SpecFile | None:
+def _nowhere(site: UseSite, reason: str, sink: Diagnostics) -> Target | None:
     sink.report(USE_OF_NOWHERE.at(site.where, path=site.text, reason=reason))
     return None

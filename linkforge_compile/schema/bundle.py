@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from linkforge_compile.schema.registry import ROOT, Schema, definitions
+from linkforge_compile.schema.json_types import Schema
+from linkforge_compile.schema.registry import ROOT, definitions_with_patches
 
 IDENTIFIER = "https://linkforge.dev/schema/v1/robot.schema.json"
 """Names version 1 of the language's schema; an identifier, never fetched."""
@@ -10,7 +11,7 @@ IDENTIFIER = "https://linkforge.dev/schema/v1/robot.schema.json"
 
 def bundle() -> Schema:
     """Return the schema of a whole file, with all that it refers to under `definitions`."""
-    parts = dict(definitions())
+    parts = dict(definitions_with_patches())
     root = parts.pop(ROOT)
     return {"$schema": "http://json-schema.org/draft-07/schema#", "$id": IDENTIFIER, **root, "definitions": {**parts}}
 

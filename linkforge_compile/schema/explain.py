@@ -18,9 +18,9 @@ from linkforge_compile.diagnostics.codes.schema import (
     WRONG_LENGTH,
 )
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.schema.registry import Json, Schema, mapping
-from linkforge_compile.schema.unbuilt import DECIDES_ITS_OWNER, LONG_FORM, UNBUILT
-from linkforge_compile.schema.words import alternatives, branches, expected, field, found, shortened, takes, words_of
+from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
+from linkforge_compile.schema.unbuilt import UNBUILT
+from linkforge_compile.schema.words import COMMON_KEYS, alternatives, expected, field, found, shortened, takes, words_of
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def _branch_meant(misfit: Misfit) -> int | None:
 
 def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:
     node, path, schema = misfit
-    known, patterns = mapping(schema["properties"]), mapping(schema.get("patternProperties", {}))
+    known, patterns = mapping(schema.get("properties", {})), mapping(schema.get("patternProperties", {}))
     for entry in node if isinstance(node, YamlMap) else ():
         if entry.name in known or any(re.search(pattern, entry.name) for pattern in patterns):
             continue
@@ -87,20 +87,20 @@ def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:
 
 def _not_built(key: YamlScalar, owner: Path) -> Judgement:
     diagnostic = NOT_BUILT_YET.at(key.span, name=key.text)
-    if key.text in DECIDES_ITS_OWNER:
-        return Judgement(diagnostic, owner)
     return Judgement(diagnostic, (*owner, key.text))
 
 
 def _unknown_key(key: YamlScalar, schema: Schema) -> Diagnostic:
     """Say where the key belongs, else which was meant, else which there are."""
-    owner, known = str(schema["title"]), mapping(schema["properties"])
+    owner, known = str(schema["title"]), mapping(schema.get("properties", {}))
+    own = [name for name in known if name not in COMMON_KEYS]
     near = [*known, *sorted(UNBUILT.get(owner, ()))]
     hint = _HINTS.get(key.text, "")
-    if not hint and (homes := [f"'{name}'" for name, part in known.items() if key.text in _keys_within(part)]):
+    parts = {name: part for name, part in known.items() if name not in _NOT_HOMES}
+    if not hint and (homes := [f"'{name}'" for name, part in parts.items() if key.text in _keys_within(part)]):
         hint = f"it belongs under {alternatives(homes)}"
-    if not hint and nearest(key.text, near) is None and len(known) <= _SHOWN_KEYS:
-        hint = f"its keys are {alternatives(list(known), 'and')}"
+    if not hint and nearest(key.text, near) is None and 0 < len(own) <= _SHOWN_KEYS:
+        hint = f"its keys are {alternatives(own, 'and')}"
     hinted = f"; {hint}" if hint else ""
     return UNKNOWN_KEY.at(key.span, name=key.text, owner=owner, hint=hinted, near=() if hint else near)
 
@@ -112,8 +112,13 @@ _HINTS = {
 """Habits from URDF, which puts these words where this language has none."""
 
 
+_NOT_HOMES = {"defaults", "override"}
+"""What holds keys only to change those of other places."""
+
+
 def _keys_within(schema: Json) -> set[str]:
-    return {key for branch in branches(mapping(schema)) for key in mapping(branch.get("properties", {}))} - {"name"}
+    keys = {key for branch in branches(mapping(schema)) for key in mapping(branch.get("properties", {}))}
+    return keys - COMMON_KEYS - {"name"}
 
 
 def _missing_keys(misfit: Misfit) -> Iterator[Judgement]:
@@ -151,9 +156,6 @@ def _wrong_word(misfit: Misfit) -> Iterator[Judgement]:
 
 def _wrong_kind(misfit: Misfit) -> Iterator[Judgement]:
     node, path, schema = misfit
-    if isinstance(node, YamlMap) and LONG_FORM in node.entries and (key := node.entries.keys() & {"for", "when"}):
-        yield _not_built(node.entries[min(key)].key, path)
-        return
     yield Judgement(
         WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=found(node)),
         path,

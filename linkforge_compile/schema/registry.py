@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TypeAlias
 
 from linkforge_compile.resources import schemas_folder
-
-Json: TypeAlias = None | bool | int | float | str | list["Json"] | dict[str, "Json"]
-Schema: TypeAlias = dict[str, Json]
+from linkforge_compile.schema.json_types import Json, Schema, mapping, reference
+from linkforge_compile.schema.patches import add_patches
+from linkforge_compile.schema.repetition import add_repetition
 
 ROOT = "robot"
 """The schema of a whole file; a module has the same."""
@@ -28,6 +27,7 @@ def load_files() -> dict[str, Schema]:
 def definitions() -> dict[str, Schema]:
     """Return every concept and every definition of every file by name, `$ref`s turned to `#/definitions/NAME`.
 
+    Every object takes `when` and, where it is an entry or an item, `for`, though no file says so.
     All of them share one namespace; two with one name are a fault of ours, raised as ValueError.
     """
     joined: dict[str, Schema] = {}
@@ -38,7 +38,14 @@ def definitions() -> dict[str, Schema]:
             if name in joined:
                 raise ValueError(f"two schemas define '{name}'")
             joined[name] = mapping(_flattened(part))
+    add_repetition(joined, ROOT)
     return joined
+
+
+@cache
+def definitions_with_patches() -> dict[str, Schema]:
+    """Return all definitions and the patch forms that `override` and `defaults` take, as `link_patch`."""
+    return add_patches(definitions(), ROOT)
 
 
 @cache
@@ -54,25 +61,17 @@ def linked() -> Schema:
             return [link(item) for item in node]
         if not isinstance(node, dict):
             return node
-        target = node.get("$ref")
-        if isinstance(target, str):
-            return link_definition(target.removeprefix("#/definitions/"))
+        if (target := reference(node)) is not None:
+            return link_definition(target)
         return {key: link(value) for key, value in node.items()}
 
     def link_definition(name: str) -> Schema:
         if name not in done:
             done[name] = {}
-            done[name].update(mapping(link(definitions()[name])))
+            done[name].update(mapping(link(definitions_with_patches()[name])))
         return done[name]
 
     return link_definition(ROOT)
-
-
-def mapping(node: object) -> Schema:
-    """Return a node that is an object by the make of our schemas; raises TypeError where it is not."""
-    if not isinstance(node, dict):
-        raise TypeError(f"expected a JSON object, found {node!r}")
-    return node
 
 
 def _flattened(node: Json) -> Json:

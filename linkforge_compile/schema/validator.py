@@ -18,33 +18,34 @@ if TYPE_CHECKING:
 _HEADER = ("linkforge", "name")
 
 
-def validate(tree: YamlMap, sink: Diagnostics) -> YamlMap:
+def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> YamlMap:
     """Report every place where the tree is not shaped as the language; return it without them.
 
+    A file that is included says no name of its own, any other must.
     Faulty nodes become YamlFault, the values of unknown keys too, so that what an object seems to lack and holds
     misspelt is not told twice. What was YamlFault before is not judged.
     What is missing inside an entry, names, and the units of quantities are for later stages to judge.
     """
-    judgements = [judgement for error in _errors(tree) for judgement in explain(error, tree)]
+    judgements = [judgement for error in _errors(tree, is_included) for judgement in explain(error, tree)]
     for judgement in sorted(judgements, key=lambda judgement: judgement.diagnostic.order):
         sink.report(judgement.diagnostic)
     return _pruned(tree, judgements) if judgements else tree
 
 
 @cache
-def _validator() -> Draft7Validator:
+def _validator(is_included: bool) -> Draft7Validator:
     # 110 ms to import: only where there is a tree to judge.
     from jsonschema import Draft7Validator
 
-    return Draft7Validator(linked())
+    return Draft7Validator(linked() if is_included else {**linked(), "required": [*_HEADER]})
 
 
-def _errors(tree: YamlMap) -> Iterator[ValidationError]:
+def _errors(tree: YamlMap, is_included: bool) -> Iterator[ValidationError]:
     data = {entry.name: _plain(entry.value) for entry in tree}
     for name in _HEADER:
         if tree.get(name) is None:
             data.pop(name, None)
-    return _validator().iter_errors(data)
+    return _validator(is_included).iter_errors(data)
 
 
 _FAULTY: Final = object()

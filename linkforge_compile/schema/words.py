@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from linkforge_compile.schema.registry import Schema, mapping
+from linkforge_compile.schema.json_types import Schema, branches, mapping
+from linkforge_compile.schema.repetition import LONG_FORM, WORDS
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
+
+COMMON_KEYS = frozenset({*WORDS, "extra", "extra_attributes"})
+"""What stands in most objects, so no sentence about one of them lists it."""
 
 _SHOWN_KEYS = 4
 _SHOWN_TEXT = 40
@@ -18,14 +22,10 @@ def alternatives(words: Sequence[str], last: str = "or") -> str:
     return f"{', '.join(words[:-1])} {last} {words[-1]}" if len(words) > 1 else words[0]
 
 
-def branches(schema: Schema) -> list[Schema]:
-    """Return what the schema may be: its `anyOf`, else itself."""
-    union = schema.get("anyOf")
-    return [mapping(branch) for branch in union] if isinstance(union, list) else [schema]
-
-
 def takes(schema: Schema, node: YamlNode) -> bool:
     """Tell whether the schema, itself no union, takes this kind of node, whatever it says of what is within."""
+    if schema.get("title") == LONG_FORM and isinstance(node, YamlMap) and not node.entries.keys() & set(WORDS):
+        return False  # a map of other keys was never meant as one
     kinds = schema.get("type")
     return kinds is None or _kind(node) in (kinds if isinstance(kinds, list) else [kinds])
 
@@ -46,7 +46,7 @@ def _kind(node: YamlNode) -> str | None:
 def expected(schema: Schema) -> str:
     """Return what the schema takes: "a number [kg] or a quantity such as '3 kg'", "'x', 'y' or three numbers".
 
-    That any value may be an expression goes without saying.
+    That any value may be an expression, and any item repeated, goes without saying.
     """
     if "anyOf" in schema:
         return alternatives([word for branch in branches(schema) for word in _nouns(branch)])
@@ -57,9 +57,9 @@ def expected(schema: Schema) -> str:
 def _nouns(schema: Schema) -> list[str]:
     if "enum" in schema:
         return [f"'{word}'" for word in words_of(schema)]
-    if schema.get("title") == "an expression":
+    if schema.get("title") in {"an expression", LONG_FORM}:
         return []
-    keys = list(mapping(schema.get("properties", {})))
+    keys = [key for key in mapping(schema.get("properties", {})) if key not in COMMON_KEYS]
     return [f"a map ({', '.join(keys)})"] if 0 < len(keys) <= _SHOWN_KEYS else [str(schema["title"])]
 
 

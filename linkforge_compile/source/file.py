@@ -15,12 +15,14 @@ class SourceFile:
 
     `path` is None for text that is no file: standard input, a string, the command line.
     `order` counts the files that one compilation read before this one, so that messages keep reading order.
+    `included` is the `include` that laid this file into another one, None for a file that stands by itself.
     """
 
     name: str
     text: str = field(repr=False)
     path: Path | None = None
     order: int = 0
+    included: Span | None = None
 
     @cached_property
     def lines(self) -> tuple[str, ...]:
@@ -34,6 +36,11 @@ class SourceFile:
     def line(self, number: int) -> str:
         """Return line `number`, counted from 1; empty behind the end of the file."""
         return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
+
+    @property
+    def includes(self) -> tuple[Span, ...]:
+        """Every `include` that led to this file, the last one first."""
+        return (self.included, *self.included.file.includes) if self.included else ()
 
     @property
     def whole(self) -> Span:

@@ -1,4 +1,4 @@
-"""Text to positioned tree: YAML as the language reads it, every key and value with its place."""
+"""Text to positioned tree and back: YAML as the language reads it, every key and value with its place."""
 
 from linkforge_compile.syntax.nodes import (
     ScalarValue,
@@ -9,11 +9,14 @@ from linkforge_compile.syntax.nodes import (
     YamlNode,
     YamlScalar,
 )
-from linkforge_compile.syntax.reader import read
+from linkforge_compile.syntax.reader import Tags, read, read_data
 from linkforge_compile.syntax.scalars import scalar_value
+from linkforge_compile.syntax.writer import Comments, write
 
 __all__ = [
+    "Comments",
     "ScalarValue",
+    "Tags",
     "YamlEntry",
     "YamlFault",
     "YamlList",
@@ -21,5 +24,7 @@ __all__ = [
     "YamlNode",
     "YamlScalar",
     "read",
+    "read_data",
     "scalar_value",
+    "write",
 ]

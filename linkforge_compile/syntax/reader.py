@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import yaml
 from yaml import events
@@ -22,10 +23,13 @@ MAX_DEPTH = 100
 """How deep lists and maps may nest: every later stage walks the tree by recursion."""
 
 MAX_NODES = 1_000_000
-"""How many nodes aliases may make of a tree, each alias counted as a copy of its own."""
+"""How many nodes aliases may make of a tree, each alias counted as a copy of its own; a data file has no more."""
 
 # PyYAML may have been built without libyaml; its own parser gives the same events, only slower.
 PARSER: type[yaml.BaseLoader | yaml.CBaseLoader] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+
+Tags: TypeAlias = Mapping[str, Callable[[YamlScalar], YamlNode]]
+"""What a scalar with a tag becomes, by the tag; a fault of it is for the function to report."""
 
 _STUCK = re.compile(r"[A-Za-z_]\w*:\S.*")
 
@@ -35,12 +39,30 @@ def read(file: SourceFile, sink: Diagnostics) -> YamlMap | None:
 
     A node at fault becomes a YamlFault, a repeated key is dropped, and reading goes on; only malformed YAML ends it.
     """
+    root = _root(file, sink, None)
+    if root is None or isinstance(root, YamlMap):
+        return root
+    _report_top_level(root, sink)
+    return None
+
+
+def read_data(file: SourceFile, sink: Diagnostics, tags: Tags) -> YamlNode | None:
+    """Read a file of data, which may be of any shape and hold `tags`, but no others; None as for `read`."""
+    root = _root(file, sink, tags)
+    if isinstance(root, YamlScalar) and root.value is None:
+        sink.report(codes.EMPTY_DATA.at(file.whole))
+        return None
+    return root
+
+
+def _root(file: SourceFile, sink: Diagnostics, tags: Tags | None) -> YamlNode | None:
+    """Return the top of the one document, None where the text cannot be read; `tags` is None for a spec."""
     marks = Marks(file, file.text.removeprefix("\ufeff"))
     if forbidden := FORBIDDEN_CHARACTER.search(marks.text):
         span = marks.part(forbidden.start(), 1)
         sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
         return None
-    reader = _Reader(marks, sink)
+    reader = _Reader(marks, sink, tags)
     try:
         return reader.document()
     except _UnreadableError as unreadable:
@@ -48,6 +70,15 @@ def read(file: SourceFile, sink: Diagnostics) -> YamlMap | None:
     except yaml.MarkedYAMLError as error:
         sink.report(explain(error, marks, reader.last_scalar))
     return None
+
+
+def _report_top_level(root: YamlNode, sink: Diagnostics) -> None:
+    if isinstance(root, YamlScalar) and root.value is None:
+        sink.report(codes.EMPTY_DOCUMENT.at(root.span.file.whole))
+    elif isinstance(root, YamlScalar) and _STUCK.fullmatch(root.text):
+        sink.report(codes.SPACE_AFTER_COLON.at(root.span, text=root.text))
+    elif not isinstance(root, YamlFault):
+        sink.report(codes.TOP_LEVEL_NOT_MAP.at(root.span, found=_kind(root)))
 
 
 class _UnreadableError(Exception):
@@ -70,38 +101,28 @@ class _Anchor:
 class _Reader:
     """One pass over the events of one document."""
 
-    def __init__(self, marks: Marks, sink: Diagnostics) -> None:
+    def __init__(self, marks: Marks, sink: Diagnostics, tags: Tags | None) -> None:
         self.last_scalar: events.ScalarEvent | None = None
         self._marks = marks
         self._sink = sink
+        self._tags = tags
         self._parser = PARSER(marks.text)
         self._anchors: dict[str, _Anchor | None] = {}  # None while the anchored node is still being read
         self._size = 0
         self._deepest = 0
         self._latest = marks.file.whole  # what was read last: with it end the block lists and maps around it
 
-    def document(self) -> YamlMap | None:
+    def document(self) -> YamlNode:
+        """Read the document; where there is none, it is null."""
         self._next()  # the stream begins
         if isinstance(self._next(), events.StreamEndEvent):
-            self._sink.report(codes.EMPTY_DOCUMENT.at(self._marks.file.whole))
-            return None
+            return YamlScalar("", None, self._marks.file.whole)
         root = self._node(self._next(), depth=1, flow=False)
         self._next()  # the document ends
         after = self._next()
         if isinstance(after, events.DocumentStartEvent):
             self._sink.report(codes.SEVERAL_DOCUMENTS.at(self._marks.event(after)))
-        if isinstance(root, YamlMap):
-            return root
-        self._report_top_level(root)
-        return None
-
-    def _report_top_level(self, root: YamlNode) -> None:
-        if isinstance(root, YamlScalar) and root.value is None:
-            self._sink.report(codes.EMPTY_DOCUMENT.at(self._marks.file.whole))
-        elif isinstance(root, YamlScalar) and _STUCK.fullmatch(root.text):
-            self._sink.report(codes.SPACE_AFTER_COLON.at(root.span, text=root.text))
-        elif not isinstance(root, YamlFault):
-            self._sink.report(codes.TOP_LEVEL_NOT_MAP.at(root.span, found=_kind(root)))
+        return root
 
     def _next(self) -> events.Event:
         event = self._parser.get_event()
@@ -114,6 +135,8 @@ class _Reader:
             return self._alias(event, depth)
         assert isinstance(event, events.ScalarEvent | events.CollectionStartEvent)
         self._size += 1
+        if self._tags is not None and self._size > MAX_NODES:
+            raise _UnreadableError(codes.TOO_MUCH_DATA.at(self._marks.event(event), limit=f"{MAX_NODES:,}"))
         if event.anchor is None:
             return self._untagged(event, depth, flow)
         size_before, deepest_outside = self._size - 1, self._deepest
@@ -141,11 +164,9 @@ class _Reader:
         return anchor.node
 
     def _untagged(self, event: events.ScalarEvent | events.CollectionStartEvent, depth: int, flow: bool) -> YamlNode:
-        """Read a node that is no alias; a tag makes a fault of the whole."""
-        if event.tag is not None:
-            span = self._marks.tag(event)
-            self._sink.report(codes.TAG.at(span, tag=span.text))
+        """Read a node that is no alias; a tag that means nothing here makes a fault of the whole."""
         node: YamlNode
+        make = self._meaning(event)
         if isinstance(event, events.ScalarEvent):
             node = self._scalar(event, flow)
         elif isinstance(event, events.SequenceStartEvent):
@@ -153,7 +174,24 @@ class _Reader:
         else:
             assert isinstance(event, events.MappingStartEvent)
             node = self._map(event, depth)
-        return node if event.tag is None else YamlFault(node.span)
+        if event.tag is None or isinstance(node, YamlFault):
+            return node
+        return make(node) if make and isinstance(node, YamlScalar) else YamlFault(node.span)
+
+    def _meaning(
+        self, event: events.ScalarEvent | events.CollectionStartEvent
+    ) -> Callable[[YamlScalar], YamlNode] | None:
+        """Return what makes something of a scalar's tag, None for no tag and for one that is reported."""
+        if event.tag is None:
+            return None
+        if self._tags and isinstance(event, events.ScalarEvent) and event.tag in self._tags:
+            return self._tags[event.tag]
+        span = self._marks.tag(event)
+        if self._tags is None:
+            self._sink.report(codes.TAG.at(span, tag=span.text))
+        else:
+            self._sink.report(codes.OTHER_TAG.at(span, tag=span.text, known=" and ".join(self._tags)))
+        return None
 
     def _descend(self, depth: int, span: Span) -> None:
         if depth > MAX_DEPTH:

@@ -97,6 +97,16 @@ def test_a_package_is_where_the_option_says(pendulum: Path):
     assert etree.fromstring(run.stdout.encode()).find(".//joint").get("name") == "arm_hinge"
 
 
+def test_sensors_are_written_as_the_simulator_reads_them(pendulum: Path):
+    spec = pendulum / "swing.robot.yaml"
+    spec.write_text(PENDULUM + "sensors: {scan: {type: lidar, link: rod, frame: base}}\n")
+    for words, kind, told in (((), "gpu_lidar", ""), (("--gazebo", "classic"), "ray", "[LF7104]")):
+        run = linkforge("compile", spec.name, *words, cwd=pendulum)
+        assert f'<sensor name="scan" type="{kind}">' in run.stdout
+        assert told in run.stderr
+        assert ("LF7104" in linkforge("check", spec.name, *words, cwd=pendulum).stderr) is bool(told)
+
+
 def test_a_spec_comes_from_standard_input(pendulum: Path):
     run = linkforge("compile", "-", cwd=pendulum, stdin=PENDULUM)
     assert run.returncode == 0

@@ -43,7 +43,8 @@ class Spec:
             else:
                 modules.append(spec.instance(sink, order, key, ref, inner))
         prefix = "" if entry is None else prefix_of(entry, name)
-        return Instance(name, tree, entry, prefix, self.mesh_base, trail, tuple(modules))
+        bases = {tree.span.file: self.mesh_base}
+        return Instance(name, tree, entry, prefix, bases, trail, tuple(modules))
 
     def texts(self, name: str = "spec") -> Mapping[str, str]:
         inner = {file: text for key, spec in self.modules.items() if spec for file, text in spec.texts(key).items()}

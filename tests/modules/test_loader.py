@@ -8,7 +8,7 @@ import pytest
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.modules import Instance, Loader, arguments_from_text, expand
 from linkforge_compile.modules.file_text import MAX_BYTES
-from linkforge_compile.modules.loader import follow
+from linkforge_compile.modules.paths import follow
 from tests.modules.assembling import write
 
 
@@ -19,7 +19,7 @@ def expanded(path: Path, loader: Loader, sink: Diagnostics) -> Instance:
 
 
 def bases(instance: Instance) -> dict[str, str]:
-    return {module.name: module.mesh_base for module in instance.modules}
+    return {module.name: module.mesh_bases[module.tree.span.file] for module in instance.modules if module.tree}
 
 
 def test_a_file_is_named_as_typed_from_the_working_directory(tmp_path, monkeypatch):
@@ -83,7 +83,7 @@ def test_text_in_no_folder_uses_absolute_paths_only(tmp_path):
     assert [diagnostic.message for diagnostic in sink] == [
         "'arm.robot.yaml' leads nowhere: it is relative, and this text lies in no folder"
     ]
-    assert bases(instance) == {"a": "", "b": f"{tmp_path.as_posix()}/"}
+    assert bases(instance) == {"b": f"{tmp_path.as_posix()}/"}
 
 
 def test_mesh_paths_of_a_module_are_made_relative_to_the_compiled_file(tmp_path, monkeypatch):

@@ -41,10 +41,17 @@ SENTENCES = {
         "'stick' is not a key of a joint's dynamics; its keys are damping and friction"
     ),
     "sensor: {}": "'sensor' is not a key of a robot; did you mean 'sensors'?",
-    "sensors: {}": "'sensors' is part of the language, but this version does not compile it yet",
-    "links: {arm: {physics: {}}}": "'physics' is part of the language, but this version does not compile it yet",
+    "modules: {arm: {srdf: arm.srdf}}": "'srdf' is part of the language, but this version does not compile it yet",
+    "sensors: {eye: {width: 640}}": "'width' is not a key of a sensor; it belongs under 'camera'",
+    "sensors: {eye: {type: lidar, lidar: {noise: 3}}}": (
+        "'noise' takes a map of type, mean, stddev, bias_mean and bias_stddev, found 3"
+    ),
+    "gazebo: {plugins: {a: {paramters: {b: 1}}}}": ("'paramters' is not a key of a plugin; did you mean 'parameters'?"),
+    "links: {arm: {gazebo: {stopCfm: 1}}}": "'stopCfm' is not a key of a gazebo block; did you mean 'stop_cfm'?",
+    "ros2_control: {arm: {parameters: {a: {b: 1}}}}": "'a' takes text, found a map",
+    "links: {arm: {extra: {a: 1}}}": "'extra' takes XML or a list of XML texts, found a map",
     "links: [base, arm]": "'links' takes a map of links by name, found a list",
-    "links: {arm: box}": "'arm' takes a map of visual, collision and inertial, found 'box'",
+    "links: {arm: box}": "'arm' takes a map of visual, collision, inertial, physics and gazebo, found 'box'",
     "links: {arm: {inertial: {mass: [3]}}}": "'mass' takes a number [kg] or a quantity such as '3 kg', found a list",
     "links: {arm: {inertial: {mass: true}}}": "'mass' takes a number [kg] or a quantity such as '3 kg', found true",
     "links: {arm: {inertial: {mass: '3'}}}": (
@@ -74,9 +81,15 @@ SENTENCES = {
     "joints: {a: {origin: [0, 0, ~]}}": (
         "item 3 of 'origin' takes a number [m] or a quantity such as '25 mm', found nothing"
     ),
-    "semantic: {groups: {a: {joints: [{for: {i: 3}, value: joint_$(i)}]}}}": (
-        "'for' is part of the language, but this version does not compile it yet"
+    "semantic: {groups: {a: {joints: [{for: {i: 3}, vale: joint_$(i)}]}}}": (
+        "'vale' is not a key of the long form; did you mean 'value'?"
     ),
+    "semantic: {groups: {a: {joints: [{name: shoulder}]}}}": "item 1 of 'joints' takes a name, found a map",
+    "links: {a: {when: 3}}": "'when' takes true, false or an expression $(...), found 3",
+    "modules: {a: {override: {links: {b: {visual: {0: {bix: [1, 1, 1]}}}}}}}": (
+        "'bix' is not a key of a visual; its keys are name, origin, box, cylinder, sphere, capsule, mesh and material"
+    ),
+    "modules: {a: {override: {joint: {}}}}": "'joint' is not a key of an override; did you mean 'joints'?",
 }
 
 
@@ -178,18 +191,14 @@ def test_what_is_faulty_does_not_go_on_and_the_rest_does():
     assert not isinstance(inertial.get("density"), YamlFault)
 
 
-def test_an_entry_that_an_unbuilt_key_decides_about_does_not_go_on():
-    left, _ = judged(HEADER + "links:\n  wheel_$(side): {for: {side: [left, right]}}\n  base: {}\n")
-    links = left.get("links")
-    assert isinstance(links, YamlMap)
-    assert isinstance(links.get("wheel_$(side)"), YamlFault)
-    assert isinstance(links.get("base"), YamlMap)
-
-
-def test_nothing_goes_on_of_a_file_that_an_unbuilt_key_decides_about():
-    left, told = judged(HEADER + "include: [control.yaml]\nlinks: {base: }\n")
-    assert told == ["3:1 'include' is part of the language, but this version does not compile it yet"]
-    assert [entry.name for entry in left if isinstance(entry.value, YamlFault)] == ["include", "links"]
+def test_only_an_included_file_needs_no_name():
+    tree = read(SourceFile("part.yaml", "linkforge: 1\nlinks: {base: }\n"), Diagnostics())
+    assert tree is not None
+    sink = Diagnostics()
+    assert validate(tree, sink, is_included=True) is tree
+    assert not list(sink)
+    validate(tree, sink)
+    assert [diagnostic.code.id for diagnostic in sink] == ["LF2003"]
 
 
 def test_a_faultless_tree_is_returned_as_it_is():

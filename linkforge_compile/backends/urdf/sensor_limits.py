@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.urdf.sensor import INFOS, Gazebo
@@ -18,6 +18,7 @@ from linkforge_compile.diagnostics.codes.backends import (
 )
 
 if TYPE_CHECKING:
+    from linkforge_compile.core.frozen_map import FreePart
     from linkforge_compile.core.models.robot import Robot
 
 _KEEP_A_FIXED_JOINT = ("preserveFixedJoint", "disableFixedJointLumping")
@@ -49,10 +50,17 @@ def check_force_torque(sensor: Sensor, robot: Robot) -> Iterator[Diagnostic]:
 
 def _is_kept(joint: str, robot: Robot) -> bool:
     return any(
-        block.properties.get(tag, "").strip() in ("true", "1")
+        _says_yes(block.properties.get(tag, ""))
         for block in robot.get_gazebo_elements(joint)
         for tag in _KEEP_A_FIXED_JOINT
     )
+
+
+def _says_yes(tag: FreePart) -> bool:
+    """As Gazebo reads a flag: in the attribute `value`, else in the text."""
+    if isinstance(tag, Mapping):
+        tag = tag.get("_value", tag.get("_text", ""))
+    return isinstance(tag, str) and tag.strip().lower() in ("true", "yes", "1")
 
 
 def check_contact(sensor: Sensor) -> Iterator[Diagnostic]:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments, tell
+from linkforge_compile.cli.one_spec import compile_spec, one_spec
+from linkforge_compile.cli.options import add_spec_options, split_assignments, tell
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Callable
 
     from linkforge_compile.core import Robot
-    from linkforge_compile.pipeline import Compilation
 
 FORMATS = ("urdf", "srdf")
 _FILE_ENDINGS = (".urdf", ".srdf", ".xml")
@@ -24,6 +26,8 @@ examples:
   linkforge compile arm.robot.yaml -o build/            build/arm.urdf, and build/arm.srdf if it has `semantic`
   linkforge compile arm.robot.yaml -o arm.urdf          one file
   linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
+  linkforge compile arm.robot.yaml --gazebo classic     with sensors as Gazebo Classic reads them
+  linkforge compile arm.robot.yaml --variant sim        with the values of one of its variants
   linkforge compile - < arm.robot.yaml                  from standard input
 """
 
@@ -44,27 +48,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     specs, assignments = split_assignments(arguments.words)
-    if len(specs) != 1:
-        raise UsageError(_not_one_spec(specs))
-    spec = specs[0]
+    spec = one_spec(specs)
     targets = _targets(spec, arguments.output, arguments.format)
-    compilation = _compile(spec, [*arguments.parameters, *assignments], packages_of(arguments))
+    compilation = compile_spec(spec, assignments, arguments)
     tell(compilation.diagnostics)
     if compilation.robot is None:
         return FAULTY_SPEC
-    return _write(compilation.robot, spec, targets)
-
-
-def _compile(spec: str, parameters: list[str], packages: dict[str, str]) -> Compilation:
-    from linkforge_compile.pipeline import compile_file, compile_text
-
-    if spec != "-":
-        return compile_file(spec, parameters=parameters, packages=packages)
-    try:
-        text = sys.stdin.buffer.read().decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise UsageError(f"standard input is not UTF-8: {error.reason} at byte {error.start}") from None
-    return compile_text(text, name="<stdin>", folder=Path.cwd(), parameters=parameters, packages=packages)
+    return _write(compilation.robot, spec, targets, arguments.gazebo)
 
 
 def _targets(spec: str, output: str | None, chosen: str | None) -> dict[str, Path | None]:
@@ -79,14 +69,6 @@ def _targets(spec: str, output: str | None, chosen: str | None) -> dict[str, Pat
         return {chosen or ("srdf" if path.suffix == ".srdf" else "urdf"): path}
     name = "robot" if spec == "-" else Path(spec).name.removesuffix(".yaml").removesuffix(".yml").removesuffix(".robot")
     return {format_: path / f"{name}.{format_}" for format_ in FORMATS if chosen in (None, format_)}
-
-
-def _not_one_spec(specs: list[str]) -> str:
-    if not specs:
-        return "takes one spec, found none"
-    assignment = next((word for word in specs if "=" in word), None)
-    remedy = f"; write '-p {assignment}' to set a parameter" if assignment else ""
-    return f"takes one spec, found {len(specs)}: {', '.join(specs)}{remedy}"
 
 
 def _is_file(output: str, path: Path) -> bool:
@@ -104,7 +86,7 @@ def _is_file(output: str, path: Path) -> bool:
     return bool(path.suffix) or (path.exists() and not path.is_file())
 
 
-def _write(robot: Robot, spec: str, targets: dict[str, Path | None]) -> int:
+def _write(robot: Robot, spec: str, targets: dict[str, Path | None], gazebo: str) -> int:
     from linkforge_compile.backends import BACKENDS
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
 
@@ -115,7 +97,8 @@ def _write(robot: Robot, spec: str, targets: dict[str, Path | None]) -> int:
             return FAULTY_SPEC
         targets = {"urdf": targets["urdf"]}
     banner = None if spec == "-" else f"Compiled by linkforge from {Path(spec).name}; edit that file, not this one."
-    texts = {format_: BACKENDS[format_](robot, banner=banner) for format_ in targets}
+    render: dict[str, Callable[..., str]] = {**BACKENDS, "urdf": partial(BACKENDS["urdf"], gazebo=gazebo)}
+    texts = {format_: render[format_](robot, banner=banner) for format_ in targets}
     for format_, path in targets.items():
         if path is None:
             write_to_stdout(texts[format_])

@@ -11,7 +11,7 @@ from linkforge_compile.core.builders.sensor_draft import SensorDraft
 from linkforge_compile.core.builders.shapes import Triple, pose
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.gazebo import GazeboElement
-from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
+from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Mesh, Transform
 from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.physics import calculate_inertia, inertial_of_shapes
@@ -19,6 +19,7 @@ from linkforge_compile.core.physics import calculate_inertia, inertial_of_shapes
 if TYPE_CHECKING:
     from linkforge_compile.core.builders.composer import IComposer
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.core.solid import Solid
 
 _PHYSICS = frozenset(field.name for field in fields(LinkPhysics))
 
@@ -127,7 +128,8 @@ class LinkBuilder(JointDraft, SensorDraft):
         """Give the mass [kg], and its centre [m] with the axes of the tensor [rad] in the link frame.
 
         Where nobody gives an inertia, it is computed from the collisions, or the visuals if there are none; where
-        nobody gives a centre, it is theirs. Without shapes it is the stability floor.
+        nobody gives a centre, it is theirs. Without shapes it is the stability floor. A mesh is read for it when the
+        link joins the robot, which refuses one that is no watertight file that the robot's resolver finds.
         """
         self._check_not_committed()
         self._mass = value
@@ -215,8 +217,16 @@ class LinkBuilder(JointDraft, SensorDraft):
         if self._inertia is not None or not shapes:
             inertia = self._inertia or InertiaTensor.stability_floor()
             return Inertial(self._mass, self._inertial_origin or IDENTITY, inertia)
-        if len(shapes) == 1:
+        solids = self._solids([geometry for geometry, _ in shapes])
+        if len(shapes) == 1 and not solids:
             ((geometry, origin),) = shapes
             return Inertial(self._mass, self._inertial_origin or origin, calculate_inertia(geometry, self._mass))
-        body = inertial_of_shapes(shapes, mass=self._mass)
+        body = inertial_of_shapes(shapes, mass=self._mass, meshes=solids)
         return replace(body, origin=self._inertial_origin) if self._inertial_origin else body
+
+    def _solids(self, geometries: list[Geometry]) -> dict[Mesh, Solid]:
+        if not any(isinstance(geometry, Mesh) for geometry in geometries):
+            return {}
+        from linkforge_compile.core.meshes.resolved import solids_of
+
+        return solids_of(geometries, self._builder.robot.resource_resolver)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.frozen_map import FreePart, FrozenMap
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import require_finite, require_not_blank
 
@@ -15,8 +15,9 @@ from linkforge_compile.core.rules import require_finite, require_not_blank
 class GazeboPlugin(Element):
     """A plugin of a simulator: `<plugin name filename>`.
 
-    `filename` is the library, `parameters` the texts of its child elements by tag. `raw_xml` is its whole content
-    as XML where that was read, and is written in place of the parameters; None if there is none. It is not compared.
+    `filename` is the library, `parameters` its child elements by tag: their texts, or what is in them. `raw_xml` is
+    its whole content as XML where that was read, and is written in place of the parameters; None if there is none.
+    It is not compared.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank name, VALUE_EMPTY for a blank filename.
@@ -27,7 +28,7 @@ class GazeboPlugin(Element):
 
     name: str
     filename: str
-    parameters: Mapping[str, str] = FrozenMap()
+    parameters: Mapping[str, FreePart] = FrozenMap()
     raw_xml: str | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
@@ -46,10 +47,10 @@ class GazeboPlugin(Element):
 class GazeboElement(Element):
     """Settings of a simulator: `<gazebo reference>`.
 
-    `reference` names a link or joint, None the robot as a whole. `properties` are the texts of child elements by
-    tag. `material` and `static` belong to links, the rest to joints: `stop_cfm` (constraint force mixing at the
-    joint's stops, 0 or above) and `stop_erp` (share of the error that a step corrects, 0 to 1). None for what is
-    not said.
+    `reference` names a link or joint, None the robot as a whole. `properties` are child elements by tag: their
+    texts, or what is in them. `material` and `static` belong to links, the rest to joints: `stop_cfm` (constraint
+    force mixing at the joint's stops, 0 or above) and `stop_erp` (share of the error that a step corrects, 0 to 1).
+    None for what is not said.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank reference, INVALID_VALUE for stop_cfm or stop_erp out of range.
@@ -60,7 +61,7 @@ class GazeboElement(Element):
     PREFIXED = ("reference", "plugins")
 
     reference: str | None = None
-    properties: Mapping[str, str] = FrozenMap()
+    properties: Mapping[str, FreePart] = FrozenMap()
     plugins: Sequence[GazeboPlugin] = ()
     material: str | None = None
     static: bool | None = None

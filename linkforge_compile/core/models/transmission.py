@@ -10,7 +10,7 @@ from typing import ClassVar, Self
 
 from linkforge_compile.core.constants import EPSILON, HW_IF_POSITION
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.frozen_map import FreePart, FrozenMap
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import (
     require_finite,
@@ -105,7 +105,8 @@ class TransmissionActuator(_TransmissionEnd):
 class Transmission(Element):
     """Joints and the actuators that move them: `<transmission name>`.
 
-    `type` is a TransmissionType or the name of another plugin, `parameters` the texts of further child elements.
+    `type` is a TransmissionType or the name of another plugin, `parameters` further child elements by tag:
+    their texts, or what is in them.
 
     Raises:
         RobotValidationError: NAME_EMPTY or INVALID_NAME for the name; VALUE_EMPTY without type, joint or actuator;
@@ -120,7 +121,7 @@ class Transmission(Element):
     type: str
     joints: Sequence[TransmissionJoint] = ()
     actuators: Sequence[TransmissionActuator] = ()
-    parameters: Mapping[str, str] = FrozenMap()
+    parameters: Mapping[str, FreePart] = FrozenMap()
 
     def __post_init__(self) -> None:
         freeze(self, "joints", "actuators", mappings=("parameters",))

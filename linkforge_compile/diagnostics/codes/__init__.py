@@ -7,10 +7,12 @@ LF6 physics and interfaces, LF7 backend limits, LF8 import.
 from linkforge_compile.diagnostics.codes import (
     backends,
     expressions,
+    files,
     model,
     modules,
     names,
     physics,
+    repetition,
     schema,
     syntax,
 )
@@ -18,7 +20,7 @@ from linkforge_compile.diagnostics.diagnostic import Code
 
 REGISTER: dict[str, Code] = {
     code.id: code
-    for family in (syntax, schema, modules, expressions, names, model, physics, backends)
+    for family in (syntax, schema, modules, files, repetition, expressions, names, model, physics, backends)
     for code in vars(family).values()
     if isinstance(code, Code)
 }

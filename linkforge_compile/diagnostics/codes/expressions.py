@@ -10,7 +10,6 @@ EXPRESSION_TOO_LARGE = Code("LF3105", Severity.ERROR, "the expression {fault}; m
 NOT_IN_EXPRESSIONS = Code("LF3106", Severity.ERROR, "{what} cannot stand in an expression; {instead}")
 UNKNOWN_NAME = Code("LF3107", Severity.ERROR, "no parameter, variable or 'for' name '{name}' here")
 UNKNOWN_FUNCTION = Code("LF3108", Severity.ERROR, "no function named '{name}'")
-NOT_YET_AVAILABLE = Code("LF3109", Severity.ERROR, "{what} is not available yet")
 FUNCTION_NOT_CALLED = Code("LF3110", Severity.ERROR, "'{function}' is a function; write {signature}")
 WRONG_ARGUMENT_COUNT = Code("LF3111", Severity.ERROR, "expected {signature}, found {count} arguments")
 

@@ -31,7 +31,6 @@ DENSITY_WITH_INERTIA = Code("LF5108", _E, "{owner} has 'inertia', which goes wit
 ORIGIN_WITHOUT_INERTIA = Code(
     "LF5109", _E, "{owner} has an 'origin' without 'inertia'; give both, or neither to have them computed"
 )
-INERTIA_OF_MESH = Code("LF5110", _E, "{owner} cannot be computed from a mesh yet; give 'inertia'")
 INERTIA_OF_NOTHING = Code("LF5111", _E, "{owner} cannot be computed without a collision or visual; give 'inertia'")
 
 # LF52xx: joints
@@ -54,6 +53,15 @@ UNKNOWN_STATE = Code("LF5305", _E, "group '{group}' has no state '{name}'; it ha
 STATE_CIRCLE = Code("LF5306", _E, "group states take their values from one another in a circle: {path}")
 STATE_VALUE_TWICE = Code("LF5307", _E, "joint '{joint}' has two values in state '{state}' of group '{group}'")
 
+MOUNT_SAYS_ENDS = Code(
+    "LF5321", _E, "{owner} is a mount and has no '{field}': whoever uses this file says where it hangs"
+)
+MOUNT_NOT_AT_ROOT = Code("LF5322", _E, "mount '{joint}' holds '{link}', but the root of this file is '{root}'")
+TWO_MOUNTS = Code("LF5323", _E, "a robot hangs by one joint, and '{joint}' is a second mount beside '{first}'")
+MOUNT_AND_JOINT = Code(
+    "LF5324", _E, "{owner} hangs by its own mount '{joint}'; leave 'joint' out, or change the mount with 'override'"
+)
+
 # LF54xx: the tree of links
 NO_LINKS = Code("LF5401", _E, "robot '{robot}' has no links; a robot has at least one")
 SECOND_PARENT = Code("LF5402", _E, "link '{link}' has two parents: joint '{first}' hangs it on '{parent}' already")
@@ -62,7 +70,7 @@ SEVERAL_ROOTS = Code(
     "LF5404", _E, "{count} links are no joint's child: {roots}; only one may be the root, so hang {strays} on '{root}'"
 )
 
-# LF55xx: joints that follow others
+# LF55xx: how far joints go, and joints that follow others
 MIMIC_CIRCLE = Code("LF5501", _E, "joints mimic one another in a circle: {path}")
 MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis")
 NO_RANGE = Code("LF5503", _W, "joint '{joint}' cannot move: its limits do not say {unsaid}, which URDF takes for 0")
@@ -83,3 +91,16 @@ VIRTUAL_JOINT_NOT_AT_ROOT = Code(
 )
 PAIR_TWICE = Code("LF5610", _W, "the pair of '{link1}' and '{link2}' is listed twice")
 PASSIVE_COMMANDED = Code("LF5611", _W, "passive joint '{joint}' is commanded by ros2_control '{control}'")
+
+# LF57xx: sensors, hardware, simulators and raw XML
+ATTRIBUTE_OF_OWNER = Code(
+    "LF5701", _E, "'{name}' is an attribute of the element around it; those of {owner} go into 'extra_attributes'"
+)
+LIST_IN_LIST = Code("LF5702", _E, "a list repeats the tag '{field}', so it cannot hold another list")
+TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is said twice")
+UNPREFIXED_NAME = Code(
+    "LF5704", _W, "'{name}' is a {kind} of this file and takes the prefix, but not here; write '$({kind}('{name}'))'"
+)
+ABSOLUTE_TOPIC = Code(
+    "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
+)

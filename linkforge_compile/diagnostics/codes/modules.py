@@ -38,14 +38,14 @@ SET_TWICE = Code("LF3029", _E, "parameter '{name}' is set twice")
 # LF303x: declarations of parameters
 PARAMETER_WITHOUT_TYPE = Code("LF3030", _E, "parameter '{name}' has neither a type nor a default; write 'type: length'")
 UNFIT_CONSTRAINT = Code("LF3031", _E, "'{constraint}' says nothing about a parameter of type {type}")
-BAD_PATTERN = Code("LF3032", _E, "'{pattern}' is no regular expression: {reason}")
+BAD_PATTERN = Code("LF3032", _E, "'{pattern}' cannot be a pattern: {reason}")
 
 # LF304x: names of parameters and variables
 INVALID_VARIABLE_NAME = Code(
     "LF3040", _E, "'{name}' is no name for a {kind}: letters, digits and '_' make one, and no digit begins it"
 )
 RESERVED_NAME = Code("LF3041", _E, "'{name}' means something in expressions already, so no {kind} can have that name")
-PARAMETER_AND_VARIABLE = Code("LF3042", _E, "'{name}' is both a parameter and a variable")
+NAME_OF_TWO_KINDS = Code("LF3042", _E, "'{name}' is both {kinds}")
 
 # LF305x: what expressions make of the tree
 COMPUTED_KEY = Code("LF3050", _E, "a key must be text, found {found}")

@@ -16,6 +16,26 @@ MASSLESS_BODY = Code(
     "LF6004", _N, "joint '{joint}' moves link '{link}', which has no mass: Gazebo leaves it out with all below it"
 )
 
+# LF601x: meshes whose inertia is to be computed
+NO_MESH_LIBRARY = Code(
+    "LF6010",
+    _E,
+    "the inertia of mesh '{path}' takes the Python package {library}; "
+    "run \"pip install 'linkforge-compile[mesh]'\", or give 'inertia'",
+)
+NO_SUCH_MESH = Code("LF6011", _E, "there is no mesh '{path}', so no inertia can be computed from it")
+UNREADABLE_MESH = Code("LF6012", _E, "mesh '{path}' cannot be read, so no inertia can be computed from it: {reason}")
+MESH_OF_OTHER_FORMAT = Code("LF6013", _E, "no inertia can be computed from '{path}': {reason}")
+MESH_TOO_LARGE = Code(
+    "LF6014", _E, "mesh '{path}' is too large to compute an inertia from: {reason}; give it a simpler collision mesh"
+)
+EMPTY_MESH = Code("LF6015", _E, "mesh '{path}' has no shape: {reason}")
+OPEN_MESH = Code("LF6016", _E, "mesh '{path}' is not watertight: {reason}; close it, or give 'inertia'")
+TWISTED_MESH = Code("LF6017", _E, "mesh '{path}' faces both ways: {reason}; make its normals consistent")
+INSIDE_OUT_MESH = Code("LF6018", _E, "mesh '{path}' is inside out: {reason}; flip its normals")
+FLAT_MESH = Code("LF6019", _E, "mesh '{path}' is no solid body: {reason}")
+WIDE_MESH = Code("LF6020", _W, "mesh '{path}' is {size} metres wide; write 'scale: 0.001' if it is in millimetres")
+
 # LF61xx: ros2_control
 COMMANDED_TWICE = Code("LF6101", _E, "interface '{interface}' is commanded by {first} already")
 READ_TWICE = Code("LF6102", _W, "interface '{interface}' is read by {first} already")

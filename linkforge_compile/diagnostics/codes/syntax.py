@@ -37,4 +37,7 @@ SEVERAL_DOCUMENTS = Code("LF1108", Severity.ERROR, "expected one YAML document, 
 EMPTY_DOCUMENT = Code("LF1109", Severity.ERROR, "the file is empty; a spec begins with 'linkforge: 1'")
 TOP_LEVEL_NOT_MAP = Code("LF1110", Severity.ERROR, "expected keys such as 'name:' and 'links:', found {found}")
 MERGE_NOT_MAP = Code("LF1111", Severity.ERROR, "'<<' merges a map or a list of maps, found {found}")
+OTHER_TAG = Code("LF1113", Severity.ERROR, "of YAML's tags only {known} before a number are read here, found '{tag}'")
+EMPTY_DATA = Code("LF1114", Severity.ERROR, "the file is empty, so there is nothing to name")
+TOO_MUCH_DATA = Code("LF1115", Severity.ERROR, "the file holds more than {limit} values")
 NUMBER_TOO_LARGE = Code("LF1112", Severity.ERROR, "the number is beyond what a double can hold")

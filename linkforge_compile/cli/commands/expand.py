@@ -1,0 +1,57 @@
+"""`linkforge expand`: a spec with all its modules as one flat spec, each part with where it came from."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.one_spec import compile_spec, one_spec
+from linkforge_compile.cli.options import add_spec_options, split_assignments, tell
+
+if TYPE_CHECKING:
+    import argparse
+
+_EXAMPLES = """\
+What it prints has no modules, parameters, expressions, loops or defaults left, and compiles to the same URDF and
+SRDF. A comment on each part says where it was written. Relative paths of meshes are those of the compiled robot, so
+keep the file beside the spec.
+
+examples:
+  linkforge expand cell.robot.yaml
+  linkforge expand cell.robot.yaml -o flat.robot.yaml reach:=0.7m
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.usage = "linkforge expand [options] SPEC [NAME:=VALUE ...]"
+    parser.epilog = _EXAMPLES
+    parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
+    add_spec_options(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    specs, assignments = split_assignments(arguments.words)
+    spec = one_spec(specs)
+    compilation = compile_spec(spec, assignments, arguments)
+    tell(compilation.diagnostics)
+    if compilation.robot is None:
+        return FAULTY_SPEC
+    if arguments.output is not None and Path(arguments.output).resolve() in {
+        one.resolve() for one in compilation.files
+    }:
+        raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
+    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+    from linkforge_compile.writers import write_spec
+
+    banner = None if spec == "-" else f"Expanded by linkforge from {Path(spec).name}; edit that file, not this one."
+    text = write_spec(compilation.robot, banner=banner, origins=True)
+    if arguments.output is None:
+        write_to_stdout(text)
+    elif write_if_changed(Path(arguments.output), text):
+        print(f"wrote {arguments.output}", file=sys.stderr)
+    else:
+        print(f"{arguments.output} is up to date", file=sys.stderr)
+    return OK

@@ -1,0 +1,118 @@
+"""`linkforge params`: what a spec lets its user set, as a table or as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK
+from linkforge_compile.cli.options import tell
+
+if TYPE_CHECKING:
+    import argparse
+
+    from linkforge_compile.pipeline import ListedParameter, Listing, Plain
+
+_EXAMPLES = """\
+examples:
+  linkforge params arm.robot.yaml           a table: name, type, default, limits, description; then the variants
+  linkforge params arm.robot.yaml --json    the same for tools; numbers are in SI units
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.epilog = _EXAMPLES
+    parser.add_argument("spec", metavar="SPEC", help="the spec, NAME.robot.yaml")
+    parser.add_argument("--json", action="store_true", help="as JSON, for tools")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from linkforge_compile.cli.output import write_to_stdout
+    from linkforge_compile.diagnostics import Severity
+    from linkforge_compile.pipeline import parameters_of
+
+    listing, diagnostics = parameters_of(arguments.spec)
+    tell(diagnostics)
+    if listing:
+        write_to_stdout(_json_text(listing) if arguments.json else "".join(f"{line}\n" for line in _table(listing)))
+    is_faulty = any(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)
+    return FAULTY_SPEC if is_faulty else OK
+
+
+def _table(listing: Listing) -> Iterator[str]:
+    yield f"{listing.name}: {listing.description}" if listing.description else listing.name
+    yield ""
+    if listing.parameters:
+        rows = [("parameter", "type", "default", "limits", "description"), *map(_row, listing.parameters)]
+        yield from _aligned(rows)
+    else:
+        yield "It has no parameters."
+    if listing.variants:
+        yield ""
+        settings = {
+            name: ", ".join(f"{key}={value}" for key, value in variant.items())
+            for name, variant in listing.variants.items()
+        }
+        yield from _aligned([("variant", "sets"), *settings.items()])
+
+
+def _row(parameter: ListedParameter) -> tuple[str, ...]:
+    default = "(required)" if parameter.default is None else parameter.default
+    computed = _shown(parameter.value, parameter.unit)
+    if parameter.default is not None and computed not in {"", default}:
+        default = f"{default} = {computed}"
+    return parameter.name, parameter.type or "?", default, _limits(parameter), " ".join(parameter.description.split())
+
+
+def _limits(parameter: ListedParameter) -> str:
+    least, most = (_shown(bound, parameter.unit) for bound in (parameter.minimum, parameter.maximum))
+    parts = [f"{least} to {most}" if least and most else f"at least {least}" if least else f"at most {most}"]
+    parts = parts if least or most else []
+    if parameter.choices is not None:
+        parts.append(" | ".join(_shown(choice, parameter.unit) for choice in parameter.choices))
+    if parameter.pattern is not None:
+        parts.append(f"like {parameter.pattern}")
+    return ", ".join(parts)
+
+
+def _shown(value: Plain, unit: str | None) -> str:
+    """Return a value as it would be written in SI units; "" for none, and for one that fills more than a cell."""
+    if value is None or isinstance(value, list | dict):
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return f"{value} {unit}" if unit else str(value)
+
+
+def _aligned(rows: list[tuple[str, ...]]) -> Iterator[str]:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        yield "  ".join(f"{cell:{width}}" for cell, width in zip(row, widths, strict=True)).rstrip()
+
+
+def _json_text(listing: Listing) -> str:
+    import json
+
+    whole = {
+        "name": listing.name,
+        "description": listing.description,
+        "parameters": [_json_parameter(parameter) for parameter in listing.parameters],
+        "variants": [{"name": name, "sets": dict(settings)} for name, settings in listing.variants.items()],
+    }
+    return json.dumps(whole, ensure_ascii=False, indent=2) + "\n"
+
+
+def _json_parameter(parameter: ListedParameter) -> dict[str, Plain]:
+    return {
+        "name": parameter.name,
+        "type": parameter.type,
+        "unit": parameter.unit,
+        "required": parameter.is_required,
+        "default": parameter.default,
+        "value": parameter.value,
+        "minimum": parameter.minimum,
+        "maximum": parameter.maximum,
+        "enum": parameter.choices,
+        "pattern": parameter.pattern,
+        "description": parameter.description,
+    }

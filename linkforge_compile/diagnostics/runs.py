@@ -1,0 +1,33 @@
+"""One report of several runs over the same spec, each fault told once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note
+
+
+def told_once(runs: Mapping[str, Iterable[Diagnostic]], *, every: str) -> tuple[Diagnostic, ...]:
+    """Return what was told in any of the runs, in reading order, with a note that says in which.
+
+    The runs are named as after "with": "the defaults", "variant 'sim'"; `every` names them all together. Each run
+    read the files anew, so a fault is known by what a person sees of it: its code, its place and its words.
+    """
+    first: dict[tuple[str, str, str], Diagnostic] = {}
+    told_in: dict[tuple[str, str, str], list[str]] = {}
+    for run, diagnostics in runs.items():
+        for diagnostic in diagnostics:
+            key = (diagnostic.code.id, str(diagnostic.span), diagnostic.message)
+            first.setdefault(key, diagnostic)
+            told_in.setdefault(key, []).append(run)
+    noted = (_with_note(diagnostic, told_in[key], len(runs), every) for key, diagnostic in first.items())
+    return tuple(sorted(noted, key=lambda diagnostic: diagnostic.order))
+
+
+def _with_note(diagnostic: Diagnostic, runs: list[str], of: int, every: str) -> Diagnostic:
+    if len(runs) == of:
+        return diagnostic if of == 1 else replace(diagnostic, notes=(*diagnostic.notes, Note(f"with {every}")))
+    *others, last = runs
+    words = f"{', '.join(others)} and {last}" if others else f"{last} only"
+    return replace(diagnostic, notes=(*diagnostic.notes, Note(f"with {words}")))

@@ -1,0 +1,188 @@
+"""Gazebo: what a simulator is told about a link, a joint or the robot, and its plugins."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+from linkforge_compile.core.frozen_map import FreePart
+from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
+from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics.codes.model import TAG_TWICE
+from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.free_part import free_elements, is_unsaid
+from linkforge_compile.lowering.quantities import NOT_NEGATIVE, ZERO_TO_ONE
+from linkforge_compile.source import SourceRef
+from linkforge_compile.syntax.nodes import YamlEntry, YamlMap
+from linkforge_compile.units import Dimension, number_text
+
+_PHYSICS_TAGS = {
+    "self_collide": "selfCollide",
+    "gravity": "gravity",
+    "mu": "mu1",
+    "mu2": "mu2",
+    "kp": "kp",
+    "kd": "kd",
+}
+"""The tag that each key of a link's `physics` becomes."""
+
+_FIELD_TAGS = {
+    "material": "material",
+    "static": "static",
+    "stop_cfm": "stopCfm",
+    "stop_erp": "stopErp",
+    "provide_feedback": "provideFeedback",
+    "implicit_spring_damper": "implicitSpringDamper",
+}
+"""The tag that each key becomes for which the IR has a field."""
+
+
+def lower_gazebo_elements(file: Fields) -> Iterator[GazeboElement]:
+    """Lower the Gazebo blocks of a file: those of its links, of its joints, and of the robot."""
+    for section, kind in (("links", "link"), ("joints", "joint")):
+        entries = file.node.get(section)
+        for entry in entries if isinstance(entries, YamlMap) else ():
+            if isinstance(entry.value, YamlMap):
+                owner = Fields(entry.value, f"{kind} '{entry.name}'", file.sink, file.trail, entry.key.span)
+                yield from lower_gazebo(owner, entry.name)
+    yield from lower_gazebo(file, None)
+
+
+def lower_gazebo(owner: Fields, reference: str | None) -> Iterator[GazeboElement]:
+    """Lower the blocks that stand beside what they are about: the link or joint `reference`, None for the robot.
+
+    At the robot a block may say itself what it refers to, such as a link of a module.
+    """
+    physics = owner.node.get("physics")
+    said_by_physics = dict(_tags_of_physics(physics)) if isinstance(physics, YamlMap) else {}
+    for node in owner.items("gazebo"):
+        block = owner.map_at(node, "gazebo")
+        if block is None:
+            continue
+        _refuse_repeated_tags(block, said_by_physics)
+        element = _element(block, block.text("reference") if reference is None else reference)
+        if element:
+            yield element
+
+
+def lower_plugin(plugin: Fields) -> GazeboPlugin | None:
+    """Lower a plugin that says its name itself."""
+    return _plugin(plugin, plugin.text("name", required="controller"))
+
+
+def _element(block: Fields, reference: str | None) -> GazeboElement | None:
+    return block.build(
+        lambda: GazeboElement(
+            reference,
+            {**dict(_known_properties(block)), **free_elements(block, "properties")},
+            [plugin for plugin in _plugins(block) if plugin],
+            block.text("material"),
+            block.flag("static"),
+            block.number("stop_cfm", bound=NOT_NEGATIVE),
+            block.number("stop_erp", bound=ZERO_TO_ONE),
+            block.flag("provide_feedback"),
+            block.flag("implicit_spring_damper"),
+            source=block.ref,
+            **extras_of(block),
+        )
+    )
+
+
+def _known_properties(block: Fields) -> Iterator[tuple[str, FreePart]]:
+    """Yield the tags that have keys of their own, in the order written."""
+    for entry in block.node:
+        read = _READ.get(entry.name)
+        text = read(block, entry.name) if read else None
+        if text is not None:
+            yield entry.name, text
+
+
+def _plugins(block: Fields) -> Iterator[GazeboPlugin | None]:
+    """Lower the plugins: a map by their names, or a list of those that say their names."""
+    if isinstance(block.node.get("plugins"), YamlMap):
+        yield from (plugin for _, plugin in block.each("plugins", "plugin", _plugin))
+        return
+    listed = (block.map_at(node, "plugins") for node in block.items("plugins"))
+    yield from (lower_plugin(plugin) for plugin in listed if plugin)
+
+
+def _plugin(plugin: Fields, name: str | None) -> GazeboPlugin | None:
+    filename, parameters = plugin.text("filename", required="libcontroller.so"), free_elements(plugin, "parameters")
+    if name is None or filename is None:
+        return None
+    return plugin.build(lambda: GazeboPlugin(name, filename, parameters, source=plugin.ref, **extras_of(plugin)))
+
+
+def _refuse_repeated_tags(block: Fields, said_by_physics: Mapping[str, YamlEntry]) -> None:
+    first = dict(said_by_physics)
+    for tag, entry in _tags_of_block(block.node):
+        earlier = first.setdefault(tag, entry)
+        if earlier is not entry:
+            notes = [Note("the first is here", earlier.key.span)]
+            place = SourceRef(entry.key, None, block.trail)
+            block.sink.report(TAG_TWICE.at(place, tag=tag, owner=block.owner, notes=notes))
+
+
+def _tags_of_physics(physics: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
+    for entry in physics:
+        tag = _PHYSICS_TAGS.get(entry.name)
+        if tag and physics.get(entry.name) is not None:
+            yield tag, entry
+
+
+def _tags_of_block(block: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
+    for entry in block:
+        tag = entry.name if entry.name in _READ else _FIELD_TAGS.get(entry.name)
+        if tag and block.get(entry.name) is not None:
+            yield tag, entry
+    properties = block.get("properties")
+    for entry in properties if isinstance(properties, YamlMap) else ():
+        if not is_unsaid(entry.value):
+            yield entry.name, entry
+
+
+def _number(block: Fields, key: str, *dimensions: Dimension) -> str | None:
+    number = block.number(key, *dimensions)
+    return None if number is None else number_text(number)
+
+
+def _of(*dimensions: Dimension) -> Callable[[Fields, str], str | None]:
+    return lambda block, key: _number(block, key, *dimensions)
+
+
+def _whole_number(block: Fields, key: str) -> str | None:
+    number = block.integer(key)
+    return None if number is None else str(number)
+
+
+def _flag(block: Fields, key: str) -> str | None:
+    flag = block.flag(key)
+    return None if flag is None else str(flag).lower()
+
+
+def _vector(block: Fields, key: str) -> str | None:
+    vector = block.vector3(key)
+    return None if vector is None else " ".join(map(number_text, vector))
+
+
+_READ: dict[str, Callable[[Fields, str], str | None]] = {
+    "mu1": _number,
+    "mu2": _number,
+    "fdir1": _vector,
+    "kp": _number,
+    "kd": _number,
+    "maxVel": _of(Dimension.VELOCITY),
+    "minDepth": _of(Dimension.LENGTH),
+    "maxContacts": _whole_number,
+    "selfCollide": _flag,
+    "gravity": _flag,
+    "turnGravityOff": _flag,
+    "dampingFactor": _number,
+    "laserRetro": _number,
+    "springStiffness": _number,
+    "springReference": _of(Dimension.ANGLE, Dimension.LENGTH),
+    "fudgeFactor": _number,
+    "preserveFixedJoint": _flag,
+    "disableFixedJointLumping": _flag,
+}
+"""The tags of SDFormat's reader of URDF that are keys under their own names, and what each of them takes."""

@@ -1,0 +1,145 @@
+"""Meshes as solid bodies, for the links whose inertia is to be computed: found, read once, and judged."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.core.meshes import MeshError, MeshFault, solid_in
+from linkforge_compile.core.models.geometry import Mesh
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.physics import (
+    EMPTY_MESH,
+    FLAT_MESH,
+    INSIDE_OUT_MESH,
+    MESH_OF_OTHER_FORMAT,
+    MESH_TOO_LARGE,
+    NO_MESH_LIBRARY,
+    NO_SUCH_MESH,
+    OPEN_MESH,
+    TWISTED_MESH,
+    UNREADABLE_MESH,
+    WIDE_MESH,
+)
+from linkforge_compile.modules.file_text import TooLargeError, UnreadableError, file_bytes
+from linkforge_compile.modules.mesh_files import FindMesh, misspelt_part
+from linkforge_compile.modules.noted import used_from
+from linkforge_compile.modules.paths import as_typed
+from linkforge_compile.source import SourceRef
+from linkforge_compile.syntax.nodes import YamlScalar
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.solid import Solid
+
+MAX_BYTES = 128 * 1024 * 1024
+
+_WIDEST = 100.0  # [m]
+
+_CODES = {
+    MeshFault.NO_LIBRARY: NO_MESH_LIBRARY,
+    MeshFault.NO_FORMAT: MESH_OF_OTHER_FORMAT,
+    MeshFault.UNREADABLE: UNREADABLE_MESH,
+    MeshFault.TOO_LARGE: MESH_TOO_LARGE,
+    MeshFault.EMPTY: EMPTY_MESH,
+    MeshFault.OPEN: OPEN_MESH,
+    MeshFault.TWISTED: TWISTED_MESH,
+    MeshFault.INSIDE_OUT: INSIDE_OUT_MESH,
+    MeshFault.FLAT: FLAT_MESH,
+}
+
+
+class MeshSolids:
+    """The solids of all mesh files of one compile, each read once."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, Solid | MeshError] = {}  # by real path
+        self._files: list[Path] = []
+        self.is_without_library = False
+        """Whether a package that reads meshes is missing, which is told once, not at every mesh."""
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """Every mesh file that was read, in that order, as its user would type it."""
+        return tuple(self._files)
+
+    def solid(self, path: Path) -> Solid | None:
+        """Return the solid in a file, in the unit of the file; None where there is no file.
+
+        Raises:
+            MeshError: There is one, and no solid in it.
+
+        """
+        real = os.path.realpath(path)
+        if real not in self._known:
+            content = _content(path)
+            if content is None:
+                return None
+            self._files.append(as_typed(path))
+            try:
+                self._known[real] = solid_in(content, path.name)
+            except MeshError as error:
+                self._known[real] = error
+        known = self._known[real]
+        if isinstance(known, MeshError):
+            raise known
+        return known
+
+
+class MeshReader:
+    """The solids that the meshes of one use of a file are."""
+
+    def __init__(self, find: FindMesh, solids: MeshSolids) -> None:
+        """`find` is that of the use, `solids` what the whole compile has read."""
+        self._find = find
+        self._solids = solids
+
+    def solid(self, mesh: Mesh, inertial: SourceRef, sink: Diagnostics) -> Solid | None:
+        """Return a mesh as a solid in its own frame [m], scaled; None where it was told why it is none.
+
+        `inertial` is what it is needed for.
+
+        Raises:
+            RobotPhysicsError: The scale leaves no volume.
+
+        """
+        written, where = _written(mesh)
+        path = self._find(written, where.span, used_from(sink, where.trail))
+        if path is None:
+            return None
+        asked = Note("its inertia is needed here", inertial.span)
+        try:
+            solid = self._solids.solid(path)
+        except MeshError as error:
+            if not self._solids.is_without_library:
+                facts = {"path": written, "reason": error.message, "library": error.message}
+                sink.report(_CODES[error.fault].at(where, notes=[asked], **facts))
+            self._solids.is_without_library |= error.fault is MeshFault.NO_LIBRARY
+            return None
+        if solid is None:
+            name, near = misspelt_part(path)
+            notes = [Note(f"looked for it at {as_typed(path)}"), asked]
+            sink.report(NO_SUCH_MESH.at(where, path=written, name=name, near=near, notes=notes))
+            return None
+        scaled = solid.scaled(mesh.scale)
+        if (widest := max(scaled.size)) > _WIDEST:
+            sink.report(WIDE_MESH.at(where, path=written, size=f"{widest:.4g}"))
+        return scaled
+
+
+def _content(path: Path) -> bytes | None:
+    try:
+        return file_bytes(path, MAX_BYTES, only_regular=True)
+    except TooLargeError as error:
+        raise MeshError(MeshFault.TOO_LARGE, str(error)) from error
+    except UnreadableError as error:
+        raise MeshError(MeshFault.UNREADABLE, str(error)) from error
+
+
+def _written(mesh: Mesh) -> tuple[str, SourceRef]:
+    """Return a mesh's path in the words of the file that wrote it, and where they stand."""
+    assert mesh.source is not None, "what is lowered was written"
+    node = mesh.source.node
+    file = node.child("file") or node
+    assert isinstance(file, YamlScalar), "a mesh has a file"
+    return file.text, SourceRef(file, None, mesh.source.trail)

@@ -1,0 +1,101 @@
+"""`mount`: the joint by which a file hangs on a link of whoever uses it, or on `world` by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from linkforge_compile.core.models.geometry import Transform
+from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.model import (
+    MOUNT_AND_JOINT,
+    MOUNT_NOT_AT_ROOT,
+    MOUNT_SAYS_ENDS,
+    TWO_MOUNTS,
+)
+from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.joint import Ends, joint_between
+from linkforge_compile.lowering.mount import Mount, gazebo_of, module_fields
+from linkforge_compile.modules.assembly import Instance
+
+WORLD = "world"
+"""The link on which a file hangs by its mount where nobody uses it."""
+
+
+def lower_own_mounts(file: Fields) -> list[Mount]:
+    """Lower what a file says under `mount`, each joint with `world` in the place of the link that it will hang on."""
+    if file.node.get("mount") is None:
+        return []
+    lowered = file.each("mount", "joint", _lower)
+    return [mount or Mount(name, None) for name, mount in lowered]
+
+
+def _lower(fields: Fields, name: str) -> Mount:
+    for end in ("parent", "origin"):
+        if (said := fields.node.get(end)) is not None:
+            fields.tell(MOUNT_SAYS_ENDS, said, owner=fields.owner, field=end)
+    valid_name = name if fields.name_is_valid(name, "joint", fields.ref) else None
+    joint_type = fields.choice("type", JointType, required="revolute")
+    ends = Ends(WORLD, fields.text("child", required="hip"), Transform.identity())
+    return Mount(name, joint_between(fields, valid_name, joint_type, ends), gazebo_of(fields, name))
+
+
+def only_mount(mounts: Sequence[Mount], sink: Diagnostics) -> Mount | None:
+    """Return the joint by which a robot hangs, None where it has none; a second one is reported."""
+    for mount in mounts[1:]:
+        if mount.joint and mounts[0].joint:
+            notes = [Note("the first stands here", mounts[0].joint.source.span)] if mounts[0].joint.source else []
+            sink.report(TWO_MOUNTS.at(mount.joint.source, joint=mount.name, first=mounts[0].name, notes=notes))
+    return mounts[0] if mounts else None
+
+
+def handed_on(mount: Mount, prefix: str) -> Mount:
+    """Return the mount of a module as that of the robot which has the module's root for its own."""
+    joint = mount.joint.with_prefix(prefix) if mount.joint else None
+    # The prefix is for what is in the module, and the link that it hangs on is not.
+    joint = replace(joint, parent=WORLD) if joint else None
+    return Mount(prefix + mount.name, joint, tuple(one.with_prefix(prefix) for one in mount.gazebo))
+
+
+def hung_by(mount: Mount, module: Instance, root: str | None, sink: Diagnostics) -> Mount:
+    """Return the mount of a module, with its final names, as the joint to the link that its entry names.
+
+    `root` is the final name of the module's root link, None where it has no single one.
+    """
+    written = module_fields(module, sink)
+    whole = handed_on(mount, module.prefix)
+    if written is None or whole.joint is None:
+        return whole
+    if (said := written.node.get("joint")) is not None:
+        written.tell(MOUNT_AND_JOINT, said, owner=written.owner, joint=mount.name)
+    parent, origin = written.text("parent"), written.origin()
+    if parent is None or not _holds_root(whole, root, module.prefix, sink):
+        return whole._replace(joint=None)
+    joint = whole.joint
+    return whole._replace(joint=written.build(lambda: replace(joint, parent=parent, origin=origin)))
+
+
+def hang_on_world(robot: Robot, mount: Mount, root: str | None, sink: Diagnostics) -> bool:
+    """Hang a compiled robot on the link `world`, made as its first unless it is declared; False for a fault."""
+    if mount.joint is None or not _holds_root(mount, root, "", sink):
+        return False
+    if WORLD not in robot.links:
+        robot.links = (Link(WORLD, source=mount.joint.source), *robot.links)
+    robot.joints = (mount.joint, *robot.joints)
+    robot.gazebo_elements = robot.gazebo_elements.extended(mount.gazebo)
+    return True
+
+
+def _holds_root(mount: Mount, root: str | None, prefix: str, sink: Diagnostics) -> bool:
+    """Whether a mount holds the root link, as far as there is one; reports where it does not."""
+    joint = mount.joint
+    if joint is None or root is None or joint.child == root:
+        return True
+    child, expected = joint.child.removeprefix(prefix), root.removeprefix(prefix)
+    sink.report(
+        MOUNT_NOT_AT_ROOT.at(joint.source, "child", joint=mount.name.removeprefix(prefix), link=child, root=expected)
+    )
+    return False

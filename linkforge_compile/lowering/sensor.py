@@ -1,0 +1,224 @@
+"""Sensors: on which link, how often, and the one object that says what they measure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from enum import StrEnum
+from typing import NamedTuple, TypeVar
+
+from linkforge_compile.core import constants as default
+from linkforge_compile.core.models.sensor import (
+    CameraInfo,
+    ContactInfo,
+    ForceTorqueInfo,
+    GPSInfo,
+    IMUInfo,
+    LidarInfo,
+    Sensor,
+    SensorNoise,
+    SensorType,
+)
+from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.fields import Fields, or_default
+from linkforge_compile.lowering.gazebo import lower_plugin
+from linkforge_compile.lowering.quantities import ABOVE_ZERO, Measure
+from linkforge_compile.units import Dimension
+
+T = TypeVar("T")
+
+_OWN_INFO = {
+    SensorType.CAMERA: "camera",
+    SensorType.DEPTH_CAMERA: "camera",
+    SensorType.RGBD_CAMERA: "camera",
+    SensorType.LIDAR: "lidar",
+    SensorType.IMU: "imu",
+    SensorType.GPS: "gps",
+    SensorType.CONTACT: "contact",
+    SensorType.FORCE_TORQUE: "force_torque",
+}
+"""What a sensor of each type says about itself; a `ray` or `gpu_lidar` may do without its `lidar`."""
+
+
+class _Infos(NamedTuple):
+    """What a sensor says that it measures, in the order of Sensor; None for what is not said."""
+
+    camera: CameraInfo | None
+    lidar: LidarInfo | None
+    imu: IMUInfo | None
+    gps: GPSInfo | None
+    contact: ContactInfo | None
+    force_torque: ForceTorqueInfo | None
+
+
+class _Frame(StrEnum):
+    CHILD = default.FT_FRAME_CHILD
+    PARENT = default.FT_FRAME_PARENT
+    SENSOR = default.FT_FRAME_SENSOR
+
+
+class _Direction(StrEnum):
+    CHILD_TO_PARENT = default.FT_DIR_CHILD_TO_PARENT
+    PARENT_TO_CHILD = default.FT_DIR_PARENT_TO_CHILD
+
+
+def lower_sensors(file: Fields) -> Iterator[Sensor]:
+    """Lower the sensors of a file, without those that are lost."""
+    for _, sensor in file.each("sensors", "sensor", _sensor):
+        if sensor:
+            yield sensor
+
+
+def _sensor(fields: Fields, name: str) -> Sensor | None:
+    sensor_type, link = fields.choice("type", SensorType, required="camera"), fields.text("link", required="head")
+    update_rate = fields.number("update_rate", Dimension.FREQUENCY, bound=ABOVE_ZERO)
+    always_on, visualize = fields.flag("always_on"), fields.flag("visualize")
+    origin, topic, frame = fields.origin(), fields.text("topic"), fields.text("frame")
+    plugin = fields.map("plugin")
+    own = _OWN_INFO.get(sensor_type) if sensor_type else None
+    infos = _infos(fields, own)
+    if sensor_type is None or link is None or (own and getattr(infos, own) is None):
+        return None
+    return fields.build(
+        lambda: Sensor(
+            name,
+            sensor_type,
+            link,
+            or_default(update_rate, default.DEFAULT_UPDATE_RATE),
+            or_default(always_on, True),
+            or_default(visualize, False),
+            *infos,
+            origin,
+            topic,
+            lower_plugin(plugin) if plugin else None,
+            frame=frame,
+            source=fields.ref,
+            **extras_of(fields),
+        )
+    )
+
+
+def _infos(fields: Fields, own: str | None) -> _Infos:
+    """Read what the sensor measures; `own` is what its type asks for, and where that is not said, a plain one."""
+    if own == "contact":
+        fields.said("contact", "{collision: fingertip_collision}")
+    return _Infos(
+        _info(fields, "camera", _camera, CameraInfo() if own == "camera" else None),
+        _info(fields, "lidar", _lidar, LidarInfo() if own == "lidar" else None),
+        _info(fields, "imu", _imu, IMUInfo() if own == "imu" else None),
+        _info(fields, "gps", _gps, GPSInfo() if own == "gps" else None),
+        _info(fields, "contact", _contact, None),
+        _info(fields, "force_torque", _force_torque, ForceTorqueInfo() if own == "force_torque" else None),
+    )
+
+
+def _info(fields: Fields, key: str, lower: Callable[[Fields], T | None], unsaid: T | None) -> T | None:
+    if fields.node.get(key) is None:
+        return unsaid
+    info = fields.map(key)
+    return lower(info) if info else None
+
+
+def _camera(info: Fields) -> CameraInfo | None:
+    unsaid = CameraInfo()
+    return info.build(
+        lambda: CameraInfo(
+            or_default(info.number("horizontal_fov", Dimension.ANGLE), unsaid.horizontal_fov),
+            or_default(info.integer("width"), unsaid.width),
+            or_default(info.integer("height"), unsaid.height),
+            or_default(info.text("format"), unsaid.format),
+            or_default(info.number("near_clip", Dimension.LENGTH), unsaid.near_clip),
+            or_default(_sight(info, "far_clip"), unsaid.far_clip),
+            _noise(info, "noise"),
+            source=info.ref,
+            **extras_of(info),
+        )
+    )
+
+
+def _sight(info: Fields, key: str) -> float | None:
+    """Read how far a sensor sees [m]."""
+    node = info.said(key)
+    return None if node is None else info.number_at(node, key, Measure((Dimension.LENGTH,), may_be_far=True))
+
+
+def _lidar(info: Fields) -> LidarInfo | None:
+    unsaid = LidarInfo()
+    return info.build(
+        lambda: LidarInfo(
+            or_default(info.integer("horizontal_samples"), unsaid.horizontal_samples),
+            or_default(info.number("horizontal_resolution"), unsaid.horizontal_resolution),
+            or_default(info.number("horizontal_min_angle", Dimension.ANGLE), unsaid.horizontal_min_angle),
+            or_default(info.number("horizontal_max_angle", Dimension.ANGLE), unsaid.horizontal_max_angle),
+            or_default(info.integer("vertical_samples"), unsaid.vertical_samples),
+            or_default(info.number("vertical_resolution"), unsaid.vertical_resolution),
+            or_default(info.number("vertical_min_angle", Dimension.ANGLE), unsaid.vertical_min_angle),
+            or_default(info.number("vertical_max_angle", Dimension.ANGLE), unsaid.vertical_max_angle),
+            or_default(info.number("range_min", Dimension.LENGTH), unsaid.range_min),
+            or_default(_sight(info, "range_max"), unsaid.range_max),
+            or_default(info.number("range_resolution", Dimension.LENGTH), unsaid.range_resolution),
+            _noise(info, "noise", Dimension.LENGTH),
+            source=info.ref,
+            **extras_of(info),
+        )
+    )
+
+
+def _imu(info: Fields) -> IMUInfo | None:
+    return info.build(
+        lambda: IMUInfo(
+            _noise(info, "angular_velocity_noise", Dimension.ANGULAR_VELOCITY),
+            _noise(info, "linear_acceleration_noise"),
+            source=info.ref,
+            **extras_of(info),
+        )
+    )
+
+
+def _gps(info: Fields) -> GPSInfo | None:
+    return info.build(
+        lambda: GPSInfo(
+            _noise(info, "position_sensing_horizontal_noise", Dimension.LENGTH),
+            _noise(info, "position_sensing_vertical_noise", Dimension.LENGTH),
+            _noise(info, "velocity_sensing_horizontal_noise", Dimension.VELOCITY),
+            _noise(info, "velocity_sensing_vertical_noise", Dimension.VELOCITY),
+            source=info.ref,
+            **extras_of(info),
+        )
+    )
+
+
+def _contact(info: Fields) -> ContactInfo | None:
+    collision, noise = info.text("collision", required="fingertip_collision"), _noise(info, "noise")
+    if collision is None:
+        return None
+    return info.build(lambda: ContactInfo(collision, noise, source=info.ref, **extras_of(info)))
+
+
+def _force_torque(info: Fields) -> ForceTorqueInfo | None:
+    return info.build(
+        lambda: ForceTorqueInfo(
+            or_default(info.choice("frame", _Frame), _Frame.CHILD).value,
+            or_default(info.choice("measure_direction", _Direction), _Direction.CHILD_TO_PARENT).value,
+            _noise(info, "noise", Dimension.FORCE, Dimension.TORQUE),
+            source=info.ref,
+            **extras_of(info),
+        )
+    )
+
+
+def _noise(info: Fields, key: str, *dimensions: Dimension) -> SensorNoise | None:
+    """Read a noise in the dimensions of what is measured; without any, in bare numbers."""
+    noise = info.map(key)
+    if noise is None:
+        return None
+    return noise.build(
+        lambda: SensorNoise(
+            or_default(noise.text("type"), default.NOISE_GAUSSIAN),
+            noise.number("mean", *dimensions) or 0.0,
+            noise.number("stddev", *dimensions) or 0.0,
+            noise.number("bias_mean", *dimensions) or 0.0,
+            noise.number("bias_stddev", *dimensions) or 0.0,
+            source=noise.ref,
+            **extras_of(noise),
+        )
+    )

@@ -1,0 +1,46 @@
+"""Transmissions: the joints that they move and the actuators that drive them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from typing import TypeVar
+
+from linkforge_compile.core.constants import HW_IF_POSITION
+from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
+from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.free_part import free_elements
+from linkforge_compile.lowering.quantities import NOT_ZERO
+from linkforge_compile.units import Dimension
+
+End = TypeVar("End", TransmissionJoint, TransmissionActuator)
+
+
+def lower_transmissions(file: Fields) -> Iterator[Transmission]:
+    """Lower the transmissions of a file, without those that are lost."""
+    for _, transmission in file.each("transmissions", "transmission", _transmission):
+        if transmission:
+            yield transmission
+
+
+def _transmission(fields: Fields, name: str) -> Transmission | None:
+    valid = fields.name_is_valid(name, "transmission", fields.ref)
+    kind = fields.text("type", required="transmission_interface/SimpleTransmission")
+    joints = dict(fields.each("joints", "transmission joint", partial(_end, TransmissionJoint)))
+    actuators = dict(fields.each("actuators", "transmission actuator", partial(_end, TransmissionActuator)))
+    parameters = free_elements(fields, "parameters")
+    whole_joints = [joint for joint in joints.values() if joint]
+    whole_actuators = [actuator for actuator in actuators.values() if actuator]
+    if not valid or kind is None:
+        return None
+    make = partial(Transmission, name, kind, whole_joints, whole_actuators, parameters)
+    is_whole = len(whole_joints) == len(joints) and len(whole_actuators) == len(actuators)
+    return fields.build(lambda: make(source=fields.ref, **extras_of(fields)), is_whole=is_whole)
+
+
+def _end(kind: type[End], end: Fields, name: str) -> End | None:
+    interfaces = end.names("hardware_interfaces") if end.node.get("hardware_interfaces") else (HW_IF_POSITION,)
+    reduction = end.number("mechanical_reduction", bound=NOT_ZERO)
+    offset = end.number("offset", Dimension.ANGLE, Dimension.LENGTH) or 0.0
+    return end.build(lambda: kind(name, interfaces, reduction, offset, source=end.ref, **extras_of(end)))

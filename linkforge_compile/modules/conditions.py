@@ -1,0 +1,180 @@
+"""`when` and `for`: whether a thing is there, and how often, each time in a scope of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from typing import TYPE_CHECKING, TypeAlias
+
+from linkforge_compile.diagnostics import Code, Diagnostics
+from linkforge_compile.diagnostics.codes.modules import INVALID_VARIABLE_NAME, RESERVED_NAME
+from linkforge_compile.diagnostics.codes.repetition import (
+    CONDITION_KIND,
+    FOR_KIND,
+    FOR_NAME_TAKEN,
+    KEY_WITHOUT_NAME,
+    LONG_FORM,
+    TOO_MUCH_REPEATED,
+)
+from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value
+from linkforge_compile.modules.values import describe
+from linkforge_compile.schema.shapes import Shape
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
+
+if TYPE_CHECKING:
+    from linkforge_compile.modules.evaluate_tree import TreeEvaluator
+
+MAX_REPEATED = 1_000_000
+"""How many nodes the `for` of all files together may write again."""
+
+Occurrence: TypeAlias = "tuple[TreeEvaluator, YamlNode]"
+"""A node without its `for` and `when`, and what computes it: in its scope are the `for` names with their values."""
+
+_WORDS = frozenset({"for", "when"})
+
+
+def occurrences(
+    node: YamlNode, shape: Shape, tree: TreeEvaluator, *, key: YamlScalar | None = None, is_item: bool = False
+) -> Iterator[Occurrence]:
+    """Yield a node as often as its `for` and `when` say; once where it has neither.
+
+    An entry of a map of names has a `key`, which must tell its copies apart. What is no object says so in the long
+    form, as such an entry or as an item of a list (`is_item`). What is at fault is reported, and a YamlFault, once.
+    """
+    may_repeat = (shape.is_object or key is not None or is_item) and not shape.is_plain
+    if not (may_repeat and isinstance(node, YamlMap) and _WORDS & node.entries.keys()):
+        yield tree, node
+        return
+    body = _body(node, shape, tree.sink)
+    condition, repeated = node.get("when"), node.get("for")
+    if body is None or isinstance(condition, YamlFault) or isinstance(repeated, YamlFault):
+        yield tree, YamlFault(node.span)
+        return
+    thing = key if shape.is_object else None
+    if not isinstance(repeated, YamlMap):
+        yield from _once(body, condition, thing, tree)
+    elif _are_names(repeated, tree) and _tells_apart(key, repeated, tree):
+        yield from _repeated(body, condition, repeated, thing, tree)
+    else:
+        yield tree, YamlFault(node.span)
+
+
+def _body(node: YamlMap, shape: Shape, sink: Diagnostics) -> YamlNode | None:
+    """Return what is there, once or more often; None where the long form says something else, which is reported."""
+    if shape.is_object:
+        return YamlMap({name: entry for name, entry in node.entries.items() if name not in _WORDS}, node.span)
+    others = [entry.key for entry in node if entry.name not in _WORDS | {"value"}]
+    if others or "value" not in node.entries:
+        where = others[0].span if others else next(iter(node)).key.span
+        sink.report(LONG_FORM.at(where, found=f"'{others[0].text}'" if others else "no 'value'"))
+        return None
+    return node.entries["value"].value
+
+
+def _once(
+    body: YamlNode, condition: YamlNode | None, key: YamlScalar | None, tree: TreeEvaluator
+) -> Iterator[Occurrence]:
+    is_there = _is_there(condition, tree)
+    if isinstance(is_there, Fault):
+        yield tree, YamlFault(body.span)
+    elif is_there:
+        yield tree, body
+    elif key and condition:
+        tree.disable(key, condition.span)
+
+
+def _is_there(condition: YamlNode | None, tree: TreeEvaluator) -> bool | Fault:
+    value = True if condition is None else tree.value(condition)
+    if value is None or isinstance(value, bool | Fault):
+        return True if value is None else value
+    assert condition is not None, "without a condition, the value is True"
+    tree.sink.report(CONDITION_KIND.at(condition.span, found=describe(value)))
+    return FAULT
+
+
+def _repeated(
+    body: YamlNode, condition: YamlNode | None, repeated: YamlMap, key: YamlScalar | None, tree: TreeEvaluator
+) -> Iterator[Occurrence]:
+    """Yield a copy for each combination of the `for` values.
+
+    A condition without `for` names is the same for all: where it fails, the `for` itself is not computed.
+    `key` is that of a thing with a name, which a failing condition disables.
+    """
+    if condition is not None and not tree.names_in(condition) & repeated.entries.keys():
+        is_there = _is_there(condition, tree)
+        if is_there is False and key:
+            for copy in _copies(repeated, tree.silent, 0) or ():
+                copy.disable(key, condition.span)
+        if is_there is not True:
+            yield from [(tree, YamlFault(body.span))] if is_there is FAULT else []
+            return
+        condition = None
+    copies = _copies(repeated, tree, tree.expressions.size(body))
+    if copies is None:
+        yield tree, YamlFault(body.span)
+    for copy in copies or ():
+        yield from _once(body, condition, key, copy)
+
+
+def _copies(repeated: YamlMap, tree: TreeEvaluator, size: int) -> list[TreeEvaluator] | None:
+    """Return what computes each combination, the first name varying slowest; None for a fault, which is reported.
+
+    `size` is that of what is repeated: of all copies together, and of their names, there is only so much.
+    """
+    combinations: list[dict[str, Value]] = [{}]
+    for number, entry in enumerate(repeated, start=1):
+        cost = number + (size if number == len(repeated) else 0)
+        longer = []
+        for combination in combinations:
+            values = _values(entry, tree.inside(combination))
+            if values is None:
+                return None
+            for value in values:
+                admitted = tree.expressions.may_repeat(cost)
+                if admitted is None:
+                    tree.sink.report(TOO_MUCH_REPEATED.at(entry.key.span, limit=f"{MAX_REPEATED:,}"))
+                if not admitted:
+                    return None
+                longer.append({**combination, entry.name: value})
+        combinations = longer
+    return [tree.inside(combination) for combination in combinations]
+
+
+def _values(entry: YamlEntry, tree: TreeEvaluator) -> Sequence[Value] | None:
+    """Return the values of a `for` name: the items of a list, or 0 and up for a number; None where it is neither."""
+    value = tree.value(entry.value)
+    match value:
+        case Fault():
+            return None
+        case tuple():
+            return value
+        case int() | float() if not isinstance(value, bool) and value >= 0 and value == value // 1 < float("inf"):
+            return range(int(value))
+    tree.sink.report(FOR_KIND.at(entry.value.span, name=entry.name, found=describe(value)))
+    return None
+
+
+def _are_names(repeated: YamlMap, tree: TreeEvaluator) -> bool:
+    """Whether expressions can use the `for` names and nothing else has them; reports why not."""
+    taken = set(tree.scope)
+    faults = [(code, entry) for entry in repeated if (code := _fault_of_name(entry.name, taken))]
+    for code, entry in faults:
+        tree.sink.report(code.at(entry.key.span, name=entry.name, kind="value of 'for'"))
+    return not faults
+
+
+def _fault_of_name(name: str, taken: Collection[str]) -> Code | None:
+    if not (name.isascii() and name.isidentifier()):
+        return INVALID_VARIABLE_NAME
+    if name in RESERVED_NAMES:
+        return RESERVED_NAME
+    return FOR_NAME_TAKEN if name in taken else None
+
+
+def _tells_apart(key: YamlScalar | None, repeated: YamlMap, tree: TreeEvaluator) -> bool:
+    """Whether a key mentions all `for` names; reports those that it does not."""
+    if key is None:
+        return True
+    missing = [name for name in repeated.entries if name not in tree.names_in(key)]
+    for name in missing:
+        tree.sink.report(KEY_WITHOUT_NAME.at(key.span, name=name, example=f"{key.text}_$({name})"))
+    return not missing

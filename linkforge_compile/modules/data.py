@@ -1,0 +1,60 @@
+"""`data`: what a YAML file holds, as a value that expressions reach into."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.files import DATA_NOT_PATH, TAG_NOT_NUMBER
+from linkforge_compile.expressions import FAULT, Fault, Scope, Value, as_text, evaluate, kind_name, parse_template
+from linkforge_compile.modules.loader import Loader
+from linkforge_compile.modules.uses import UseSite, locate
+from linkforge_compile.modules.values import plain_value
+from linkforge_compile.source import Span
+from linkforge_compile.syntax import Tags, YamlEntry, YamlFault, YamlNode, YamlScalar
+from linkforge_compile.units import Dimension, Quantity
+
+
+def data_value(
+    entry: YamlEntry, path: Value | Fault, site: Callable[[str, Span], UseSite], loader: Loader, sink: Diagnostics
+) -> Value | Fault:
+    """Return what the file holds that an entry of `data` names, FAULT where it cannot be had, which is reported.
+
+    `path` is what the entry's value is once computed, and `site` makes a path of it. Text in the file that is a
+    number and a unit is a quantity, `$(` is text as any other.
+    """
+    if path is FAULT:
+        return FAULT
+    text = as_text(path)
+    if text is None:
+        found = "nothing" if path is None else kind_name(path)
+        sink.report(DATA_NOT_PATH.at(entry.value.span, name=entry.name, found=found))
+        return FAULT
+    written = site(text, entry.value.span)
+    target = locate(written, loader, sink)
+    node = loader.open_data(target.path, sink, _tags(sink), written.used) if target else None
+    return FAULT if node is None else plain_value(node)
+
+
+def _tags(sink: Diagnostics) -> Tags:
+    """Return xacro's tags for angles, which take a number or an expression of numbers such as `pi/2`."""
+
+    def angle(tag: str, in_radians: Callable[[float], float]) -> Callable[[YamlScalar], YamlNode]:
+        def make(scalar: YamlScalar) -> YamlNode:
+            number = _number(scalar)
+            if number is None:
+                sink.report(TAG_NOT_NUMBER.at(scalar.span, tag=tag, text=scalar.text))
+                return YamlFault(scalar.span)
+            return YamlScalar(scalar.text, Quantity(in_radians(number), Dimension.ANGLE), scalar.span)
+
+        return make
+
+    return {"!degrees": angle("!degrees", math.radians), "!radians": angle("!radians", float)}
+
+
+def _number(scalar: YamlScalar) -> float | None:
+    """Return the number that a scalar is or computes to without any names but `pi`; None for anything else."""
+    template = parse_template(f"$({scalar.text})", scalar.span, Diagnostics())
+    value = FAULT if template is None else evaluate(template, Scope({}), Diagnostics())
+    return None if isinstance(value, bool) or not isinstance(value, int | float) else float(value)

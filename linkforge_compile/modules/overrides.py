@@ -1,0 +1,236 @@
+"""`override`: the patch of a module over its expanded tree, in which short forms are long and frames are joints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from linkforge_compile.diagnostics import Code, Diagnostics, Note
+from linkforge_compile.diagnostics.codes.repetition import (
+    EMPTY_OVERRIDE,
+    NO_SUCH_POSITION,
+    NOTHING_TO_DELETE,
+    NOTHING_TO_OVERRIDE,
+    PATCH_OF_SEVERAL,
+    POSITIONS_AND_KEYS,
+    SAME_AS_BEFORE,
+)
+from linkforge_compile.modules.normal_form import (
+    CHOICES,
+    is_said,
+    lists_objects,
+    long_form,
+    long_object,
+    with_frames_as_joints,
+)
+from linkforge_compile.schema.repetition import WORDS
+from linkforge_compile.schema.shapes import Shape, shapes
+from linkforge_compile.source import Span
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+
+
+@dataclass(frozen=True, slots=True)
+class Override:
+    """What one file changes in a module: `patch` is computed in that file's scope, `sink` takes what is wrong there."""
+
+    patch: YamlMap
+    sink: Diagnostics
+
+    def applied(self, tree: YamlMap, missing: Mapping[str, Note]) -> YamlMap:
+        """Return a module's tree as this override leaves it; `missing` says why names are not there.
+
+        Whatever hangs on a link that is deleted goes with it: the joint to it, its collision pairs and its spheres.
+        """
+        whole = with_frames_as_joints(tree)
+        patched = _Patch(self.sink, missing).map(whole, self.patch, shapes(), "the module")
+        return _without_links(patched, set(_names(whole, "links")) - set(_names(patched, "links")))
+
+    def deleted(self, before: YamlMap, after: YamlMap) -> Iterator[tuple[str, Note]]:
+        """Yield the names of links and joints that are gone, each with the place that deletes it."""
+        for section in ("links", "joints"):
+            said = self.patch.get(section)
+            for name in set(_names(with_frames_as_joints(before), section)) - set(_names(after, section)):
+                entry = said.entries.get(name) if isinstance(said, YamlMap) else None
+                where = entry.key.span if entry else self.patch.span
+                yield name, Note(f"'{name}' is deleted by this override", where)
+
+
+def refuse_empty(node: YamlNode, shape: Shape, sink: Diagnostics, field: str = "module") -> None:
+    """Report every value of an override, as it is written, that says nothing: not even `null`."""
+    if isinstance(node, YamlScalar) and node.value is None and not node.text and not shape.is_plain:
+        sink.report(EMPTY_OVERRIDE.at(node.span, field=field))
+    elif isinstance(node, YamlMap):
+        if not node.entries:
+            sink.report(EMPTY_OVERRIDE.at(node.span, field=field))
+        for entry in node:
+            if entry.name not in WORDS or shape.is_plain:
+                refuse_empty(entry.value, shape.under(entry.name), sink, entry.name)
+
+
+class _Patch:
+    """One patch over one tree; what is wrong with it is reported where it stands, and the tree left as it was there."""
+
+    def __init__(self, sink: Diagnostics, missing: Mapping[str, Note]) -> None:
+        self._sink = sink
+        self._missing = missing
+
+    def map(self, base: YamlMap, patch: YamlMap, shape: Shape, field: str) -> YamlMap:
+        """Return an object or a map of names as its patch leaves it."""
+        base, patch = long_object(base, shape), long_object(patch, shape)
+        entries = dict(base.entries)
+        for change in patch:
+            name, value = change.name, change.value
+            if shape.has_names and name not in base.entries:
+                self._tell_missing(change, base, shape)
+            elif _is_written_null(value):
+                self._delete(entries, change)
+            elif is_said(value) and not isinstance(entries.get(name, change).value, YamlFault):
+                old = entries.get(name)
+                new = self._node(old.value if old else None, value, shape.under(name), name)
+                entries[name] = YamlEntry(old.key if old else change.key, new)
+        chosen = [name for name in CHOICES.get(shape.title, ()) if is_said(patch.get(name))]
+        for rival in CHOICES.get(shape.title, ()) if chosen else ():
+            if rival not in chosen:
+                entries.pop(rival, None)
+        return YamlMap(entries, base.span)
+
+    def _node(self, base: YamlNode | None, patch: YamlNode, shape: Shape, field: str) -> YamlNode:
+        """Return what stands under a key as its patch leaves it; None for a key that says nothing so far."""
+        said = base if base is not None and is_said(base) else None
+        if isinstance(patch, YamlMap) and shape.item and any(entry.name.isdecimal() for entry in patch):
+            return self._by_position(said, patch, shape, field)
+        if isinstance(patch, YamlMap) and lists_objects(shape):
+            return self._list_of_one(said, patch, shape, field)
+        # A list takes the place of what was there, also where a map of names might stand.
+        new = patch if isinstance(patch, YamlList) and shape.has_names else long_form(patch, shape)
+        old = None if said is None else long_form(said, shape)
+        if isinstance(new, YamlMap) and not shape.is_plain:
+            # Entries of a map that is not there are not there either, which is to be told.
+            return self.map(old if isinstance(old, YamlMap) else YamlMap({}, new.span), new, shape, field)
+        if isinstance(new, YamlMap) and isinstance(old, YamlMap):
+            return self.map(old, new, shape, field)
+        if old is not None and _is_same(old, new):
+            self._sink.report(SAME_AS_BEFORE.at(patch.span, field=field))
+        return new
+
+    def _list_of_one(self, base: YamlNode | None, patch: YamlMap, shape: Shape, field: str) -> YamlNode:
+        assert shape.item, "asked of lists only"
+        items = _items(base, shape)
+        if len(items) > 1:
+            self._sink.report(PATCH_OF_SEVERAL.at(patch.span, field=field, length=len(items)))
+            return base or patch
+        old = items[0] if items and isinstance(items[0], YamlMap) else YamlMap({}, patch.span)
+        return YamlList((self.map(old, patch, shape.item, field),), patch.span)
+
+    def _by_position(self, base: YamlNode | None, patch: YamlMap, shape: Shape, field: str) -> YamlNode:
+        """Return a list with the items patched that a map names by position, counted before any is deleted."""
+        assert shape.item, "asked of lists only"
+        items: list[YamlNode | None] = list(_items(base, shape))
+        length = f"{len(items)} item" if len(items) == 1 else f"{len(items)} items"
+        for change in patch:
+            if not change.name.isdecimal():
+                self._report(POSITIONS_AND_KEYS, change, field=field)
+            elif int(change.name[:9]) >= len(items):
+                self._report(NO_SUCH_POSITION, change, field=field, length=length)
+            elif _is_written_null(change.value):
+                items[int(change.name)] = None
+            elif is_said(change.value):
+                place = int(change.name)
+                items[place] = self._node(items[place], change.value, shape.item, field)
+        return YamlList(tuple(item for item in items if item is not None), base.span if base else patch.span)
+
+    def _delete(self, entries: dict[str, YamlEntry], change: YamlEntry) -> None:
+        if change.name in entries:
+            del entries[change.name]
+        else:
+            self._sink.report(NOTHING_TO_DELETE.at(change.key.span, field=change.name))
+
+    def _tell_missing(self, change: YamlEntry, base: YamlMap, shape: Shape) -> None:
+        """Report an entry that is not there; silent where one may be, whose name is at fault."""
+        name = change.name
+        if "$(" in name or any("$(" in other for other in base.entries):
+            return
+        notes = [self._missing[name]] if name in self._missing else []
+        self._report(NOTHING_TO_OVERRIDE, change, near=() if notes else base.entries, notes=notes, owner=shape.things)
+
+    def _report(
+        self,
+        code: Code,
+        change: YamlEntry,
+        *,
+        near: Mapping[str, object] | tuple[()] = (),
+        notes: list[Note] | None = None,
+        **facts: object,
+    ) -> None:
+        self._sink.report(code.at(change.key.span, near=near, notes=notes or (), name=change.name, **facts))
+
+
+def _items(base: YamlNode | None, shape: Shape) -> tuple[YamlNode, ...]:
+    """Return the items of a list, or what stands for a list of one."""
+    whole = None if base is None else long_form(base, shape)
+    return whole.items if isinstance(whole, YamlList) else ()
+
+
+def _is_written_null(node: YamlNode) -> bool:
+    return isinstance(node, YamlScalar) and node.value is None and bool(node.text)
+
+
+def _is_same(one: YamlNode, other: YamlNode) -> bool:
+    match one, other:
+        case YamlScalar(), YamlScalar():
+            return one.value == other.value and isinstance(one.value, bool) == isinstance(other.value, bool)
+        case YamlList(), YamlList():
+            return len(one) == len(other) and all(map(_is_same, one, other))
+        case YamlMap(), YamlMap():
+            return one.entries.keys() == other.entries.keys() and all(
+                _is_same(entry.value, other.entries[entry.name].value) for entry in one
+            )
+    return False
+
+
+# What goes with a link
+
+
+def _without_links(tree: YamlMap, links: set[str]) -> YamlMap:
+    if not links:
+        return tree
+    sections = dict(tree.entries)
+    joints, semantic = tree.get("joints"), tree.get("semantic")
+    if isinstance(joints, YamlMap):
+        kept = [entry for entry in joints if _text(entry.value, "child") not in links]
+        sections["joints"] = YamlEntry(sections["joints"].key, _map_of(kept, joints.span))
+    if isinstance(semantic, YamlMap):
+        sections["semantic"] = YamlEntry(sections["semantic"].key, _semantic_without(semantic, links))
+    return YamlMap(sections, tree.span)
+
+
+def _semantic_without(semantic: YamlMap, links: set[str]) -> YamlMap:
+    parts = dict(semantic.entries)
+    for name in ("disabled_collisions", "enabled_collisions", "link_sphere_approximations"):
+        part = semantic.get(name)
+        if isinstance(part, YamlMap):
+            kept = [entry for entry in part if entry.name not in links]
+            if name != "link_sphere_approximations":
+                kept = [YamlEntry(entry.key, _pairs_without(entry.value, links)) for entry in kept]
+            parts[name] = YamlEntry(parts[name].key, _map_of(kept, part.span))
+    return YamlMap(parts, semantic.span)
+
+
+def _pairs_without(pairs: YamlNode, links: set[str]) -> YamlNode:
+    if not isinstance(pairs, YamlMap):
+        return pairs
+    return _map_of([entry for entry in pairs if entry.name not in links], pairs.span)
+
+
+def _map_of(entries: list[YamlEntry], span: Span) -> YamlMap:
+    return YamlMap({entry.name: entry for entry in entries}, span)
+
+
+def _names(tree: YamlMap, section: str) -> Mapping[str, object]:
+    said = tree.get(section)
+    return said.entries if isinstance(said, YamlMap) else {}
+
+
+def _text(node: YamlNode, key: str) -> str | None:
+    said = node.child(key)
+    return said.text if isinstance(said, YamlScalar) else None

@@ -1,0 +1,141 @@
+"""Judges where `prefix`, `link()`, `joint()` and `path()` stand: each means something in some places only."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.files import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
+from linkforge_compile.expressions import Expression, has_expression, parse_template
+from linkforge_compile.schema.shapes import FREE, Shape, shapes
+from linkforge_compile.schema.words import field
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+
+_TELLTALE = re.compile(r"\bprefix\b(?!['\"]?\s*:)|\b(?:path|link|joint)[\s)]*\(")
+"""Is in every text that has something to judge; hardly a spec needs the walk through its tree."""
+
+_NAMES = frozenset({"a name", "a joint's name", "a material's name", "a joint value or a state's name"})
+"""The titles of schemas whose text is a name, which takes the prefix by itself."""
+
+_PREFIXED_KEYS = frozenset({"topic", "frame", "prefix"})
+"""Keys of what is no name and takes the prefix all the same."""
+
+_NAME = Shape({"title": "a name", "type": "string"})
+"""The shape of a key that is a name."""
+
+_WITHOUT_PREFIX = frozenset({"interfaces by name", "folders by package name"})
+"""The titles of maps whose keys take no prefix."""
+
+_READ_BY_PLUGINS = frozenset({"extra", "extra_attributes"})
+
+_COMPUTED = frozenset({"parameters", "variables", "data", "variants"})
+_COMPUTED_WITHIN = frozenset({"with", "for", "when"})
+"""The sections, and the keys of objects, whose values the compiler reads; what else has no shape is a free part."""
+
+
+def judge_places(tree: YamlMap, sink: Diagnostics) -> YamlMap:
+    """Report what stands where it means nothing; return the tree with a YamlFault in its place."""
+    if not _TELLTALE.search(tree.span.file.text):
+        return tree
+    judged = _Judge(sink).node(tree, _Place((), shapes()))
+    assert isinstance(judged, YamlMap), "what is judged is scalars"
+    return judged
+
+
+class _Place(NamedTuple):
+    """Where a node stands: the keys that lead to it, its shape, and what all that is in it counts as.
+
+    What is computed comes to nothing by itself; only its use is an output.
+    """
+
+    path: tuple[str | int, ...]
+    shape: Shape
+    is_free: bool = False
+    is_computed: bool = False
+
+    @property
+    def is_name(self) -> bool:
+        is_prefixed = bool(self.path) and self.path[-1] in _PREFIXED_KEYS and self.shape.word != ""
+        return not self.is_free and (self.shape.word in _NAMES or is_prefixed)
+
+    @property
+    def words(self) -> str:
+        return field(self.path)
+
+    def under(self, key: str) -> _Place:
+        """Return the place of what stands under a key or name."""
+        # The long form's `value` is what would stand here without it.
+        inner = self.shape if key == "value" and not self.shape.is_plain else self.shape.under(key)
+        computed = _COMPUTED_WITHIN if self.path else _COMPUTED
+        is_computed = self.is_computed or (key in computed and not self.is_free)
+        is_free = not is_computed and (self.is_free or inner.is_plain or key in _READ_BY_PLUGINS)
+        return _Place((*self.path, key), inner, is_free, is_computed)
+
+    def item(self, position: int) -> _Place:
+        """Return the place of an item of the list that stands here."""
+        return _Place((*self.path, position), self.shape.item or FREE, self.is_free, self.is_computed)
+
+
+class _Judge:
+    """One walk through the tree of a file."""
+
+    def __init__(self, sink: Diagnostics) -> None:
+        self._sink = sink
+
+    def node(self, node: YamlNode, place: _Place) -> YamlNode:
+        """Return a node as it may go on; what has nothing at fault is the same object."""
+        match node:
+            case YamlScalar():
+                return node if self._is_sound(node, place) else YamlFault(node.span)
+            case YamlList():
+                items = tuple(self.node(item, place.item(position)) for position, item in enumerate(node))
+                return node if all(map(_is_same, items, node)) else YamlList(items, node.span)
+            case YamlMap():
+                entries = {entry.name: self._entry(entry, place) for entry in node}
+                return node if all(map(_is_same, entries.values(), node)) else YamlMap(entries, node.span)
+        return node
+
+    def _entry(self, entry: YamlEntry, around: _Place) -> YamlEntry:
+        if not around.path and entry.name.startswith("x-"):
+            return entry
+        place = around.under(entry.name)
+        named = around.shape.has_names and around.shape.title not in _WITHOUT_PREFIX
+        if not self._is_sound(entry.key, place._replace(shape=_NAME if named else FREE)):
+            return YamlEntry(entry.key, YamlFault(entry.value.span))
+        value = self.node(entry.value, place)
+        return entry if value is entry.value else YamlEntry(entry.key, value)
+
+    def _is_sound(self, scalar: YamlScalar, place: _Place) -> bool:
+        """Whether all that a scalar's expressions use may stand there; reports what may not."""
+        if not has_expression(scalar.text) or not _TELLTALE.search(scalar.text):
+            return True
+        template = parse_template(scalar.text, scalar.span, Diagnostics())
+        found = [part for part in template.parts if isinstance(part, Expression)] if template else []
+        judged = [self._may_stand(name, expression, place) for expression in found for name in _used(expression)]
+        return all(judged)
+
+    def _may_stand(self, name: ast.Name, expression: Expression, place: _Place) -> bool:
+        span = expression.span(name)
+        match name.id:
+            case "prefix" if place.is_name:
+                self._sink.report(PREFIX_TWICE.at(span, place=place.words))
+                return False
+            case "link" | "joint" if not place.is_free:
+                self._sink.report(NAME_OUTSIDE_TEXT.at(span, function=f"{name.id}()"))
+                return False
+            case "path" if not (place.is_computed or place.path[-1:] == ("use",)):
+                self._sink.report(PATH_OF_THIS_MACHINE.at(span))
+        return True
+
+
+def _used(expression: Expression) -> Iterator[ast.Name]:
+    """Yield the names of an expression, those of its functions too, in the order of the text."""
+    names = (node for node in ast.walk(expression.tree) if isinstance(node, ast.Name))
+    return iter(sorted(names, key=lambda name: name.col_offset))
+
+
+def _is_same(one: object, other: object) -> bool:
+    return one is other

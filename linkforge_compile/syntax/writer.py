@@ -1,0 +1,200 @@
+"""Tree to text: YAML as a tidy person writes it, which reads back to the same tree."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import TypeAlias
+
+from linkforge_compile.syntax.malformed import is_cut_expression
+from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.scalars import scalar_value
+from linkforge_compile.units import Quantity, number_text
+
+WIDTH = 100
+"""A line with brackets keeps to so many columns; what needs more is laid out over several."""
+
+Comments: TypeAlias = Mapping[YamlNode, str]
+"""Comments, each by the key of the entry, or by the item of the list, above which it stands."""
+
+_INDENT = "  "
+_MOST_NESTED = 3
+"""How many levels of brackets a person still reads at a glance."""
+
+# Text to YAML 1.2, and to readers of 1.1 a boolean, a number to base 2, 8 or 60, one with its digits in groups, a
+# date, a merge or a default. `y` and `n` are not here: hardly a reader takes them for booleans, and `axis: y` is the
+# language.
+_MISREAD = re.compile(
+    r"""(?i: yes | no | on | off )
+      | [-+]? 0b [01_]+
+      | [-+]? 0 o? [0-7_]+
+      | [-+]? 0x [0-9a-fA-F_]+
+      | [-+]? [0-9] [0-9_]* (?: : [0-5]? [0-9] )* (?: \. [0-9_]* )? (?: [eE] [-+]? [0-9]+ )?
+      | [-+]? \. [0-9_]* (?: [eE] [-+]? [0-9]+ )?
+      | [0-9]{4} - [0-9]{1,2} - [0-9]{1,2} .*
+      | << | =""",
+    re.VERBOSE,
+)
+_INDICATORS = tuple("?:,[]{}#&*!|>'\"%@`")
+_BETWEEN_BRACKETS = re.compile(r"[\[\]{},]|:\?")
+_ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"})
+
+
+def write(tree: YamlMap, comments: Comments = MappingProxyType({})) -> str:
+    """Return a tree without faults as YAML of which `read` makes the same tree, spans aside.
+
+    Expressions stay what they are. Text with characters that no spec may hold is written, and refused when read.
+    """
+    return "".join(f"{line}\n" for line in _Layout(comments).document(tree))
+
+
+class _Layout:
+    """Lays nodes out over lines; an `indent` is that of entries and items themselves."""
+
+    def __init__(self, comments: Comments) -> None:
+        self._comments = comments
+
+    def document(self, tree: YamlMap) -> Iterator[str]:
+        """Yield the lines of a file: its sections apart, and none in brackets, for there names are looked up."""
+        was_section = False
+        for place, entry in enumerate(tree):
+            is_section = isinstance(entry.value, YamlMap) and len(entry.value) > 0
+            if place and (is_section or was_section):
+                yield ""
+            was_section = is_section
+            yield from self._comment(entry.key, "")
+            key = f"{_text(entry.name, in_brackets=False)}:"
+            if is_section:
+                yield key
+                yield from self._block(entry.value, _INDENT)
+            else:
+                yield from self._value(key, entry.value, "")
+
+    def _block(self, node: YamlNode, indent: str) -> Iterator[str]:
+        if isinstance(node, YamlMap):
+            for entry in node:
+                yield from self._comment(entry.key, indent)
+                yield from self._value(f"{indent}{_text(entry.name, in_brackets=False)}:", entry.value, indent)
+        elif isinstance(node, YamlList):
+            for item in node:
+                yield from self._comment(item, indent)
+                yield from self._item(item, indent)
+
+    def _value(self, key: str, node: YamlNode, indent: str) -> Iterator[str]:
+        """Yield the lines of an entry: on that of its key, or below it."""
+        if isinstance(node, YamlScalar):
+            yield from _scalar_lines(key, node, indent)
+        elif brackets := self._fitting(node, len(key)):
+            yield f"{key} {brackets}"
+        else:
+            yield key
+            yield from self._block(node, indent + _INDENT)
+
+    def _item(self, node: YamlNode, indent: str) -> Iterator[str]:
+        """Yield the lines of a list's item, the first of them behind the dash."""
+        dash = f"{indent}-"
+        if isinstance(node, YamlScalar):
+            yield from _scalar_lines(dash, node, indent)
+        elif brackets := self._fitting(node, len(dash)):
+            yield f"{dash} {brackets}"
+        else:
+            first, *rest = self._block(node, indent + _INDENT)
+            yield f"{dash} {first.lstrip(' ')}"
+            yield from rest
+
+    def _fitting(self, node: YamlNode, column: int) -> str | None:
+        """Return a list or map in brackets, None where it does not fit behind the column or nests too deep."""
+        text = self._in_brackets(node, _MOST_NESTED)
+        return text if text is not None and column + 1 + len(text) <= WIDTH else None
+
+    def _in_brackets(self, node: YamlNode, levels: int) -> str | None:
+        if isinstance(node, YamlScalar):
+            return None if _is_paragraph(node) else _scalar(node, in_brackets=True)
+        if isinstance(node, YamlMap):
+            return self._map_in_brackets(node, levels)
+        # Nothing between two commas is no item.
+        if isinstance(node, YamlList) and all(not _is_empty(item) for item in node):
+            return self._list_in_brackets(node, levels)
+        return None
+
+    def _map_in_brackets(self, node: YamlMap, levels: int) -> str | None:
+        if len(node) and (not levels or any(entry.key in self._comments for entry in node)):
+            return None
+        values = [self._in_brackets(entry.value, levels - 1) for entry in node]
+        if None in values:
+            return None
+        keys = [_text(entry.name, in_brackets=True) for entry in node]
+        return "{" + ", ".join(f"{key}: {value}" for key, value in zip(keys, values, strict=True)) + "}"
+
+    def _list_in_brackets(self, node: YamlList, levels: int) -> str | None:
+        if len(node) and (not levels or any(item in self._comments for item in node)):
+            return None
+        items = [self._in_brackets(item, levels - 1) for item in node]
+        return None if None in items else f"[{', '.join(item or '' for item in items)}]"
+
+    def _comment(self, node: YamlNode, indent: str) -> Iterator[str]:
+        for line in self._comments.get(node, "").splitlines():
+            yield f"{indent}# {line}".rstrip()
+
+
+def _scalar_lines(start: str, node: YamlScalar, indent: str) -> Iterator[str]:
+    if not _is_paragraph(node):
+        yield f"{start} {_scalar(node, in_brackets=False)}".rstrip(" ")
+        return
+    *lines, last = node.text.split("\n")
+    yield f"{start} |" if not last else f"{start} |-"
+    for line in lines if not last else (*lines, last):
+        yield f"{indent}{_INDENT}{line}" if line else ""
+
+
+def _is_paragraph(node: YamlScalar) -> bool:
+    """Whether a scalar is text of several lines that stands better as it is than in quotes."""
+    if not isinstance(node.value, str) or "\n" not in node.text:
+        return False
+    lines = node.text.removesuffix("\n").split("\n")
+    return bool(lines[0] and lines[-1]) and all(
+        line.isprintable() and not line.endswith(" ") and not (line.startswith(" ") and line is lines[0])
+        for line in lines
+    )
+
+
+def _is_empty(node: YamlNode) -> bool:
+    return isinstance(node, YamlScalar) and node.value is None and not node.text
+
+
+def _scalar(node: YamlScalar, *, in_brackets: bool) -> str:
+    """Return a scalar as it was written where that says its value, and spelled anew where it was computed."""
+    value = node.value
+    if isinstance(value, str):
+        return _text(node.text, in_brackets=in_brackets)
+    if isinstance(value, Quantity):
+        return f"{number_text(value.value)} {value.dimension.si_unit}"
+    if repr(scalar_value(node.text)) == repr(value):
+        return node.text
+    if value is None:
+        return "null"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return number_text(value) if math.isfinite(value) else f"{value}".replace("inf", ".inf").replace("nan", ".nan")
+
+
+def _text(text: str, *, in_brackets: bool) -> str:
+    return text if _is_plain(text, in_brackets) else f'"{text.translate(_ESCAPES)}"'
+
+
+def _is_plain(text: str, in_brackets: bool) -> bool:
+    """Whether text needs no quotes: everyone reads it as text, and as the whole of it."""
+    return (
+        scalar_value(text) is text
+        and not _MISREAD.fullmatch(text)
+        and text.isprintable()
+        and text.strip() == text
+        and not text.startswith(("- ", "---", "...", *_INDICATORS))
+        and text != "-"
+        and not text.endswith(":")
+        and ": " not in text
+        and " #" not in text
+        and not (in_brackets and (_BETWEEN_BRACKETS.search(text) or is_cut_expression(text)))
+    )

@@ -1,0 +1,82 @@
+"""Shapes and poses as a spec writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from linkforge_compile.core.models.geometry import (
+    IDENTITY,
+    Box,
+    Capsule,
+    Cylinder,
+    Geometry,
+    GeometryType,
+    Mesh,
+    Sphere,
+    Transform,
+    Vector3,
+)
+from linkforge_compile.syntax import YamlMap, YamlNode
+from linkforge_compile.units import Dimension
+from linkforge_compile.writers.pen import Pen
+
+_ZERO = Vector3(0.0, 0.0, 0.0)
+_UNSCALED = Vector3(1.0, 1.0, 1.0)
+
+
+def written_origin(pen: Pen, pose: Transform) -> YamlNode | None:
+    """Return `[x, y, z]` for a pose that turns nothing, None for the identity."""
+    if pose == IDENTITY and not pen.full:
+        return None
+    xyz, rpy = pen.numbers(pose.xyz, Dimension.LENGTH), pen.numbers(pose.rpy, Dimension.ANGLE)
+    if pen.full:
+        return pen.element(pose, xyz=xyz, rpy=rpy)
+    if pose.rpy == _ZERO and not (pose.extra_elements or pose.extra_attributes):
+        return xyz
+    return pen.element(pose, xyz=None if pose.xyz == _ZERO else xyz, rpy=None if pose.rpy == _ZERO else rpy)
+
+
+def written_geometry(pen: Pen, shape: Geometry) -> dict[str, YamlNode]:
+    """Return the one entry that says what shape a visual or collision has."""
+    return {str(shape.type): _WRITE[shape.type](pen, shape)}
+
+
+def _box(pen: Pen, box: Box) -> YamlNode:
+    return pen.located(pen.numbers(box.size, Dimension.LENGTH), box.source)
+
+
+def _sphere(pen: Pen, sphere: Sphere) -> YamlNode:
+    radius = pen.number(sphere.radius, Dimension.LENGTH)
+    node = pen.element(sphere, radius=radius)
+    return _alone(pen, node, "radius")
+
+
+def _round(pen: Pen, body: Cylinder | Capsule) -> YamlNode:
+    radius, length = pen.number(body.radius, Dimension.LENGTH), pen.number(body.length, Dimension.LENGTH)
+    return pen.element(body, radius=radius, length=length)
+
+
+def _mesh(pen: Pen, mesh: Mesh) -> YamlNode:
+    return _alone(pen, pen.element(mesh, file=pen.text(mesh.resource), scale=_scale(pen, mesh.scale)), "file")
+
+
+def _scale(pen: Pen, scale: Vector3) -> YamlNode | None:
+    if pen.full:
+        return pen.numbers(scale)
+    if scale == _UNSCALED:
+        return None
+    return pen.number(scale.x) if scale.x == scale.y == scale.z else pen.numbers(scale)
+
+
+def _alone(pen: Pen, node: YamlMap, key: str) -> YamlNode:
+    """Return what stands under the key of an object that says nothing else: its short form."""
+    return node if pen.full or len(node) > 1 else node.entries[key].value
+
+
+_WRITE: Mapping[GeometryType, Callable[..., YamlNode]] = {
+    GeometryType.BOX: _box,
+    GeometryType.CYLINDER: _round,
+    GeometryType.SPHERE: _sphere,
+    GeometryType.CAPSULE: _round,
+    GeometryType.MESH: _mesh,
+}

@@ -1,0 +1,41 @@
+"""Where the parts of a robot were written, as comments say it: by files and lines, on every machine the same."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.source import SourceRef, Span
+
+
+def compiled_folder(robot: Robot) -> Path | None:
+    """Return the folder of the file that a robot was compiled from, None for text and for what was built in Python."""
+    path = robot.source.span.file.path if robot.source else None
+    return path.parent if path else None
+
+
+def origin_of(source: SourceRef, folder: Path | None) -> str:
+    """Return `arm.robot.yaml:12, used at robot.robot.yaml:30`; paths are those from the compiled file's folder."""
+    included = [("included", span) for span in source.span.file.includes]
+    used = [("used", span) for span in source.trail]
+    return ", ".join(
+        (_place(source.span, folder), *(f"{how} at {_place(span, folder)}" for how, span in included + used))
+    )
+
+
+def _place(span: Span, folder: Path | None) -> str:
+    return f"{_name(span, folder)}:{span.line}"
+
+
+def _name(span: Span, folder: Path | None) -> str:
+    """Return how a file is reached from the folder; its bare name where that would tell of the machine."""
+    path = span.file.path
+    if path is None or folder is None:
+        return Path(span.file.name).name
+    whole, start = path.absolute(), folder.absolute()
+    try:
+        shared = os.path.commonpath((whole, start))
+    except ValueError:  # two drives of Windows
+        return path.name
+    return path.name if Path(shared) == Path(whole.anchor) else Path(os.path.relpath(whole, start)).as_posix()

@@ -1,0 +1,69 @@
+"""A whole robot as a spec: one flat file, its sections in the language's order."""
+
+from __future__ import annotations
+
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.syntax import YamlMap
+from linkforge_compile.writers.frames import frames_of, written_frame
+from linkforge_compile.writers.gazebo import GazeboPlaces, gazebo_places, written_blocks
+from linkforge_compile.writers.joint import written_joint
+from linkforge_compile.writers.link import written_link
+from linkforge_compile.writers.material import written_material
+from linkforge_compile.writers.pen import Pen
+from linkforge_compile.writers.ros2_control import written_ros2_control
+from linkforge_compile.writers.sensor import written_sensor
+from linkforge_compile.writers.srdf import written_semantic
+from linkforge_compile.writers.transmission import written_transmission
+
+_LANGUAGE_VERSION = 1
+
+
+def spec_of(robot: Robot, pen: Pen) -> YamlMap:
+    """Return a robot as the tree of a spec without modules, parameters and expressions.
+
+    Compiled, it gives an equal robot and the same URDF and SRDF; only states of one group, collision pairs of one
+    first link and properties of one joint come together where others stood between them. What the language has no
+    form for is left out: the extras of boxes, colors, group states, collision pairs and passive joints.
+
+    Raises:
+        RobotGeneratorError: for two parts of one name where a spec can hold only one.
+
+    """
+    gazebo = gazebo_places(robot)
+    return pen.element(
+        robot,
+        linkforge=pen.number(_LANGUAGE_VERSION),
+        name=pen.text(robot.name),
+        version=pen.text(robot.version) if robot.version_stated else None,
+        metadata=pen.data(robot.metadata) if robot.metadata else None,
+        materials=pen.named("material", ((name, written_material(pen, one)) for name, one in robot.materials.items())),
+        **_tree_sections(pen, robot, gazebo),
+        sensors=pen.named("sensor", ((sensor.name, written_sensor(pen, sensor)) for sensor in robot.sensors)),
+        transmissions=pen.named(
+            "transmission", ((one.name, written_transmission(pen, one)) for one in robot.transmissions)
+        ),
+        ros2_control=pen.named(
+            "ros2_control", ((one.name, written_ros2_control(pen, one)) for one in robot.ros2_controls)
+        ),
+        gazebo=written_blocks(pen, gazebo.robot, beside=False),
+        semantic=written_semantic(pen, robot.semantic) if robot.says_semantic else None,
+    )
+
+
+def _tree_sections(pen: Pen, robot: Robot, gazebo: GazeboPlaces) -> dict[str, YamlMap | None]:
+    """Return links, joints and frames, with what a simulator is told about each beside it."""
+    frames = [] if pen.full else frames_of(robot)
+    links, joints = robot.links[: len(robot.links) - len(frames)], robot.joints[: len(robot.joints) - len(frames)]
+    written_links = (
+        (one.name, written_link(pen, one, robot.materials, written_blocks(pen, gazebo.links.get(one.name, ()))))
+        for one in links
+    )
+    written_joints = (
+        (one.name, written_joint(pen, one, written_blocks(pen, gazebo.joints.get(one.name, ())))) for one in joints
+    )
+    written_frames = ((link.name, written_frame(pen, link, joint)) for link, joint in frames)
+    return {
+        "links": pen.named("link", written_links),
+        "joints": pen.named("joint", written_joints),
+        "frames": pen.named("frame", written_frames),
+    }

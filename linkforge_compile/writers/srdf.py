@@ -1,0 +1,122 @@
+"""The semantic part as a spec writes it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+from linkforge_compile.core.models.srdf import (
+    Chain,
+    CollisionPair,
+    EndEffector,
+    GroupState,
+    JointProperty,
+    LinkSphereApproximation,
+    PlanningGroup,
+    SemanticRobotDescription,
+    SrdfSphere,
+    VirtualJoint,
+)
+from linkforge_compile.syntax import YamlMap, YamlNode
+from linkforge_compile.units import Dimension
+from linkforge_compile.writers.pen import Pen
+
+
+def written_semantic(pen: Pen, semantic: SemanticRobotDescription) -> YamlMap | None:
+    """Return the semantic part, None where it says nothing.
+
+    States of one group stand together, as pairs do of one first link and properties of one joint: where others
+    came between them, that order is lost.
+    """
+    node = pen.element(
+        semantic,
+        virtual_joints=pen.named("virtual joint", ((one.name, _virtual(pen, one)) for one in semantic.virtual_joints)),
+        groups=pen.named("planning group", ((group.name, _group(pen, group)) for group in semantic.groups)),
+        group_states=pen.nested(
+            "state", ((state.group, state.name, _state(pen, state)) for state in semantic.group_states)
+        ),
+        end_effectors=pen.named("end effector", ((one.name, _effector(pen, one)) for one in semantic.end_effectors)),
+        passive_joints=pen.texts([joint.name for joint in semantic.passive_joints]),
+        disabled_collisions=_pairs(pen, semantic.disabled_collisions),
+        enabled_collisions=_pairs(pen, semantic.enabled_collisions),
+        no_default_collision_links=pen.texts(semantic.no_default_collision_links),
+        joint_properties=pen.nested("property", map(partial(_remark, pen), semantic.joint_properties), told_once=True),
+        link_sphere_approximations=pen.named(
+            "sphere approximation", ((one.link, _spheres(pen, one)) for one in semantic.link_sphere_approximations)
+        ),
+    )
+    return node if len(node) else None
+
+
+def _virtual(pen: Pen, joint: VirtualJoint) -> YamlMap:
+    return pen.element(
+        joint,
+        type=pen.text(joint.type),
+        parent_frame=pen.text(joint.parent_frame),
+        child_link=pen.text(joint.child_link),
+    )
+
+
+def _group(pen: Pen, group: PlanningGroup) -> YamlMap:
+    chains = [_chain(pen, chain) for chain in group.chains]
+    return pen.element(
+        group,
+        chain=chains[0] if len(chains) == 1 else None,
+        chains=pen.list_of(chains) if len(chains) > 1 else None,
+        links=pen.texts(group.links),
+        joints=pen.texts(group.joints),
+        subgroups=pen.texts(group.subgroups),
+    )
+
+
+def _chain(pen: Pen, chain: Chain) -> YamlMap:
+    return pen.element(chain, base_link=pen.text(chain.base_link), tip_link=pen.text(chain.tip_link))
+
+
+def _state(pen: Pen, state: GroupState) -> YamlMap:
+    """Return the positions by joint: a number, or a list of them for several degrees of freedom."""
+    positions = {}
+    for joint, values in state.joint_values.items():
+        node: YamlNode = pen.quantity(values[0]) if len(values) == 1 else pen.numbers(values)
+        positions[joint] = pen.located(node, state.source, _name_in_its_file(state, joint))
+    return pen.located(pen.map_of(positions), state.source)
+
+
+def _name_in_its_file(state: GroupState, joint: str) -> str:
+    """Return how the file that wrote a state calls a joint: without the prefixes that it has by now."""
+    if state.source is None:
+        return joint
+    endings = (joint[start:] for start in range(len(joint)))
+    return next((name for name in endings if state.source.node.child(name)), joint)
+
+
+def _effector(pen: Pen, effector: EndEffector) -> YamlMap:
+    return pen.element(
+        effector,
+        group=pen.text(effector.group),
+        parent_link=pen.text(effector.parent_link),
+        parent_group=pen.text(effector.parent_group),
+    )
+
+
+def _pairs(pen: Pen, pairs: Sequence[CollisionPair]) -> YamlMap | None:
+    """Return the reasons by the first link and the second."""
+    reasons = ((one.link1, one.link2, pen.located(pen.word(one.reason), one.source, "reason")) for one in pairs)
+    return pen.nested("collision pair", reasons, told_once=True)
+
+
+def _remark(pen: Pen, remark: JointProperty) -> tuple[str, str, YamlNode]:
+    return remark.joint_name, remark.property_name, pen.located(pen.free(remark.value), remark.source, "value")
+
+
+def _spheres(pen: Pen, approximation: LinkSphereApproximation) -> YamlNode:
+    return pen.located(
+        pen.list_of(_sphere(pen, sphere) for sphere in approximation.spheres), approximation.source, "spheres"
+    )
+
+
+def _sphere(pen: Pen, sphere: SrdfSphere) -> YamlMap:
+    center = (sphere.center_x, sphere.center_y, sphere.center_z)
+    return pen.element(
+        sphere, center=pen.numbers(center, Dimension.LENGTH), radius=pen.number(sphere.radius, Dimension.LENGTH)
+    )

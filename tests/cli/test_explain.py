@@ -1,0 +1,80 @@
+"""`linkforge explain`, run as a program."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.test_compile import linkforge
+
+ARM = """\
+linkforge: 1
+name: arm
+parameters: {strength: 20 N*m}
+links: {base: , upper: }
+joints:
+  elbow: {type: continuous, parent: base, child: upper, axis: z,
+    limits: {effort: $(strength), velocity: 1}}
+"""
+CELL = """\
+linkforge: 1
+name: cell
+links: {table: }
+modules:
+  left: {use: arm.robot.yaml, parent: table}
+"""
+
+
+@pytest.fixture
+def cell(tmp_path: Path) -> Path:
+    (tmp_path / "arm.robot.yaml").write_text(ARM)
+    (tmp_path / "cell.robot.yaml").write_text(CELL)
+    return tmp_path
+
+
+def test_a_value_is_told_with_its_place_its_expression_and_the_files_between(cell: Path):
+    run = linkforge("explain", "cell.robot.yaml", "joints/left_elbow/limits/effort", cwd=cell)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert run.stdout.splitlines() == [
+        "joints/left_elbow/limits/effort: 20 N*m",
+        "written at arm.robot.yaml:7:22",
+        "     7 |     limits: {effort: $(strength), velocity: 1}}",
+        "       |                      ^^^^^^^^^^^",
+        "computed: $(strength)",
+        "used at cell.robot.yaml:5:15",
+        "     5 |   left: {use: arm.robot.yaml, parent: table}",
+        "       |               ^^^^^^^^^^^^^^",
+    ]
+
+
+def test_what_nobody_wrote_is_told_as_such(cell: Path):
+    run = linkforge("explain", "cell.robot.yaml", "joints/left_joint/type", cwd=cell)
+    assert run.stdout.splitlines()[:3] == [
+        "joints/left_joint/type: fixed",
+        "nothing is written for it",
+        "what it belongs to is written at cell.robot.yaml:5:3",
+    ]
+
+
+def test_parameters_are_set_before(cell: Path):
+    run = linkforge("explain", "arm.robot.yaml", "joints/elbow/limits/effort", "strength:=7", cwd=cell)
+    assert run.stdout.startswith("joints/elbow/limits/effort: 7 N*m\n")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("arm.robot.yaml",), "takes a spec and a path, such as joints/elbow/limits/effort"),
+        (("arm.robot.yaml", "joints/elbwo"), "there is no 'elbwo' in 'joints'; did you mean 'elbow'?"),
+    ],
+)
+def test_wrong_usage_is_told(cell: Path, words: tuple[str, ...], said: str):
+    run = linkforge("explain", *words, cwd=cell)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert said in run.stderr
+
+
+def test_a_spec_with_errors_is_told(cell: Path):
+    (cell / "arm.robot.yaml").write_text(ARM.replace("axis: z", "axis: w"))
+    run = linkforge("explain", "arm.robot.yaml", "name", cwd=cell)
+    assert (run.returncode, run.stdout) == (1, "")
+    assert "axis" in run.stderr

@@ -1,0 +1,113 @@
+"""`linkforge params` and `--variant`, run as a program."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.test_compile import box_height, linkforge
+
+ARM = """\
+linkforge: 1
+name: arm
+description: An arm.
+parameters:
+  reach: {type: length, default: 800 mm, minimum: 0.2 m, maximum: 1.5 m, description: Base to tool.}
+  hardware: {type: string, enum: [mock, real], default: mock}
+  tool: {type: string, pattern: '^[a-z]+$'}
+  half: {default: $(reach / 2)}
+  offset: [0, 0, 10 cm]
+variants:
+  lab: {reach: 50 cm, tool: gripper}
+  bare: {tool: none}
+links:
+  base: {visual: {box: [1, 1, $(reach)]}}
+"""
+
+TABLE = """\
+arm: An arm.
+
+parameter  type    default               limits          description
+reach      length  800 mm = 0.8 m        0.2 m to 1.5 m  Base to tool.
+hardware   string  mock                  mock | real
+tool       string  (required)            like ^[a-z]+$
+half       length  $(reach / 2) = 0.4 m
+offset     vector  [0, 0, 10 cm]
+
+variant  sets
+lab      reach=50 cm, tool=gripper
+bare     tool=none
+"""
+
+
+@pytest.fixture
+def arm(tmp_path: Path) -> Path:
+    (tmp_path / "arm.robot.yaml").write_text(ARM)
+    return tmp_path
+
+
+def test_the_parameters_are_a_table(arm: Path):
+    run = linkforge("params", "arm.robot.yaml", cwd=arm)
+    assert (run.returncode, run.stdout, run.stderr) == (0, TABLE, "")
+
+
+def test_the_parameters_are_json_for_tools(arm: Path):
+    run = linkforge("params", "arm.robot.yaml", "--json", cwd=arm)
+    listed = json.loads(run.stdout)
+    assert listed["parameters"][0] == {
+        "name": "reach",
+        "type": "length",
+        "unit": "m",
+        "required": False,
+        "default": "800 mm",
+        "value": 0.8,
+        "minimum": 0.2,
+        "maximum": 1.5,
+        "enum": None,
+        "pattern": None,
+        "description": "Base to tool.",
+    }
+    assert [(one["name"], one["required"], one["value"]) for one in listed["parameters"][2:]] == [
+        ("tool", True, None),
+        ("half", False, 0.4),
+        ("offset", False, [0, 0, 0.1]),
+    ]
+    assert listed["variants"][1] == {"name": "bare", "sets": {"tool": "none"}}
+
+
+def test_a_faulty_declaration_is_told_beside_the_others(arm: Path):
+    (arm / "arm.robot.yaml").write_text(ARM.replace("default: 800 mm", "default: 3 kg"))
+    run = linkforge("params", "arm.robot.yaml", cwd=arm)
+    assert run.returncode == 1
+    assert "[LF3023]" in run.stderr
+    assert "hardware   string  mock" in run.stdout
+
+
+def test_a_spec_without_parameters_says_so(tmp_path: Path):
+    (tmp_path / "box.robot.yaml").write_text("linkforge: 1\nname: box\nlinks: {base: }\n")
+    run = linkforge("params", "box.robot.yaml", cwd=tmp_path)
+    assert run.stdout == "box\n\nIt has no parameters.\n"
+
+
+def test_a_variant_is_compiled(arm: Path):
+    run = linkforge("compile", "arm.robot.yaml", "--variant", "lab", cwd=arm)
+    assert (run.returncode, box_height(run.stdout)) == (0, "0.5")
+    run = linkforge("compile", "arm.robot.yaml", "--variant", "lab", "reach:=0.3m", cwd=arm)
+    assert box_height(run.stdout) == "0.3"
+
+
+def test_all_variants_are_checked_in_one_report(arm: Path):
+    spec = ARM.replace("box: [1, 1, $(reach)]", "box: [1, 1, $(1 / (reach - 0.5))], material: red")
+    (arm / "arm.robot.yaml").write_text(spec)
+    run = linkforge("check", "arm.robot.yaml", "--all-variants", cwd=arm)
+    assert run.returncode == 1
+    assert run.stderr.count("[LF3125]") == run.stderr.count("[LF4105]") == 1
+    assert "note: with variant 'lab' only" in run.stderr
+    assert "note: with the defaults and every variant" in run.stderr
+    assert run.stderr.splitlines()[-1] == "checked 1 spec with the defaults and 2 variants: 2 errors"
+
+
+def test_one_variant_or_all_of_them(arm: Path):
+    run = linkforge("check", "arm.robot.yaml", "--all-variants", "--variant", "lab", cwd=arm)
+    assert run.returncode == 2
+    assert "--variant or --all-variants" in run.stderr

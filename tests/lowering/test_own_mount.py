@@ -1,0 +1,65 @@
+"""`mount`: the joint that a file brings along to hang by."""
+
+from pathlib import Path
+
+from linkforge_compile import Robot, compile_file, compile_text
+
+LEG = """\
+linkforge: 1
+name: leg
+links: {hip: , foot: }
+joints: {ankle: {type: fixed, parent: hip, child: foot}}
+mount: {hip_joint: {type: revolute, child: hip, axis: x, limits: {lower: -1, upper: 1, effort: 9, velocity: 3}}}
+semantic:
+  groups: {leg: {joints: [hip_joint]}}
+  group_states: {leg: {up: {hip_joint: 1}}}
+"""
+
+
+def ends(robot: Robot) -> list[tuple[str, str, str]]:
+    return [(joint.name, joint.parent, joint.child) for joint in robot.joints]
+
+
+def use(folder: Path, text: str) -> Robot:
+    (folder / "leg.robot.yaml").write_text(LEG)
+    return compile_text(f"linkforge: 1\nname: walker\n{text}", folder=folder).result()
+
+
+def test_alone_it_hangs_on_a_world_that_is_made_as_the_first_link():
+    robot = compile_text(LEG).result()
+    assert robot.links.names == ("world", "hip", "foot")
+    assert ends(robot)[0] == ("hip_joint", "world", "hip")
+    assert robot.root_link.name == "world"
+
+
+def test_a_declared_world_is_used():
+    robot = compile_text(LEG.replace("{hip: , foot: }", "{hip: , foot: , world: }")).result()
+    assert robot.links.names == ("hip", "foot", "world")
+    assert ends(robot)[0] == ("hip_joint", "world", "hip")
+
+
+def test_used_it_is_the_connecting_joint_with_the_prefix_at_the_instances_origin(tmp_path):
+    robot = use(tmp_path, "links: {trunk: }\nmodules: {left: {use: leg.robot.yaml, parent: trunk, origin: [0, 2, 0]}}")
+    assert ends(robot) == [("left_ankle", "left_hip", "left_foot"), ("left_hip_joint", "trunk", "left_hip")]
+    hip = robot.joints["left_hip_joint"]
+    assert (hip.origin.xyz.y, hip.limits.effort) == (2.0, 9.0)
+    assert robot.semantic.groups[0].joints == ("left_hip_joint",)
+
+
+def test_without_a_parent_it_is_handed_on(tmp_path):
+    (tmp_path / "leg.robot.yaml").write_text(LEG)
+    (tmp_path / "shod.robot.yaml").write_text(
+        "linkforge: 1\nname: shod\nmodules: {bare: {use: leg.robot.yaml}}\n"
+        "links: {shoe: }\njoints: {lace: {type: fixed, parent: bare_foot, child: shoe}}\n"
+    )
+    alone = compile_file(tmp_path / "shod.robot.yaml").result()
+    assert ("bare_hip_joint", "world", "bare_hip") in ends(alone)
+    robot = use(tmp_path, "links: {trunk: }\nmodules: {left: {use: shod.robot.yaml, parent: trunk}}")
+    assert ("left_bare_hip_joint", "trunk", "left_bare_hip") in ends(robot)
+    assert "world" not in robot.links
+
+
+def test_an_override_patches_it(tmp_path):
+    override = "override: {mount: {hip_joint: {limits: {effort: 20}}}}"
+    robot = use(tmp_path, f"links: {{trunk: }}\nmodules: {{left: {{use: leg.robot.yaml, parent: trunk, {override}}}}}")
+    assert robot.joints["left_hip_joint"].limits.effort == 20.0

@@ -1,0 +1,197 @@
+"""`override`: what a file changes in the modules that it uses, and what stays."""
+
+from pathlib import Path
+from textwrap import indent
+
+import pytest
+
+from tests.modules.assembling import Assembled, assemble, plain, write
+
+ARM = """
+    parameters: {reach: 1, camera: false}
+    links:
+      base: {visual: [{sphere: 1}, {box: [1, 1, 1]}, {mesh: a.stl}], inertial: {mass: 1}}
+      cover: {visual: {box: [1, 1, 1], origin: [0, 0, 1]}, collision: visual}
+      eye: {when: $(camera)}
+    joints:
+      lid: {type: fixed, parent: base, child: cover, origin: {xyz: [0, 0, 1], rpy: [1, 0, 0]}}
+      wrist: {type: revolute, parent: base, child: hand, limits: {lower: 0, effort: 1}, axis: x}
+    frames: {tool: {parent: base}}
+    semantic:
+      groups: {arm: {chain: {base_link: base, tip_link: cover}}}
+      disabled_collisions: {base: {cover: Never, hand: Never}, cover: {hand: Never}}
+      enabled_collisions: {hand: {cover: Never}}
+      link_sphere_approximations: {cover: [{center: [0, 0, 0], radius: 1}], base: []}
+"""
+
+
+class Changed(Assembled):
+    """What an override makes of the arm."""
+
+    def at(self, *path: str) -> object:
+        node = self.instance.modules[0].tree
+        for key in path:
+            node = node and node.child(key)
+        return plain(node)
+
+
+@pytest.fixture
+def change(tmp_path: Path):
+    write(tmp_path, {"arm.robot.yaml": ARM})
+
+    def changed(override: str, variables: str = "{}") -> Changed:
+        text = f"variables: {variables}\nmodules:\n  arm:\n    use: arm.robot.yaml\n    override:\n"
+        return Changed(*assemble(text + indent(override, "      "), folder=tmp_path))
+
+    return changed
+
+
+def test_maps_merge_and_fields_may_be_added(change):
+    made = change("joints: {wrist: {limits: {effort: 20, velocity: 3}, dynamics: {damping: 1}}}")
+    assert made.at("joints", "wrist", "limits") == {"lower": 0, "effort": 20, "velocity": 3}
+    assert made.at("joints", "wrist", "dynamics") == {"damping": 1}
+    assert made.at("joints", "wrist", "axis") == "x"
+    assert not made.told
+
+
+def test_short_forms_are_long_on_both_sides(change):
+    made = change("joints: {lid: {origin: [0, 0, 2]}}\nlinks: {cover: {visual: {origin: {rpy: [1, 1, 1]}}}}")
+    assert made.at("joints", "lid", "origin") == {"xyz": [0, 0, 2], "rpy": [1, 0, 0]}
+    assert made.at("links", "cover", "visual") == [{"box": [1, 1, 1], "origin": {"xyz": [0, 0, 1], "rpy": [1, 1, 1]}}]
+    assert made.at("links", "cover", "collision") == [{"box": [1, 1, 1], "origin": [0, 0, 1]}]
+
+
+def test_a_written_null_deletes_and_an_expression_of_null_says_nothing(change):
+    made = change("joints: {wrist: {limits: {lower: null, effort: $(nothing)}, axis: ~}}", "{nothing: $(null)}")
+    assert made.at("joints", "wrist", "limits") == {"effort": 1}
+    assert made.at("joints", "wrist", "axis") is None
+    assert not made.told
+
+
+def test_lists_are_patched_by_position_counted_before_deletions_or_replaced(change):
+    made = change("links: {base: {visual: {0: null, 2: {mesh: {scale: 2}}, 1: {material: red}}}}")
+    assert made.at("links", "base", "visual") == [
+        {"box": [1, 1, 1], "material": "red"},
+        {"mesh": {"file": "a.stl", "scale": 2}},
+    ]
+    assert change("links: {base: {visual: [{sphere: 2}]}}").at("links", "base", "visual") == [{"sphere": 2}]
+
+
+def test_writing_one_of_a_choice_removes_the_others(change):
+    made = change("links: {base: {inertial: {density: 9}, visual: {1: {cylinder: {radius: 1}}}}}")
+    assert made.at("links", "base", "inertial") == {"density": 9}
+    assert made.at("links", "base", "visual")[1] == {"cylinder": {"radius": 1}}
+
+
+def test_frames_are_links_and_joints_by_then(change):
+    made = change("links: {tool: {inertial: {mass: 1}}}\njoints: {tool_joint: {origin: [0, 0, 1]}}")
+    assert made.at("links", "tool") == {"inertial": {"mass": 1}}
+    assert made.at("joints", "tool_joint") == {
+        "type": "fixed",
+        "parent": "base",
+        "child": "tool",
+        "origin": {"xyz": [0, 0, 1]},
+    }
+    assert made.at("frames") is None
+
+
+def test_a_chain_is_patched_as_it_is_written(change):
+    made = change("semantic: {groups: {arm: {chain: {tip_link: hand}}}}")
+    assert made.at("semantic", "groups", "arm") == {"chains": [{"base_link": "base", "tip_link": "hand"}]}
+
+
+def test_a_deleted_link_takes_its_joint_pairs_and_spheres_with_it(change):
+    made = change("links: {cover: null}")
+    assert "cover" not in made.at("links")
+    assert set(made.at("joints")) == {"wrist", "tool_joint"}
+    assert made.at("semantic", "disabled_collisions") == {"base": {"hand": "Never"}}
+    assert made.at("semantic", "enabled_collisions") == {"hand": {}}
+    assert made.at("semantic", "link_sphere_approximations") == {"base": []}
+    assert made.at("semantic", "groups", "arm") == {"chain": {"base_link": "base", "tip_link": "cover"}}
+    assert set(made.instance.modules[0].removed) == {"cover", "lid", "eye"}
+
+
+def test_expressions_and_repetition_see_the_overriding_files_names(change):
+    made = change(
+        "links: {$(name)_: null, $(part): {for: {part: [base]}, inertial: {mass: $(heavy)}}}\n"
+        "joints: {wrist: {when: false, axis: y}, lid: {origin: {when: $(heavy > 9), rpy: [0, 0, 0]}}}",
+        "{heavy: 3}",
+    )
+    assert made.told == ["there is no 'test_' among the links to override"]
+    assert made.at("links", "base", "inertial") == {"mass": 3}
+    assert made.at("joints", "wrist", "axis") == "x"
+
+
+def test_a_whole_override_may_depend_on_a_condition(change):
+    assert change("when: $(heavy > 9)\nlinks: {base: null}", "{heavy: 3}").at("links", "base") is not None
+    assert change("when: $(heavy > 1)\nlinks: {base: null}", "{heavy: 3}").at("links", "base") is None
+
+
+def test_patched_nodes_keep_their_place_in_the_overriding_file(change):
+    made = change("joints: {wrist: {limits: {effort: 20}}}")
+    effort = made.instance.modules[0].tree.get("joints").get("wrist").get("limits").get("effort")
+    assert (effort.span.file.name, effort.span.line) == ("test.robot.yaml", 8)
+
+
+def test_a_missing_name_that_a_when_took_out_is_shown(change):
+    made = change("links: {eye: {inertial: {mass: 1}}}")
+    assert made.told == ["there is no 'eye' among the links to override"]
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("links: {bse: {}}", "there is no 'bse' among the links to override; did you mean 'base'?"),
+        ("links: {base: {visual: {3: null}}}", "there is no item 3 in 'visual', which has 3 items; the first is 0"),
+        ("joints: {wrist: {axis: x}}", "'axis' is so already: this overrides nothing"),
+        ("joints: {wrist: {mimic: null}}", "'mimic' says nothing that could be deleted"),
+        ("joints: {wrist: {axis: }}", "'axis' is overridden with nothing; write what it is to be, or 'null' to delete"),
+    ],
+)
+def test_what_changes_nothing_is_told(change, override: str, message: str):
+    assert message in change(override).told
+
+
+def test_nested_modules_are_reached_through_their_entries(tmp_path):
+    write(
+        tmp_path,
+        {
+            "hand.robot.yaml": "parameters: {width: 1}\nlinks: {palm: {inertial: {mass: $(width)}}, thumb: }",
+            "arm.robot.yaml": """
+                links: {wrist: }
+                modules:
+                  hand: {use: hand.robot.yaml, parent: wrist, override: {links: {palm: {inertial: {mass: 5}}}}}
+                  tool: {use: hand.robot.yaml, parent: wrist}
+            """,
+        },
+    )
+    made = assemble(
+        """
+        modules:
+          arm:
+            use: arm.robot.yaml
+            override:
+              modules:
+                hand: {parent: base, with: {width: 2}, override: {links: {palm: {visual: {sphere: 1}}, thumb: null}}}
+                tool: null
+        """,
+        folder=tmp_path,
+    )
+    (arm,) = made.instance.modules
+    (hand,) = arm.modules
+    assert not made.told
+    assert plain(hand.entry.node.get("parent")) == "base"
+    assert plain(hand.tree.get("links")) == {"palm": {"inertial": {"mass": 5}, "visual": [{"sphere": {"radius": 1}}]}}
+
+
+def test_an_override_may_give_a_parameter_and_take_one_back(tmp_path):
+    hand = "parameters: {width: 1, depth: 2}\nmetadata: {size: [$(width), $(depth)]}"
+    write(
+        tmp_path,
+        {"hand.robot.yaml": hand, "arm.robot.yaml": "modules: {hand: {use: hand.robot.yaml, with: {depth: $(3)}}}"},
+    )
+    made = assemble(
+        "modules: {arm: {use: arm.robot.yaml, override: {modules: {hand: {with: {width: 9, depth: null}}}}}}",
+        folder=tmp_path,
+    )
+    assert plain(made.instance.modules[0].modules[0].tree.get("metadata")) == {"size": [9, 2]}
