@@ -125,7 +125,9 @@ def over(default: YamlNode, said: YamlNode, shape: Shape) -> YamlNode:
                 entries[entry.name] = entry
         else:
             own = above.entries[entry.name]
-            entries[entry.name] = YamlEntry(own.key, over(entry.value, own.value, shape.under(entry.name)))
+            value = over(entry.value, own.value, shape.under(entry.name))
+            is_merged = isinstance(value, YamlMap) and isinstance(entry.value, YamlMap)
+            entries[entry.name] = YamlEntry(own.key, value, None if is_merged else entry)
     return YamlMap(entries, above.span)
 
 

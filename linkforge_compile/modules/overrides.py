@@ -87,7 +87,9 @@ class _Patch:
             elif is_said(value) and not isinstance(entries.get(name, change).value, YamlFault):
                 old = entries.get(name)
                 new = self._node(old.value if old else None, value, shape.under(name), name)
-                entries[name] = YamlEntry(old.key if old else change.key, new)
+                is_merged = old is not None and isinstance(old.value, YamlMap) and isinstance(new, YamlMap)
+                replaced = None if old is None or is_merged or not is_said(old.value) else old
+                entries[name] = YamlEntry(old.key if old else change.key, new, replaced)
         chosen = [name for name in CHOICES.get(shape.title, ()) if is_said(patch.get(name))]
         for rival in CHOICES.get(shape.title, ()) if chosen else ():
             if rival not in chosen:

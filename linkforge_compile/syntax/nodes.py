@@ -63,10 +63,15 @@ class YamlList:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class YamlEntry:
-    """A key and its value; the key is a scalar whose text is the name."""
+    """A key and its value; the key is a scalar whose text is the name.
+
+    `replaced` is the entry of the same name whose value this one took the place of: what an override changed, or
+    the default that an entry's own word goes before. Values that were merged have it further down.
+    """
 
     key: YamlScalar
     value: YamlNode
+    replaced: YamlEntry | None = None
 
     @property
     def name(self) -> str:

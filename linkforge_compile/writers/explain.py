@@ -35,7 +35,8 @@ class Explanation:
     `text` is what a spec writes for it, after its path, with the unit of a number. `place` is where it was written;
     where `is_written` is False, nothing was for the value itself, and `place` is the nearest thing around it that
     was; None for a robot that was built in Python. `expression` is what was computed there, None if nothing.
-    `trail` lists the `use` that brought the file in, and so on outwards.
+    `trail` lists the `use` that brought the file in, and so on outwards. `replaced` is where that was written which
+    this value took the place of, as an override or as an entry's own word before a default; the last one first.
     """
 
     text: str
@@ -43,6 +44,7 @@ class Explanation:
     place: Span | None = None
     expression: str | None = None
     trail: tuple[Span, ...] = ()
+    replaced: tuple[Span, ...] = ()
 
 
 class _Step(NamedTuple):
@@ -74,7 +76,10 @@ def explain(robot: Robot, path: str) -> Explanation:
     keys = (*field, *(step.key for step in steps[last + 1 :]))
     node, is_written = _deepest(source.node, steps[last].key, keys)
     place = source.span if node is source.node else node.span
-    return Explanation(text, is_written, place, _expression(place) if is_written else None, _trail(source, place))
+    if not is_written:
+        return Explanation(text, False, place, None, _trail(source, place))
+    replaced = _replaced(source.node, steps[last].key, keys)
+    return Explanation(text, True, place, _expression(place), _trail(source, place), replaced)
 
 
 def _trail(source: SourceRef, place: Span) -> tuple[Span, ...]:
@@ -125,6 +130,23 @@ def _deepest(node: Located, name: str, keys: Sequence[str]) -> tuple[Located, bo
             return node, False
         node, name = inner, key
     return node, True
+
+
+def _replaced(node: Located, name: str, keys: Sequence[str]) -> tuple[Span, ...]:
+    """Return where what the value took the place of was written: at the deepest key of its way that replaced any."""
+    entry: YamlEntry | None = None
+    for key in keys:
+        if isinstance(node, YamlMap) and key in node.entries and node.entries[key].replaced:
+            entry = node.entries[key].replaced
+        inner = _written_child(node, name, key)
+        if inner is None:
+            break
+        node, name = inner, key
+    spans = []
+    while entry:
+        spans.append(entry.value.span)
+        entry = entry.replaced
+    return tuple(spans)
 
 
 def _written_child(node: Located, name: str, key: str) -> Located | None:

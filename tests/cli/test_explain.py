@@ -78,3 +78,20 @@ def test_a_spec_with_errors_is_told(cell: Path):
     run = linkforge("explain", "arm.robot.yaml", "name", cwd=cell)
     assert (run.returncode, run.stdout) == (1, "")
     assert "axis" in run.stderr
+
+
+def test_what_an_override_and_a_default_gave_way_to_is_told(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(ARM + "defaults: {joint: {limits: {effort: 5, velocity: 9}}}\n")
+    patch = "override: {joints: {elbow: {limits: {effort: 30 N*m}}}}"
+    (tmp_path / "cell.robot.yaml").write_text(CELL.replace("parent: table", f"parent: table, {patch}"))
+    run = linkforge("explain", "cell.robot.yaml", "joints/left_elbow/limits/effort", cwd=tmp_path)
+    told = [line for line in run.stdout.splitlines() if " at " in line]
+    assert run.stdout.startswith("joints/left_elbow/limits/effort: 30 N*m\n")
+    assert told[0].startswith("written at cell.robot.yaml:5:")
+    assert told[1:3] == [
+        "instead of what is written at arm.robot.yaml:7:22",
+        "instead of what is written at arm.robot.yaml:8:37",
+    ]
+    unchanged = linkforge("explain", "cell.robot.yaml", "joints/left_elbow/limits/velocity", cwd=tmp_path)
+    assert "instead of what is written at arm.robot.yaml:8:50" in unchanged.stdout
+    assert "cell.robot.yaml:5:15" not in run.stdout

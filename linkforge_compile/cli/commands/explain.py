@@ -66,6 +66,8 @@ def _lines(explanation: Explanation) -> Iterator[str]:
     else:
         yield "nothing is written for it"
         yield from _told("what it belongs to is written", explanation.place)
+    for replaced in explanation.replaced:
+        yield from _told("instead of what is written", replaced)
     for included in explanation.place.file.includes:
         yield from _told("included", included)
     for use in explanation.trail:
