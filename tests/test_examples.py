@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from linkforge_compile import Robot, compile_file, render_srdf, render_urdf
@@ -98,6 +99,69 @@ def test_the_ur5e_is_the_vendors_robot(name: str, shared: Path, tmp_path: Path):
     )
 
 
+@pytest.mark.parametrize(("variant", "name"), [(None, "ur5e"), ("mocked", "ur5e_mocked")])
+def test_the_family_has_the_vendors_ur5e_in_it(variant: str | None, name: str, shared: Path, tmp_path: Path):
+    family = compile_file(ROOT / "examples" / "04_ur_family" / "ur.robot.yaml", variant=variant)
+    assert not family.diagnostics
+    urdf, srdf = tmp_path / "ur.urdf", tmp_path / "ur.srdf"
+    urdf.write_text(render_urdf(family.result()))
+    srdf.write_text(render_srdf(family.result()))
+    theirs = shared / "corpus"
+    judge(
+        shared,
+        *(str(theirs / f"ur_{name}.urdf"), str(urdf)),
+        *("--srdf", str(theirs / "ur_ur5e.srdf"), str(srdf)),
+        *("--with", "xml,pin,mujoco,urdfdom"),
+    )
+
+
+@pytest.mark.parametrize(
+    ("model", "dimensions"),
+    [
+        ("ur3e", (0.15185, -0.24355, -0.2132, 0.13105, 0.08535, 0.0921)),
+        ("ur5e", (0.1625, -0.425, -0.3922, 0.1333, 0.0997, 0.0996)),
+        ("ur10e", (0.1807, -0.6127, -0.57155, 0.17415, 0.11985, 0.11655)),
+    ],
+)
+def test_a_model_of_the_family_reaches_as_far_as_its_published_dimensions_say(
+    model: str, dimensions: tuple[float, ...]
+):
+    """The Denavit-Hartenberg parameters give the tool at joint angles 0; our x and y are the controller's turned."""
+    pinocchio = pytest.importorskip("pinocchio")
+    family = compile_file(ROOT / "examples" / "04_ur_family" / "ur.robot.yaml", parameters={"model": model})
+    assert not family.diagnostics
+    robot = family.result()
+    assert robot.name == model
+    assert check_urdf(render_urdf(robot)) == "world"
+    assert sum(mujoco_model(render_urdf(robot)).body_mass) == pytest.approx(robot.total_mass)
+    arm = pinocchio_model(render_urdf(robot))
+    data = arm.createData()
+    pinocchio.framesForwardKinematics(arm, data, pinocchio.neutral(arm))
+    tool = data.oMf[arm.getBodyId("tool0")].translation
+    d1, a2, a3, d4, d5, d6 = dimensions
+    assert tool == pytest.approx([-(a2 + a3), d4 + d6, d1 - d5], abs=1e-8)
+
+
+def test_the_gripper_is_the_vendors_gripper(shared: Path, tmp_path: Path):
+    urdf = tmp_path / "gripper.urdf"
+    urdf.write_text(render_urdf(compiled(ROOT / "examples" / "05_gripper" / "robotiq_2f_85.robot.yaml")))
+    judge(shared, str(shared / "corpus" / "robotiq_2f_85.urdf"), str(urdf), "--with", "xml,pin,mujoco,urdfdom")
+
+
+def test_an_arm_with_a_gripper_holds_both_and_what_joins_them():
+    robot = compiled(ROOT / "examples" / "05_gripper" / "ur5e_gripper.robot.yaml")
+    arm, gripper = (
+        compiled(ROOT / "examples" / path)
+        for path in ("04_ur_family/ur.robot.yaml", "05_gripper/robotiq_2f_85.robot.yaml")
+    )
+    assert robot.total_mass == pytest.approx(arm.total_mass + gripper.total_mass)
+    assert [system.name for system in robot.ros2_controls] == ["ur5e", "RobotiqGripperHardwareInterface"]
+    assert next(joint for joint in robot.joints if joint.name == "robotiq_85_base_joint").parent == "tool0"
+    ready = next(state for state in robot.semantic.group_states if state.name == "ready")
+    assert ready.joint_values["elbow_joint"] == (1.4,)
+    assert ready.joint_values["robotiq_85_left_knuckle_joint"] == (0.0,)
+
+
 def test_the_rrbot_is_that_of_the_demos_of_ros2_control(shared: Path, tmp_path: Path):
     """Not to MuJoCo, which numbers shapes: theirs writes collisions before visuals."""
     urdf = tmp_path / "rrbot.urdf"
@@ -118,3 +182,71 @@ def test_two_arms_are_two_of_the_same_arm():
     assert ready.group == "both_arms"
     assert ready.joint_values["left_elbow_joint"] == (1.4,)
     assert ready.joint_values["right_wrist_1_joint"] == (-1.5707,)
+
+
+def placed(robot: Robot, state: str, group: str) -> dict[str, np.ndarray]:
+    """Where the origin of each link is in the root's frame, in metres, with the joints as a group state says."""
+    pinocchio = pytest.importorskip("pinocchio")
+    model = pinocchio_model(render_urdf(robot))
+    q = pinocchio.neutral(model)
+    said = next(each for each in robot.semantic.group_states if (each.name, each.group) == (state, group))
+    for joint, (value,) in said.joint_values.items():
+        q[model.joints[model.getJointId(joint)].idx_q] = value
+    data = model.createData()
+    pinocchio.framesForwardKinematics(model, data, q)
+    return {name: data.oMf[model.getBodyId(name)].translation for name in robot.links.names}
+
+
+@pytest.mark.parametrize("height", [0.25, 0.3])
+def test_a_standing_quadruped_has_its_feet_under_its_hips(height: float):
+    quadruped = ROOT / "examples" / "07_quadruped" / "quadruped.robot.yaml"
+    at = placed(compile_file(quadruped, parameters={"stand_height": height}).result(), "stand", "legs")
+    for leg in ("front_left", "front_right", "rear_left", "rear_right"):
+        out = 0.09 if leg.endswith("left") else -0.09
+        assert at[f"{leg}_foot"] - at[f"{leg}_hip"] == pytest.approx([0, out, -height])
+
+
+@pytest.mark.parametrize("thumb", [True, False])
+@pytest.mark.parametrize("fingers", [1, 2, 3, 5])
+def test_a_hand_has_the_fingers_it_is_asked_for(fingers: int, thumb: bool):
+    hand = compile_file(
+        ROOT / "examples" / "08_hand" / "hand.robot.yaml", parameters={"fingers": fingers, "thumb": thumb}
+    )
+    assert not hand.diagnostics
+    robot = hand.result()
+    tips = [f"finger_{i}_tip" for i in range(1, fingers + 1)] + ["thumb_tip"] * thumb
+    assert [link.name for link in robot.links if link.name.endswith("tip")] == tips
+    assert next(group for group in robot.semantic.groups if group.name == "fingertips").links == tuple(tips)
+    check_urdf(render_urdf(robot))
+
+
+def test_a_closing_hand_brings_thumb_and_fingers_together():
+    robot = compiled(ROOT / "examples" / "08_hand" / "hand.robot.yaml")
+    apart, together = (placed(robot, state, "hand") for state in ("open", "closed"))
+    assert together["finger_2_tip"][0] > apart["finger_2_tip"][0]
+    assert together["thumb_tip"][0] < apart["thumb_tip"][0]
+
+
+@pytest.mark.parametrize(
+    ("variant", "plugin"), [("sim", "gz_ros2_control/GazeboSimSystem"), ("real", "rover_driver/RoverSystem")]
+)
+def test_a_variant_of_the_rover_chooses_its_driver(variant: str, plugin: str):
+    rover = compile_file(ROOT / "examples" / "06_rover" / "rover.robot.yaml", variant=variant)
+    assert not rover.diagnostics
+    assert [system.hardware_plugin for system in rover.result().ros2_controls] == [plugin]
+
+
+def test_a_mobile_manipulator_holds_what_its_modules_hold():
+    robot = compiled(ROOT / "examples" / "09_mobile_manipulator" / "mobile_manipulator.robot.yaml")
+    rover, arm, gripper = (
+        compiled(ROOT / "examples" / f"{path}.robot.yaml")
+        for path in ("06_rover/rover", "02_ur5e/ur5e_arm", "09_mobile_manipulator/gripper")
+    )
+    assert robot.root_link.name == rover.root_link.name
+    assert len(robot.links) == 1 + len(rover.links) + 2 * (len(arm.links) + len(gripper.links))
+    assert robot.degrees_of_freedom == rover.degrees_of_freedom + 2 * (
+        arm.degrees_of_freedom + gripper.degrees_of_freedom
+    )
+    assert {(hand.parent_group, hand.group) for hand in robot.semantic.end_effectors} == {
+        (f"{side}_ur_manipulator", f"{side}_gripper_fingers") for side in ("left", "right")
+    }

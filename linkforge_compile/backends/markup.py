@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
+from numbers import Real
 from typing import Protocol, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
@@ -60,11 +61,9 @@ def spelled(value: Spellable) -> str:
     """Return a value as the text that URDF writes, not escaped yet."""
     if isinstance(value, str):
         return value
-    if isinstance(value, float):
-        return number_text(value)
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, int):
+    if isinstance(value, float | Real):  # float goes first, being the most frequent and the quickest to tell
         return number_text(value)
     return " ".join(map(number_text, value))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import Field, dataclass, field
 from typing import TYPE_CHECKING, ClassVar, Self
 
 from linkforge_compile.core.frozen_map import FrozenMap, frozen
@@ -17,6 +17,13 @@ class Part(Sourced):
 
     PREFIXED: ClassVar[tuple[str, ...]] = ()
     """The fields that hold names which a prefix goes before: of the part, of others it refers to, of parts in it."""
+
+    def __init_subclass__(cls) -> None:
+        # For its slots, dataclass makes a class twice, and knows its fields the second time. It puts inherited ones
+        # first; `astuple` and `fields` shall give those of the class itself first, and then what every part has.
+        fields: dict[str, Field[object]] = vars(cls).get("__dataclass_fields__", {})
+        if fields:
+            cls.__dataclass_fields__ = dict(sorted(fields.items(), key=lambda item: item[1].kw_only is True))
 
     def __copy__(self) -> Self:
         return self

@@ -19,11 +19,12 @@ def prefixed_copy(part: P, prefix: str) -> P:
     """Return a frozen dataclass with the prefix before what stands in the fields that its class calls PREFIXED.
 
     A prefix that could be a name itself makes nothing wrong that was right before, so nobody looks again; any other
-    one goes through the constructor, which says what is wrong with it.
+    one goes through the constructor, which says what is wrong with it. So does a part of somebody else's class, which
+    may check or compute more than ours.
     """
     kind = part.__class__
     if kind not in _COPIERS:
-        _COPIERS[kind] = _written_copier(kind)
+        _COPIERS[kind] = _written_copier(kind) if kind.__module__.startswith(_OURS) else _constructed_copy
     copy: P = _COPIERS[kind](part, prefix)
     return copy if _is_harmless(prefix) else replace(copy)  # type: ignore[type-var]  # P is a dataclass, see above
 
@@ -33,7 +34,25 @@ def _is_harmless(prefix: str) -> bool:
     return is_valid_name(prefix)
 
 
+_OURS = f"{__name__.partition('.')[0]}."
 _COPIERS: dict[type, _Copier] = {}
+
+
+def _constructed_copy(part: Any, prefix: str) -> Any:
+    return replace(part, **{name: _under_prefix(getattr(part, name), prefix) for name in part.PREFIXED})
+
+
+def _under_prefix(value: Any, prefix: str) -> Any:
+    """Return what a field holds, be it a name, names, parts or a mapping by names, under a prefix."""
+    if not value:
+        return value
+    if isinstance(value, str):
+        return prefix + value
+    if isinstance(value, tuple):
+        return tuple(_under_prefix(each, prefix) for each in value)
+    if isinstance(value, FrozenMap):
+        return FrozenMap({prefix + name: each for name, each in value.items()})
+    return value.with_prefix(prefix)
 
 
 def _written_copier(kind: type[Any]) -> _Copier:

@@ -11,6 +11,9 @@ from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.types import FAULT, Fault, Value
 from linkforge_compile.source import Span
 
+MAX_CHAIN = 64
+"""How many names may be computed through one another, each for the one before it."""
+
 
 @dataclass(frozen=True, slots=True)
 class Lazy:
@@ -76,22 +79,29 @@ class Scope:
         if name in self._open:
             sink.report(self._circle(name, lazy))
             return FAULT
+        if len(self._open) > MAX_CHAIN:
+            self._tell_of_a_chain(f"more than {MAX_CHAIN}", sink)
+            return FAULT
         self._open.append(name)
         value: Value | Fault = FAULT
         try:
             value = lazy.compute()
         except RecursionError:
-            # A name through a name through a name: only the first of them has the stack to say so.
+            # Names in deep maps and brackets use up the stack before the bound: only the first of them can say so.
             if len(self._open) > 1:
                 raise
-            # What lies further down the chain may be told of, too, once this one is shorter.
-            if not self._told_of_a_chain:
-                sink.report(codes.CHAIN_TOO_LONG.at(lazy.declared, first=name))
-            self._told_of_a_chain = True
+            self._tell_of_a_chain("too many", sink)
         finally:
             self._open.pop()
             self._values[name] = value
         return value
+
+    def _tell_of_a_chain(self, count: str, sink: Diagnostics) -> None:
+        """Report that the first of the open names needs too many others; once, as the rest of them may, too."""
+        first = self._values[self._open[0]]
+        if isinstance(first, Lazy) and not self._told_of_a_chain:
+            sink.report(codes.CHAIN_TOO_LONG.at(first.declared, first=self._open[0], count=count))
+        self._told_of_a_chain = True
 
     def _circle(self, name: str, lazy: Lazy) -> Diagnostic:
         round_trip = self._open[self._open.index(name) :]

@@ -12,15 +12,18 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Note
 from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
 from linkforge_compile.lowering.asked_names import tell_unknown_names
+from linkforge_compile.lowering.clashes import Clash, told_of_clashes
 from linkforge_compile.lowering.duplicates import tell_duplicate
 from linkforge_compile.lowering.file import LoweredFile, gaps_of, lower_file
+from linkforge_compile.lowering.joint import position_measure
 from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
-from linkforge_compile.lowering.mount import Mount, lower_mount, module_fields
-from linkforge_compile.lowering.own_mount import handed_on, hang_on_world, hung_by, only_mount
+from linkforge_compile.lowering.module_joint import ModuleJoint, lower_module_joint, module_fields
+from linkforge_compile.lowering.mount import handed_on, hang_on_world, hung_by, only_mount
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
+    from linkforge_compile.core.models.joint import Joint
     from linkforge_compile.core.models.srdf import SemanticRobotDescription
     from linkforge_compile.lowering.unprefixed import PassedOn
 
@@ -43,7 +46,7 @@ class Lowered:
     unmerged: tuple[Robot, ...]
     gaps: Gaps
     under_a_prefix: tuple[Diagnostic, ...] = ()
-    mount: Mount | None = None
+    mount: ModuleJoint | None = None
 
 
 def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = None) -> Lowered:
@@ -77,6 +80,7 @@ class _Fold:
         self._unmerged: list[Robot] = []
         self._parts = dict(_parts(file.robot))
         self._parts.update((("group state", state.key), state.fields.ref) for state in file.states)
+        self._owners: dict[PartKey, Instance] = {}
         self._held = {joint.child for joint in file.robot.joints}
         self._mounts = list(file.mounts)
         self._passed_on = _passed_on(file.robot)
@@ -93,27 +97,28 @@ class _Fold:
         component = lowered.robot
         root = _root_of(component) if component else None
         final_root = None if root is None else module.prefix + root
-        mount = self._mount(module, lowered.mount, final_root)
+        hanging = self._module_joint(module, lowered.mount, final_root)
         if component is None:
             joined = False
         elif (root is None and not lowered.gaps) or not self._prefixed(component, module):
             joined = self._leave_out(component, module.prefix, lowered.gaps)
-        elif self._clashes(component):
+        elif clashes := tuple(self._clashes(component)):
+            self._sink.report_all(told_of_clashes(module, clashes))
             joined = self._leave_out(component, "", lowered.gaps)
         else:
-            held = mount is not None or final_root in self._held
+            held = hanging is not None or final_root in self._held
             joined = self._join(component, module, lowered.gaps, final_root if held else None)
-        if mount and not (joined and self._connect(mount)):
-            self._gaps |= gaps_of([mount.name])
+        if hanging and not (joined and self._connect(hanging)):
+            self._gaps |= gaps_of([hanging.name])
 
-    def _mount(self, module: Instance, own: Mount | None, root: str | None) -> Mount | None:
+    def _module_joint(self, module: Instance, own: ModuleJoint | None, root: str | None) -> ModuleJoint | None:
         """Return the joint by which a module hangs: its own, or that of its entry; None for the base of this robot."""
         if own is None:
-            return lower_mount(module, root, self._sink)
+            return lower_module_joint(module, root, self._sink)
         if module.entry is not None and module.entry.node.child("parent") is not None:
             return hung_by(own, module, root, self._sink)
         self._mounts.append(handed_on(own, module.prefix))
-        return lower_mount(module, root, self._sink)
+        return lower_module_joint(module, root, self._sink)
 
     def finished(self, *, hangs_alone: bool) -> Lowered:
         """Return the robot with its group states, which may name those of its modules.
@@ -127,9 +132,12 @@ class _Fold:
             from linkforge_compile.lowering.srdf_states import Surroundings, resolve_states
 
             semantic = self._robot.semantic
+            joints: dict[str, Joint | None] = {joint.name: joint for joint in self._robot.joints}
+            joints |= {mount.name: mount.joint for mount in self._mounts}
             around = Surroundings(
                 groups=dict.fromkeys(group.name for group in semantic.groups),
-                joints=frozenset((*self._robot.joints.names, *(mount.name for mount in self._mounts))),
+                joints=joints,
+                measure=lambda name: position_measure(joints.get(name)),
                 states={(state.group, state.name): state.joint_values for state in semantic.group_states},
                 lost=self._gaps,
             )
@@ -155,29 +163,26 @@ class _Fold:
         component.prefix_all(module.prefix)
         return True
 
-    def _clashes(self, component: Robot) -> bool:
-        """Tell every final name that is taken already; materials that are equal may share one."""
-        clashes = [(key, source) for key, source in _parts(component) if key in self._parts]
-        for (kind, key), source in clashes:
-            name = "/".join(map(str, key)) if isinstance(key, tuple) else str(key)
-            tell_duplicate(self._sink, kind, name, source, self._parts[kind, key])
-        unlike = [
-            (material, own)
-            for name, material in component.materials.items()
-            if (own := self._robot.materials.get(name, material)) != material
-        ]
-        for material, own in unlike:
-            tell_duplicate(self._sink, "material", material.name, material.source, own.source)
-        return bool(clashes or unlike)
+    def _clashes(self, component: Robot) -> Iterator[Clash]:
+        """Yield every part whose final name is taken already; materials that are equal may share one."""
+        for (kind, key), _ in _parts(component):
+            if (kind, key) in self._parts:
+                name = "/".join(map(str, key)) if isinstance(key, tuple) else str(key)
+                yield Clash(f"{kind} '{name}'", self._owners.get((kind, key)), self._parts[kind, key])
+        for name, material in component.materials.items():
+            own = self._robot.materials.get(name, material)
+            if own != material:
+                yield Clash(f"material '{name}'", self._owners.get(("material", name)), own.source)
 
     def _join(self, component: Robot, module: Instance, gaps: Gaps, held: str | None) -> bool:
         """Merge a component, whose root `held` hangs on a link now; None for the root of the whole.
 
         The joint by which it hangs is added apart, for its parent may be a link of a module that comes later.
         """
-        parts = dict(_parts(component))
         if held is not None and component.says_semantic:
             self._leave_out_virtual_joints(component, held, module.prefix)
+        parts = dict(_parts(component))
+        materials = [("material", name) for name in component.materials if name not in self._robot.materials]
         try:
             self._robot.merge(component, None, None)
         except RobotModelError as error:
@@ -186,25 +191,29 @@ class _Fold:
                 self._sink.report(refusal)
             return self._leave_out(component, "", gaps)
         self._parts.update(parts)
+        self._owners.update(dict.fromkeys((*parts, *materials), module))
         return True
 
     def _leave_out_virtual_joints(self, component: Robot, root: str, prefix: str) -> None:
-        """Leave out how a module would stand in the world by itself, once it hangs on a link.
+        """Leave out how a module would stand in the world by itself, once it hangs on a link, and what names that.
 
         Told with the names that its file writes, so once for a file that is used twice.
         """
-        semantic = component.semantic
-        to_root = [joint for joint in semantic.virtual_joints if joint.child_link == root]
-        for joint in to_root:
-            name, link = joint.name.removeprefix(prefix), root.removeprefix(prefix)
-            self._sink.report(VIRTUAL_JOINT_LEFT_OUT.at(joint.source, joint=name, link=link))
-        if to_root:
-            kept = tuple(joint for joint in semantic.virtual_joints if joint not in to_root)
-            component.semantic = replace(semantic, virtual_joints=kept)
+        for joint in component.semantic.virtual_joints:
+            if joint.child_link != root:
+                continue
+            from linkforge_compile.lowering.left_out import without_virtual_joint
 
-    def _connect(self, mount: Mount) -> bool:
+            left = without_virtual_joint(component.semantic, joint.name, prefix)
+            component.semantic = left.semantic
+            name, link = joint.name.removeprefix(prefix), root.removeprefix(prefix)
+            self._sink.report(VIRTUAL_JOINT_LEFT_OUT.at(joint.source, joint=name, others=left.words, link=link))
+            note = Note("left out with this virtual joint", joint.source.span if joint.source else None)
+            self._gaps |= Gaps(removed=dict.fromkeys((joint.name, *left.groups), note))
+
+    def _connect(self, hanging: ModuleJoint) -> bool:
         """Add the joint that a module hangs by; its parent may belong to a module that comes later."""
-        joint = mount.joint
+        joint = hanging.joint
         if joint is None:
             return False
         if ("joint", joint.name) in self._parts:
@@ -212,8 +221,8 @@ class _Fold:
             return False
         self._parts["joint", joint.name] = joint.source
         self._robot.joints = self._robot.joints.extended((joint,))
-        if mount.gazebo:
-            self._robot.gazebo_elements = self._robot.gazebo_elements.extended(mount.gazebo)
+        if hanging.gazebo:
+            self._robot.gazebo_elements = self._robot.gazebo_elements.extended(hanging.gazebo)
         return True
 
     def _leave_out(self, component: Robot, prefix: str, gaps: Gaps) -> bool:

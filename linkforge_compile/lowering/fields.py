@@ -19,10 +19,12 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_KIND,
 )
 from linkforge_compile.diagnostics.codes.names import INVALID_NAME
+from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.quantities import Bound, Measure, Refusal, doubt, found, si_number
 from linkforge_compile.source import SourceRef, Span
-from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
+from linkforge_compile.syntax.xacro import xacro_facts
 from linkforge_compile.units import Dimension, number_text
 
 T = TypeVar("T")
@@ -76,9 +78,9 @@ class Fields:
             return None
         return int(value)
 
-    def flag(self, key: str, *, required: str = "") -> bool | None:
+    def flag(self, key: str) -> bool | None:
         """Read true or false."""
-        node = self.said(key, required)
+        node = self.node.get(key)
         if node is None or isinstance(node, YamlFault):
             return None
         if isinstance(node, YamlScalar) and isinstance(node.value, bool):
@@ -151,7 +153,7 @@ class Fields:
         section = self.map(key)
         for entry in section.node if section else ():
             node, owner = entry.value, f"{kind} '{entry.name}'"
-            if _is_null(node):
+            if is_null(node):
                 node = YamlMap({}, entry.key.span)
             if isinstance(node, YamlMap):
                 yield entry.name, lower(Fields(node, owner, self.sink, self.trail, entry.key.span), entry.name)
@@ -163,7 +165,7 @@ class Fields:
         """Yield the outer key and the inner entry of every `{outer: {inner: value}}` under a key."""
         section = self.map(key)
         for outer in section.node if section else ():
-            if _is_null(outer.value):
+            if is_null(outer.value):
                 continue
             inner = self.map_at(outer.value, f"'{outer.name}' in {key}")
             for entry in inner.node if inner else ():
@@ -229,6 +231,9 @@ class Fields:
         """Tell of a name that URDF readers do not take; True where they do."""
         if is_valid_name(name):
             return True
+        if facts := xacro_facts(name):
+            self.tell(XACRO_EXPRESSION, where, text=facts["text"], ours=facts["ours"])
+            return False
         wrong = next((character for character in name if not is_valid_name(character)), None)
         reason = "it is empty" if wrong is None else f"{wrong!r} may not stand in one"
         self.tell(INVALID_NAME, where, name=name, kind=kind, reason=reason)
@@ -275,10 +280,6 @@ class Fields:
         """Report a node of another kind than its field takes; silent where that has been done."""
         if not isinstance(node, YamlFault):
             self.tell(WRONG_KIND, node, field=field, expected=expected, found=found(node))
-
-
-def _is_null(node: YamlNode) -> bool:
-    return isinstance(node, YamlScalar) and node.value is None
 
 
 def or_default(said: T | None, default: T) -> T:

@@ -11,6 +11,7 @@ from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics, Gaps
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.lowering.duplicates import tell_duplicate
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
@@ -29,11 +30,13 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.ros2_control import Ros2Control
     from linkforge_compile.core.models.sensor import Sensor
     from linkforge_compile.core.models.transmission import Transmission
-    from linkforge_compile.lowering.mount import Mount
+    from linkforge_compile.lowering.module_joint import ModuleJoint
     from linkforge_compile.lowering.srdf import Semantic
     from linkforge_compile.lowering.srdf_states import WrittenState
 
 _SECTIONS_OF_NAMES = ("links", "joints", "frames", "mount", "modules", "semantic", "include")
+_SECTIONS_OF_MATERIALS = ("materials", "include")
+_SECTIONS_OF_SEMANTIC_NAMES = ("virtual_joints", "groups", "group_states", "end_effectors")
 
 Plain: TypeAlias = "None | bool | int | float | str | list[Plain] | dict[str, Plain]"
 
@@ -45,7 +48,7 @@ class LoweredFile:
     robot: Robot
     states: tuple[WrittenState, ...]
     gaps: Gaps
-    mounts: tuple[Mount, ...] = ()
+    mounts: tuple[ModuleJoint, ...] = ()
 
 
 def lower_file(
@@ -55,7 +58,7 @@ def lower_file(
     file = Fields(tree, "robot", sink, trail)
     materials = lower_materials(file, FileScope(mesh_bases))
     lost_materials = gaps_of(name for name, material in materials.items() if material is None)
-    if any(isinstance(tree.get(section), YamlFault) for section in ("materials", "include")):
+    if _has_lost(tree, _SECTIONS_OF_MATERIALS):
         lost_materials |= Gaps(prefixes=("",))
     kept_materials = {name: material for name, material in materials.items() if material}
     scope = FileScope(mesh_bases, kept_materials, lost_materials, meshes)
@@ -82,9 +85,15 @@ def lower_file(
     )
     lost = [name for parts in (links, joints) for name, part in parts.items() if part is None]
     gaps = gaps_of([*lost, *(semantic.lost_groups if semantic else ())])
-    if any(isinstance(tree.get(section), YamlFault) for section in _SECTIONS_OF_NAMES):
+    if _has_lost(tree, _SECTIONS_OF_NAMES) or _has_lost(tree.get("semantic"), _SECTIONS_OF_SEMANTIC_NAMES):
         gaps |= Gaps(prefixes=("",))
     return LoweredFile(robot, semantic.states if semantic else (), gaps, tuple(_mounts(file)))
+
+
+def _has_lost(node: YamlNode | None, sections: tuple[str, ...]) -> bool:
+    """Whether a map has one of these sections with a fault, be it only that its key is misspelt."""
+    faulty = [entry.name for entry in node if isinstance(entry.value, YamlFault)] if isinstance(node, YamlMap) else []
+    return any(nearest(name, sections) for name in faulty)
 
 
 def gaps_of(names: Iterable[str]) -> Gaps:
@@ -120,12 +129,12 @@ def _add_frame(frame: Frame, links: dict[str, Link | None], joints: dict[str, Jo
 # What a file does not say is not imported for it either: the classes of each concept cost start-up time.
 
 
-def _mounts(file: Fields) -> Iterable[Mount]:
+def _mounts(file: Fields) -> Iterable[ModuleJoint]:
     if file.node.get("mount") is None:
         return ()
-    from linkforge_compile.lowering.own_mount import lower_own_mounts
+    from linkforge_compile.lowering.mount import lower_mounts
 
-    return lower_own_mounts(file)
+    return lower_mounts(file)
 
 
 def _sensors(file: Fields) -> tuple[Sensor, ...]:

@@ -55,7 +55,7 @@ _MOTIONS = {
 _WITHOUT_AXIS = (JointType.FIXED, JointType.FLOATING)
 
 # What stands in for what is faulty, which has been told: the joint stays, so that its ends and the tree are judged.
-# Nothing of it is ever written, since a robot with errors is not rendered.
+# Nothing of it is ever written: a compile that told an error gives no robot.
 _STAND_IN_TYPE = JointType.REVOLUTE
 _STAND_IN_AXIS = Vector3(0.0, 0.0, 1.0)
 _STAND_IN_LIMITS = JointLimits(-sys.float_info.max, sys.float_info.max, 0.0, 0.0)
@@ -70,6 +70,17 @@ _AXES = {
     "-y": Vector3(0.0, -1.0, 0.0),
     "-z": Vector3(0.0, 0.0, -1.0),
 }
+
+
+_SOME_POSITION = Measure((Dimension.ANGLE, Dimension.LENGTH))
+
+
+def position_measure(joint: Joint | None) -> Measure:
+    """Return what a position of a joint is measured in: an angle, a length, or either where its type is not known."""
+    if joint is None or joint.limits == _STAND_IN_LIMITS:
+        return _SOME_POSITION
+    dimensions = _MOTIONS[joint.type].position
+    return Measure(dimensions) if dimensions else _SOME_POSITION
 
 
 class Ends(NamedTuple):

@@ -1,84 +1,101 @@
-"""The joint between a module and the link that it hangs on, as the module's entry says it."""
+"""`mount`: the joint by which a file hangs on a link of whoever uses it, or on `world` by itself."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from dataclasses import replace
 
-from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.model import MOUNT_WITHOUT_PARENT
+from linkforge_compile.core.models.geometry import Transform
+from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.model import (
+    MOUNT_AND_JOINT,
+    MOUNT_NOT_AT_ROOT,
+    MOUNT_SAYS_ENDS,
+    TWO_MOUNTS,
+)
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.joint import Ends, joint_between
+from linkforge_compile.lowering.module_joint import ModuleJoint, gazebo_of, module_fields
 from linkforge_compile.modules.assembly import Instance
-from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
 
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.gazebo import GazeboElement
-
-
-class Mount(NamedTuple):
-    """The name of a module's joint, the joint, None where it is lost, and what a simulator is told about it."""
-
-    name: str
-    joint: Joint | None
-    gazebo: tuple[GazeboElement, ...] = ()
+WORLD = "world"
+"""The link on which a file hangs by its mount where nobody uses it."""
 
 
-def module_fields(module: Instance, sink: Diagnostics) -> Fields | None:
-    """Return the entry of `modules` that a module was used by, None for the compiled file itself."""
-    entry = module.entry
-    if entry is None or not isinstance(entry.node, YamlMap):
-        return None
-    return Fields(entry.node, f"module '{module.name}'", sink, entry.trail, entry.key)
+def lower_mounts(file: Fields) -> list[ModuleJoint]:
+    """Lower what a file says under `mount`, each joint with `world` in the place of the link that it will hang on."""
+    if file.node.get("mount") is None:
+        return []
+    lowered = file.each("mount", "joint", _lower)
+    return [mount or ModuleJoint(name, None) for name, mount in lowered]
 
 
-def lower_mount(module: Instance, root: str | None, sink: Diagnostics) -> Mount | None:
-    """Lower the joint from a module's `parent` to its root link (final name; None where it has no single one).
+def _lower(fields: Fields, name: str) -> ModuleJoint:
+    for end in ("parent", "origin"):
+        if (said := fields.node.get(end)) is not None:
+            fields.tell(MOUNT_SAYS_ENDS, said, owner=fields.owner, field=end)
+    valid_name = name if fields.name_is_valid(name, "joint", fields.ref) else None
+    joint_type = fields.choice("type", JointType, required="revolute")
+    ends = Ends(WORLD, fields.text("child", required="hip"), Transform.identity())
+    return ModuleJoint(name, joint_between(fields, valid_name, joint_type, ends), gazebo_of(fields, name))
 
-    Returns None for a module without `parent`, which is the base of the robot that uses it.
+
+def only_mount(mounts: Sequence[ModuleJoint], sink: Diagnostics) -> ModuleJoint | None:
+    """Return the joint by which a robot hangs, None where it has none; a second one is reported."""
+    for mount in mounts[1:]:
+        if mount.joint and mounts[0].joint:
+            notes = [Note("the first stands here", mounts[0].joint.source.span)] if mounts[0].joint.source else []
+            sink.report(TWO_MOUNTS.at(mount.joint.source, joint=mount.name, first=mounts[0].name, notes=notes))
+    return mounts[0] if mounts else None
+
+
+def handed_on(mount: ModuleJoint, prefix: str) -> ModuleJoint:
+    """Return the mount of a module as that of the robot which has the module's root for its own."""
+    joint = mount.joint.with_prefix(prefix) if mount.joint else None
+    # The prefix is for what is in the module, and the link that it hangs on is not.
+    joint = replace(joint, parent=WORLD) if joint else None
+    return ModuleJoint(prefix + mount.name, joint, tuple(one.with_prefix(prefix) for one in mount.gazebo))
+
+
+def hung_by(mount: ModuleJoint, module: Instance, root: str | None, sink: Diagnostics) -> ModuleJoint:
+    """Return the mount of a module, with its final names, as the joint to the link that its entry names.
+
+    `root` is the final name of the module's root link, None where it has no single one.
     """
     written = module_fields(module, sink)
-    if written is None:
-        return None
-    if written.node.get("parent") is None:
-        for field in ("joint", "origin"):
-            if (said := written.node.get(field)) is not None:
-                written.tell(MOUNT_WITHOUT_PARENT, said, owner=written.owner, field=field)
-        return None
-    default = f"{module.name}_joint"
-    name = _name(written, default)
-    joint = _as_joint(written, name or default)
-    joint_type = JointType.FIXED if joint.node.get("type") is None else joint.choice("type", JointType)
-    ends = Ends(joint.text("parent"), root, joint.origin())
-    return Mount(name or default, joint_between(joint, name, joint_type, ends), gazebo_of(joint, name or default))
+    whole = handed_on(mount, module.prefix)
+    if written is None or whole.joint is None:
+        return whole
+    if (said := written.node.get("joint")) is not None:
+        written.tell(MOUNT_AND_JOINT, said, owner=written.owner, joint=mount.name)
+    parent, origin = written.text("parent"), written.origin()
+    if parent is None or not _holds_root(whole, root, module.prefix, sink):
+        return whole._replace(joint=None)
+    joint = whole.joint
+    return whole._replace(joint=written.build(lambda: replace(joint, parent=parent, origin=origin)))
 
 
-def gazebo_of(joint: Fields, name: str) -> tuple[GazeboElement, ...]:
-    """Lower what a simulator is told of a joint that stands in no section of joints."""
-    if joint.node.get("gazebo") is None:
-        return ()
-    from linkforge_compile.lowering.gazebo import lower_gazebo
-
-    return tuple(lower_gazebo(joint, name))
-
-
-def _name(module: Fields, default: str) -> str | None:
-    """Read the joint's name: `joint` itself, or `name` in it; None where its fault has been told."""
-    said = module.node.get("joint")
-    if isinstance(said, YamlMap):
-        joint = module.map_at(said, "joint")
-        if joint and said.get("name") is not None:
-            return joint.name("name", "joint")
-    elif said is not None:
-        return module.name("joint", "joint")
-    return default if module.name_is_valid(default, "joint", module.ref) else None
+def hang_on_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diagnostics) -> bool:
+    """Hang a compiled robot on the link `world`, made as its first unless it is declared; False for a fault."""
+    if mount.joint is None or not _holds_root(mount, root, "", sink):
+        return False
+    if WORLD not in robot.links:
+        robot.links = (Link(WORLD, source=mount.joint.source), *robot.links)
+    robot.joints = (mount.joint, *robot.joints)
+    robot.gazebo_elements = robot.gazebo_elements.extended(mount.gazebo)
+    return True
 
 
-def _as_joint(module: Fields, name: str) -> Fields:
-    """Return the entry as if its joint stood among the joints: what `joint` says, with `parent` and `origin`."""
-    said = module.node.get("joint")
-    fields = said.entries if isinstance(said, YamlMap) else {}
-    ends = {key: entry for key in ("parent", "origin") if (entry := module.node.entries.get(key))}
-    named = said if isinstance(said, YamlScalar) else said and said.child("name")
-    node = YamlMap({**fields, **ends}, module.node.span)
-    return Fields(node, f"joint '{name}'", module.sink, module.trail, named.span if named else module.key)
+def _holds_root(mount: ModuleJoint, root: str | None, prefix: str, sink: Diagnostics) -> bool:
+    """Whether a mount holds the root link, as far as there is one; reports where it does not."""
+    joint = mount.joint
+    if joint is None or root is None or joint.child == root:
+        return True
+    child, expected = joint.child.removeprefix(prefix), root.removeprefix(prefix)
+    sink.report(
+        MOUNT_NOT_AT_ROOT.at(joint.source, "child", joint=mount.name.removeprefix(prefix), link=child, root=expected)
+    )
+    return False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from graphlib import CycleError, TopologicalSorter
@@ -13,16 +13,14 @@ from linkforge_compile.diagnostics.codes.model import STATE_CIRCLE, STATE_VALUE_
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import Measure
-from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar
-from linkforge_compile.units import Dimension, parse_quantity, unit_text
+from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar, is_null
+from linkforge_compile.units import parse_quantity, unit_text
 
 StateKey: TypeAlias = tuple[str, str]
 """A group and the name of one of its states."""
 
 Positions: TypeAlias = Mapping[str, object]
 """Positions by joint, each a tuple of one number [rad] or [m] for every degree of freedom."""
-
-_POSITION = Measure((Dimension.ANGLE, Dimension.LENGTH))
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,11 +44,13 @@ class WrittenState:
 class Surroundings:
     """What a file's states may refer to: names of its own and, with their prefix, of its modules.
 
-    `states` are those of the modules; `lost` is what is missing because it was faulty.
+    `measure` says what a position of the joint of a name is measured in. `states` are those of the modules;
+    `lost` is what is missing because it was faulty.
     """
 
     groups: Collection[str]
     joints: Container[str]
+    measure: Callable[[str], Measure]
     states: Mapping[StateKey, Positions]
     lost: Container[str]
 
@@ -60,7 +60,7 @@ def written_states(semantic: Fields) -> Iterator[WrittenState]:
     for group, entry in semantic.nested("group_states"):
         owner = f"state '{entry.name}' of group '{group.text}'"
         values = entry.value
-        if isinstance(values, YamlScalar) and values.value is None:
+        if is_null(values):
             values = YamlMap({}, entry.key.span)
         if not isinstance(values, YamlMap):
             semantic.tell_kind(values, owner, "a map of positions by joint")
@@ -151,9 +151,9 @@ def _tell_unknown_state(
 
 
 def _own_position(fields: Fields, entry: YamlEntry, around: Surroundings) -> Positions | None:
-    node, field = entry.value, f"joint '{entry.name}'"
+    node, field, measure = entry.value, f"joint '{entry.name}'", around.measure(entry.name)
     if isinstance(node, YamlList):
-        numbers = [fields.number_at(item, field, _POSITION) for item in node]
+        numbers = [fields.number_at(item, field, measure) for item in node]
         return None if None in numbers else {entry.name: tuple(numbers)}
     text = node.value if isinstance(node, YamlScalar) and isinstance(node.value, str) else None
     if text is not None and parse_quantity(text) is None and unit_text(text) is None:
@@ -162,5 +162,5 @@ def _own_position(fields: Fields, entry: YamlEntry, around: Surroundings) -> Pos
         if entry.name not in around.joints:
             fields.tell(UNKNOWN_GROUP, entry.key, near=around.groups, name=entry.name)
             return None
-    number = fields.number_at(node, field, _POSITION)
+    number = fields.number_at(node, field, measure)
     return None if number is None else {entry.name: (number,)}

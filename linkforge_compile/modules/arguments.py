@@ -57,6 +57,8 @@ def arguments_from_values(values: Mapping[str, object]) -> Arguments:
     """Take Python values: text is read as on the command line, None sets nothing; TypeError for what no spec says."""
     entries: dict[str, YamlEntry] = {}
     for name, given in values.items():
+        if not isinstance(name, str):
+            raise TypeError(f"a parameter is set by its name, which is text, found {name!r}")
         value = _spec_value(name, given)
         shown = value if isinstance(value, str) else repr(given)
         file = SourceFile("<parameters>", f"{name}={shown}")

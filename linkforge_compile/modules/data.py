@@ -13,7 +13,7 @@ from linkforge_compile.modules.uses import UseSite, locate
 from linkforge_compile.modules.values import plain_value
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import Tags, YamlEntry, YamlFault, YamlNode, YamlScalar
-from linkforge_compile.units import Dimension, Quantity
+from linkforge_compile.units import number_text
 
 
 def data_value(
@@ -38,7 +38,10 @@ def data_value(
 
 
 def _tags(sink: Diagnostics) -> Tags:
-    """Return xacro's tags for angles, which take a number or an expression of numbers such as `pi/2`."""
+    """Return xacro's tags for angles, which take a number or an expression of numbers such as `pi/2`.
+
+    They give a bare number, as in xacro: vendors write `max_velocity: !degrees 180` with them as well.
+    """
 
     def angle(tag: str, in_radians: Callable[[float], float]) -> Callable[[YamlScalar], YamlNode]:
         def make(scalar: YamlScalar) -> YamlNode:
@@ -46,7 +49,8 @@ def _tags(sink: Diagnostics) -> Tags:
             if number is None:
                 sink.report(TAG_NOT_NUMBER.at(scalar.span, tag=tag, text=scalar.text))
                 return YamlFault(scalar.span)
-            return YamlScalar(scalar.text, Quantity(in_radians(number), Dimension.ANGLE), scalar.span)
+            radians = in_radians(number)
+            return YamlScalar(number_text(radians), radians, scalar.span)
 
         return make
 

@@ -22,6 +22,7 @@ from linkforge_compile.expressions import (
     kind_name,
     parse_template,
 )
+from linkforge_compile.modules.computed import judge_computed
 from linkforge_compile.modules.conditions import MAX_REPEATED, occurrences
 from linkforge_compile.modules.values import node_of, plain_value, size_of
 from linkforge_compile.schema.repetition import WORDS
@@ -33,13 +34,11 @@ from linkforge_compile.units import parse_quantity
 MAX_COMPUTED_NODES = 1_000_000
 """How many nodes the expressions of all files together may give."""
 
-_TEXT_KEYS = frozenset(
-    {"name", "version", "description", "metadata", "joint_properties", "parameters", "properties"}
-    | {"extra", "extra_attributes", "command_interfaces", "state_interfaces", "hardware_interfaces"}
-    | {"hardware_plugin", "filename", "topic", "frame", "link", "reference"}
-    | {"use", "prefix", "parent", "child", "file", "texture", "base_link", "tip_link", "child_link", "parent_link"}
-)
-"""Keys under which text may look like a number: names, paths, and the free parts with all that is in them."""
+MAX_COMPUTED_TEXT = 64_000_000
+"""How many characters the expressions of all files together may give."""
+
+MAX_COMPUTED_DEPTH = 100
+"""How deep the lists and maps of one value may lie in one another: every later stage walks them by recursion."""
 
 _NEGATED = re.compile(r"-\s*\$\(\s*([A-Za-z_][\w.]*)\s*\)")
 
@@ -53,6 +52,7 @@ class Expressions:
         self._changing: dict[YamlList | YamlMap, bool] = {}
         self._sizes: dict[YamlList | YamlMap, int] = {}
         self._computed_nodes = 0
+        self._computed_text = 0
         self._repeated_nodes = 0
 
     def template(self, scalar: YamlScalar, sink: Diagnostics) -> Template | None:
@@ -107,11 +107,25 @@ class Expressions:
         self._repeated_nodes += nodes
         return within and (True if self._repeated_nodes <= MAX_REPEATED else None)
 
-    def admit(self, value: Value) -> bool | None:
-        """Count a value's nodes; None for the one that goes beyond the bound, False for all behind it."""
-        within = self._computed_nodes <= MAX_COMPUTED_NODES
-        self._computed_nodes += size_of(value, MAX_COMPUTED_NODES)
-        return within and (True if self._computed_nodes <= MAX_COMPUTED_NODES else None)
+    def admit(self, value: Value, where: Span, sink: Diagnostics) -> bool:
+        """Count what a value makes; False for the one that goes beyond a bound, which is reported, and all behind."""
+        size = size_of(value, MAX_COMPUTED_NODES)
+        if size.depth > MAX_COMPUTED_DEPTH:
+            limit = f"{MAX_COMPUTED_DEPTH} lists and maps inside each other"
+            sink.report(TREE_TOO_LARGE.at(where, limit=limit))
+            return False
+        was_beyond = self._limit_passed
+        self._computed_nodes += size.nodes
+        self._computed_text += size.characters
+        if self._limit_passed and not was_beyond:
+            sink.report(TREE_TOO_LARGE.at(where, limit=self._limit_passed))
+        return not self._limit_passed
+
+    @property
+    def _limit_passed(self) -> str | None:
+        if self._computed_nodes > MAX_COMPUTED_NODES:
+            return f"{MAX_COMPUTED_NODES:,} values"
+        return f"{MAX_COMPUTED_TEXT:,} characters" if self._computed_text > MAX_COMPUTED_TEXT else None
 
     def tell_made_number(self, node: YamlNode, value: Value, sink: Diagnostics) -> bool:
         """Report text that an expression inside it makes look like a number or quantity; True where it does.
@@ -183,27 +197,29 @@ class TreeEvaluator:
                 return self._map_value(node)
         return FAULT
 
-    def node(self, node: YamlNode, shape: Shape = FREE, *, is_text: bool = False) -> YamlNode:
+    def node(self, node: YamlNode, shape: Shape = FREE, *, key: str = "", is_free: bool = False) -> YamlNode:
         """Return the tree with every expression computed, and repeated where it says so; what says nothing is as it is.
 
         What is at fault becomes a YamlFault; an entry whose key is keeps the key as written. `shape` tells where
-        `for` and `when` are more than keys, `is_text` that nothing in the node is read as a number.
+        `for` and `when` are more than keys, and judges what an expression under `key` makes of itself; `is_free`
+        that the node is in a part of which nothing is read as a number.
         """
         if not self.expressions.change(node):
             return node
+        is_free = is_free or shape.is_free_part
         match node:
             case YamlScalar():
-                return self._scalar(node, is_text)
+                return judge_computed(self._scalar(node, is_free or shape.is_text), key, shape, self.sink)
             case YamlList():
                 item = shape.item or (shape if shape.is_object else FREE)
-                return YamlList(tuple(self._items(node, item, is_text)), node.span)
+                return YamlList(tuple(self._items(node, item, key, is_free)), node.span)
             case YamlMap():
-                return self._map(node, shape, is_text)
+                return self._map(node, shape, is_free)
         return node
 
-    def part(self, node: YamlNode, shape: Shape) -> YamlNode | None:
-        """Return the computed part of an object, None where its `when` takes it out."""
-        return next((tree.node(copy, shape) for tree, copy in occurrences(node, shape, self)), None)
+    def part(self, node: YamlNode, shape: Shape, key: str) -> YamlNode | None:
+        """Return the computed part of an object under a key, None where its `when` takes it out."""
+        return next((tree.node(copy, shape, key=key) for tree, copy in occurrences(node, shape, self)), None)
 
     def key(self, key: YamlScalar) -> YamlScalar | None:
         """Return a key with its expressions computed; None where it is at fault, which is reported."""
@@ -218,10 +234,10 @@ class TreeEvaluator:
             return None
         return YamlScalar(text, text, key.span)
 
-    def _items(self, items: Iterable[YamlNode], shape: Shape, is_text: bool) -> Iterator[YamlNode]:
+    def _items(self, items: Iterable[YamlNode], shape: Shape, key: str, is_free: bool) -> Iterator[YamlNode]:
         for item in items:
             for tree, copy in occurrences(item, shape, self, is_item=True):
-                yield tree.node(copy, shape, is_text=is_text)
+                yield tree.node(copy, shape, key=key, is_free=is_free)
 
     def entries(self, node: YamlMap, shape: Shape) -> Iterator[tuple[TreeEvaluator, YamlEntry]]:
         """Yield each entry of a map as often as it is there, as written, with what computes it."""
@@ -241,13 +257,13 @@ class TreeEvaluator:
             for tree, copy in occurrences(value, inner, self, key=key):
                 yield tree, written if copy is value else YamlEntry(written.key, copy)
 
-    def _map(self, node: YamlMap, shape: Shape, is_text: bool) -> YamlMap:
+    def _map(self, node: YamlMap, shape: Shape, is_free: bool) -> YamlMap:
         entries: dict[str, YamlEntry] = {}
         for tree, written in self.entries(node, shape):
-            tree._add(entries, written, shape, is_text)
+            tree._add(entries, written, shape, is_free)
         return YamlMap(entries, node.span)
 
-    def _add(self, entries: dict[str, YamlEntry], written: YamlEntry, around: Shape, is_text: bool) -> None:
+    def _add(self, entries: dict[str, YamlEntry], written: YamlEntry, around: Shape, is_free: bool) -> None:
         """Compute an entry and add it to others; of two with one key, the second is reported."""
         # The key of what is faulty stays as it is: its names may be those of the fault itself.
         key = written.key if isinstance(written.value, YamlFault) else self.key(written.key)
@@ -258,7 +274,7 @@ class TreeEvaluator:
         else:
             value: YamlNode = written.value
             if self.expressions.change(value):
-                value = self.node(value, around.under(written.name), is_text=is_text or key.text in _TEXT_KEYS)
+                value = self.node(value, around.under(written.name), key=key.text, is_free=is_free)
             unchanged = key is written.key and value is written.value
             entries[key.text] = written if unchanged else YamlEntry(key, value)
 
@@ -290,9 +306,7 @@ class TreeEvaluator:
         value = self._computed(scalar)
         if value is FAULT or (not is_text and self.expressions.tell_made_number(scalar, value, self.sink)):
             return YamlFault(scalar.span)
-        admitted = self.expressions.admit(value)
-        if admitted is None:
-            self.sink.report(TREE_TOO_LARGE.at(scalar.span, limit=f"{MAX_COMPUTED_NODES:,}"))
+        admitted = self.expressions.admit(value, scalar.span, self.sink)
         return node_of(value, scalar.span) if admitted else YamlFault(scalar.span)
 
 

@@ -169,16 +169,17 @@ def _tree(use: _Use, tree: TreeEvaluator) -> YamlMap:
     defaults = use.spec.tree.get("defaults")
     if defaults is None:
         return computed
-    filling = tree.part(without_repetition(defaults, tree.sink), shapes().under("defaults"))
+    filling = tree.part(without_repetition(defaults, tree.sink), shapes().under("defaults"), "defaults")
     return with_defaults(computed, filling) if filling else computed
 
 
 def _entries(use: _Use, tree: TreeEvaluator) -> Iterator[ModuleEntry]:
     """Yield the entries of `modules`, each as often as it says; one without a name for what nobody can read."""
     written = use.spec.tree.get("modules")
-    section = tree.node(written) if isinstance(written, YamlScalar) else written
+    shape = shapes().under("modules")
+    section = tree.node(written, shape, key="modules") if isinstance(written, YamlScalar) else written
     if isinstance(section, YamlMap):
-        shape = shapes().under("modules") if section is written else FREE
+        shape = shape if section is written else FREE
         for scope, entry in tree.entries(section, shape):
             yield read_entry(entry, scope, use.spec.writer(entry.key.span).folder, use.trail)
     elif section is not None and not (isinstance(section, YamlScalar) and section.value is None):

@@ -7,6 +7,7 @@ from enum import Enum
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.files import FILE_OUTSIDE_PACKAGE
 from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_NOT_SET,
     PARAMETER_WITHOUT_TYPE,
@@ -133,7 +134,11 @@ def _given_value(
     value = None if node is None else given.value(node, parameter.kind)
     if node is None or value is None:
         return None
-    return _in_the_file(parameter, _judged(parameter, node, value, tree, sink), given.arguments.folder, spec)
+    taken = _judged(parameter, node, value, tree, sink)
+    path = _in_the_file(parameter, taken, given.arguments.folder, spec)
+    if isinstance(taken, str) and path != taken and Path(str(path)).is_absolute():
+        sink.report(FILE_OUTSIDE_PACKAGE.at(node.span, path=taken))
+    return path
 
 
 def _own_value(

@@ -21,7 +21,7 @@ from linkforge_compile.diagnostics.codes.files import (
 from linkforge_compile.expressions import has_expression
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.source import SourceFile
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 
 MAX_DEPTH = 20
 MAX_INCLUDES = 200
@@ -160,9 +160,9 @@ def _laid(first: YamlMap, second: YamlMap, path: tuple[str, ...], sink: Diagnost
     entries = dict(first.entries)
     for entry in second:
         ours, inner = entries.get(entry.name), (*path, entry.name)
-        if ours is None or (_holds_entries(inner) and _is_null(ours.value)):
+        if ours is None or (_holds_entries(inner) and is_null(ours.value)):
             entries[entry.name] = entry
-        elif not (_holds_entries(inner) and _is_null(entry.value)):
+        elif not (_holds_entries(inner) and is_null(entry.value)):
             entries[entry.name] = YamlEntry(ours.key, _both(ours, entry, inner, sink))
     return YamlMap(entries, first.span)
 
@@ -195,10 +195,6 @@ def _holds_entries(path: tuple[str, ...]) -> bool:
 def _items(node: YamlNode) -> Iterator[YamlNode]:
     """Yield the items of a list, or the one thing that stands for a list of one."""
     yield from node if isinstance(node, YamlList) else (node,)
-
-
-def _is_null(node: YamlNode) -> bool:
-    return isinstance(node, YamlScalar) and node.value is None
 
 
 def _why_not_plain(path: str, folder: Path | None) -> str | None:

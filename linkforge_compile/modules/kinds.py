@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -47,7 +48,10 @@ def kind_of(value: Value) -> Kind:
 
 
 def _number(value: Value) -> Value:
-    return None if isinstance(value, bool) or not isinstance(value, int | float) else value
+    """A finite number; what is none cannot be compared with a minimum or a maximum."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    return value if math.isfinite(value) else None
 
 
 def _integer(value: Value) -> Value:
@@ -60,7 +64,7 @@ def _integer(value: Value) -> Value:
 def _quantity(dimension: Dimension, value: Value) -> Value:
     """A quantity of the dimension; a bare number is one in SI units."""
     if isinstance(value, Quantity):
-        return value if value.dimension is dimension else None
+        return value if value.dimension is dimension and math.isfinite(value.value) else None
     number = _number(value)
     return Quantity(float(number), dimension) if isinstance(number, int | float) else None
 
@@ -68,7 +72,8 @@ def _quantity(dimension: Dimension, value: Value) -> Value:
 def _vector(value: Value) -> Value:
     if not isinstance(value, tuple) or len(value) != 3:
         return None
-    return value if all(isinstance(item, Quantity) or _number(item) is not None for item in value) else None
+    sizes = [item.value if isinstance(item, Quantity) else item for item in value]
+    return value if all(_number(size) is not None for size in sizes) else None
 
 
 def _boolean(value: Value) -> Value:

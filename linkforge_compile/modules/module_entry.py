@@ -39,7 +39,7 @@ def read_entry(entry: YamlEntry, tree: TreeEvaluator, folder: Path | None, trail
     key = tree.key(entry.key)
     name = key.text if key else entry.name
     written = entry.value
-    body = tree.node(written) if isinstance(written, YamlScalar) else written
+    body = tree.node(written, module_shape(), key=name) if isinstance(written, YamlScalar) else written
     if isinstance(body, YamlScalar) and body.value is None:
         body = YamlMap({}, entry.key.span)
     if not isinstance(body, YamlMap):
@@ -71,7 +71,8 @@ def with_fields(entry: ModuleEntry, fields: YamlMap, sink: Diagnostics) -> Modul
     """Return an entry that says these fields, all of it but `with` and `override`; what is at fault is reported."""
     use = _text(fields, "use", "a file name", entry.name, sink)
     prefix = _text(fields, "prefix", "text", entry.name, sink)
-    if use is None:
+    # A key that nobody knows may have been meant for it, which was reported.
+    if use is None and not any(isinstance(field.value, YamlFault) for field in fields):
         sink.report(MODULE_WITHOUT_FILE.at(entry.ref.span, name=entry.name))
     return replace(
         entry,
@@ -87,7 +88,7 @@ def _override(written: YamlNode | None, name: str, tree: TreeEvaluator) -> Overr
         return None
     shape = module_shape().under("override")
     refuse_empty(written, shape, tree.sink)
-    patch = tree.part(written, shape)
+    patch = tree.part(written, shape, "override")
     if isinstance(patch, YamlMap):
         return Override(patch, tree.sink)
     if patch is None or isinstance(patch, YamlFault) or (isinstance(patch, YamlScalar) and patch.value is None):

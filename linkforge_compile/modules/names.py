@@ -9,8 +9,8 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from linkforge_compile.diagnostics import Code, Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes import expressions as expression_codes
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics.codes.expressions import SEEN_IN_THE_TEXT
 from linkforge_compile.diagnostics.codes.modules import (
     INVALID_VARIABLE_NAME,
     NAME_OF_TWO_KINDS,
@@ -28,16 +28,11 @@ from linkforge_compile.modules.parameters import Declaration, declarations
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.modules.uses import rebased
 from linkforge_compile.modules.variants import Variants, variants_of
+from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-
-_SEEN_IN_THE_TEXT = {
-    code.id for code in vars(expression_codes).values() if isinstance(code, Code) and not "LF3120" <= code.id < "LF3140"
-}
-"""The faults of an expression that it has whatever the values of its names are."""
-
 
 _KINDS = {"parameters": "parameter", "variables": "variable", "data": "data name"}
 """The sections that declare names, and what each is called."""
@@ -104,7 +99,7 @@ class FileNames:
 
     def _declared_packages(self) -> dict[str, Path]:
         section = self._spec.tree.get("packages")
-        declared = self.tree.node(section) if section else None
+        declared = self.tree.node(section, shapes().under("packages"), key="packages") if section else None
         folders = {}
         for entry in declared if isinstance(declared, YamlMap) else ():
             if isinstance(entry.value, YamlScalar):
@@ -139,6 +134,8 @@ class FileNames:
         value = parameter_value(declaration, self._given, self._variants, self._spec, self.tree)
         if value is not None:
             return value
+        if declaration.is_faulty:
+            return FAULT
         self._unset.append(declaration)
         if self._is_unset_told and not self._given.arguments.is_partial:
             tell_unset(declaration, self._given)
@@ -231,5 +228,5 @@ class _TextFaults(Diagnostics):
         self._sink = sink
 
     def report(self, diagnostic: Diagnostic) -> None:
-        if diagnostic.code.id in _SEEN_IN_THE_TEXT:
+        if diagnostic.code in SEEN_IN_THE_TEXT:
             self._sink.report(diagnostic)

@@ -11,6 +11,8 @@ from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.model import WIDE_ANGLE
 from linkforge_compile.diagnostics.codes.modules import (
     BAD_PATTERN,
+    CROSSED_BOUNDS,
+    NO_CHOICE,
     PARAMETER_CHOICE,
     PARAMETER_KIND,
     PARAMETER_PATTERN,
@@ -38,7 +40,8 @@ _WHOLE_TURN = 2 * math.pi + 0.005
 class Declaration:
     """A parameter as its file declares it; `kind` is None where it follows from the default.
 
-    `is_faulty` where a part that decides what it takes was reported already: then any value passes in silence.
+    `is_faulty` where a part that decides what it takes was reported already: then any value passes in silence, none
+    as well.
     """
 
     key: YamlScalar
@@ -68,7 +71,11 @@ def _declaration(entry: YamlEntry) -> Declaration:
     word = declared.get("type")
     kind = KINDS.get(word.text) if isinstance(word, YamlScalar) else None
     constraints = {name: declared.entries[name] for name in _CONSTRAINTS if declared.get(name) is not None}
-    return Declaration(entry.key, kind, declared.get("default"), constraints, word is not None and kind is None)
+    default = declared.get("default")
+    # A key that nobody knows may have been meant for the default that is not there.
+    is_misspelt = default is None and any(isinstance(part.value, YamlFault) for part in declared)
+    is_faulty = is_misspelt or (word is not None and kind is None)
+    return Declaration(entry.key, kind, default, constraints, is_faulty)
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,11 +128,16 @@ def parameter_of(declaration: Declaration, kind: Kind, tree: TreeEvaluator) -> P
             tree.sink.report(UNFIT_CONSTRAINT.at(entry.key.span, constraint=name, type=kind.name))
     bounds = Parameter(declaration.name, KINDS["number"] if kind.name == "integer" else kind)
     plain = Parameter(declaration.name, kind)
+    minimum, maximum = (_constraint(bounds, constraints.get(name), tree) for name in ("minimum", "maximum"))
+    if minimum is not None and maximum is not None and _size(minimum) > _size(maximum):
+        where, least, most = constraints["minimum"].span, _plain(minimum), _plain(maximum)
+        tree.sink.report(CROSSED_BOUNDS.at(where, parameter=declaration.name, minimum=least, maximum=most))
+        minimum = maximum = None
     return Parameter(
         declaration.name,
         kind,
-        minimum=_constraint(bounds, constraints.get("minimum"), tree),
-        maximum=_constraint(bounds, constraints.get("maximum"), tree),
+        minimum,
+        maximum,
         choices=_choices(plain, constraints.get("enum"), tree),
         pattern=_pattern(constraints.get("pattern"), tree.sink),
     )
@@ -138,6 +150,9 @@ def _constraint(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) ->
 
 def _choices(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) -> tuple[Value, ...] | None:
     if not isinstance(node, YamlList):
+        return None
+    if not node.items:
+        tree.sink.report(NO_CHOICE.at(node.span, parameter=plain.name))
         return None
     choices = [_constraint(plain, item, tree) for item in node]
     return None if None in choices else tuple(choices)

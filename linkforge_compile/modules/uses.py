@@ -104,7 +104,7 @@ def rebased(path: str, writer: Path | None, reader: SpecFile) -> str:
         return path
     target = follow(writer, path)
     if reader.package and not target.is_relative_to(reader.package.folder):
-        return target.absolute().as_posix()
+        return follow(Path(), str(target.absolute())).as_posix()
     return _steps(target, reader.folder).removesuffix("/")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 from linkforge_compile.expressions import FAULT, Fault, Value, as_text
 from linkforge_compile.source import Span
@@ -49,21 +50,32 @@ def node_of(value: Value, span: Span) -> YamlNode:
     return _scalar(value, span)
 
 
-def size_of(value: Value, limit: int) -> int:
-    """Return how many nodes a value makes, or any number above `limit` where it is more.
+class Size(NamedTuple):
+    """How much a value makes: nodes, characters of text, and how deep its lists and maps lie in one another."""
 
-    Values share their parts, so ten short variables may stand for a billion nodes: counting stops at the limit.
+    nodes: int
+    characters: int
+    depth: int
+
+
+def size_of(value: Value, most_nodes: int) -> Size:
+    """Return how much a value makes; where it is more than `most_nodes` nodes, of those up to there.
+
+    Values share their parts, so ten short variables may stand for a billion nodes: counting stops.
     """
-    size = 0
-    waiting = [value]
-    while waiting and size <= limit:
-        part = waiting.pop()
-        size += 1
-        if isinstance(part, tuple):
-            waiting.extend(part)
+    nodes = characters = depth = 0
+    waiting = [(value, 0)]
+    while waiting and nodes <= most_nodes:
+        part, level = waiting.pop()
+        nodes, depth = nodes + 1, max(depth, level)
+        if isinstance(part, str):
+            characters += len(part)
+        elif isinstance(part, tuple):
+            waiting.extend((item, level + 1) for item in part)
         elif isinstance(part, Mapping):
-            waiting.extend(part.values())
-    return size
+            characters += sum(map(len, part))
+            waiting.extend((item, level + 1) for item in part.values())
+    return Size(nodes, characters, depth)
 
 
 def describe(value: Value) -> str:

@@ -17,11 +17,13 @@ from linkforge_compile.diagnostics.codes.schema import (
     WRONG_KIND,
     WRONG_LENGTH,
 )
+from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
 from linkforge_compile.schema.unbuilt import UNBUILT
 from linkforge_compile.schema.words import COMMON_KEYS, alternatives, expected, field, found, shortened, takes, words_of
-from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
+from linkforge_compile.syntax.xacro import xacro_facts
 
 if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError
@@ -51,13 +53,15 @@ def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
     """Yield the faults behind one error; none where nothing was said or the reader has reported it already."""
     path = tuple(error.absolute_path)
     node = _node_at(tree, path)
-    if isinstance(node, YamlFault) or (_is_null(node) and not isinstance(path[-1], int)):
+    if isinstance(node, YamlFault) or (is_null(node) and not isinstance(path[-1], int)):
         return
     misfit = Misfit(node, path, mapping(error.schema))
     if error.validator == "anyOf" and (branch := _branch_meant(misfit)) is not None:
         for inner in error.context or ():
             if inner.schema_path[0] == branch:
                 yield from explain(inner, tree)
+    elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
+        yield Judgement(XACRO_EXPRESSION.at(node.span, text=facts["text"], ours=facts["ours"]), path)
     else:
         yield from _EXPLAIN[str(error.validator)](misfit)
 
@@ -196,10 +200,6 @@ def _node_at(tree: YamlMap, path: Path) -> YamlNode:
     if node is None:
         raise LookupError(f"no node at {path}")
     return node
-
-
-def _is_null(node: YamlNode) -> bool:
-    return isinstance(node, YamlScalar) and node.value is None
 
 
 def _is_text(node: YamlNode) -> bool:

@@ -19,6 +19,8 @@ class Shape:
     """
 
     def __init__(self, schema: Schema) -> None:
+        self.schema: Final = schema
+        """What a value is judged by that stands here."""
         union = [] if is_plain(schema) else branches(schema)
         self._union = [part for part in union if part and not is_plain(part) and part.get("title") != LONG_FORM]
         self._names = next((part for part in self._union if has_names(part)), None)
@@ -27,6 +29,11 @@ class Shape:
         self._under: dict[str, Shape] = {}
         self.is_plain: Final = not self._union or any(part.get("additionalProperties") is True for part in self._union)
         """Whether all keys in it are the author's, `for` and `when` too."""
+        self.is_free_part: Final = any(_is_free_part(part) for part in (schema, *branches(schema)))
+        """Whether the author may write a part here that no field reads: nothing in it is a number to the compiler."""
+        read_as = {kind for part in self._union if (kind := _read_as(part))}
+        self.is_text: Final = "string" in read_as and "number" not in read_as
+        """Whether a scalar that stands here is a name or other text, and no number."""
         self.has_names: Final = self._names is not None
         """Whether it may be a map keyed by names."""
         self.is_object: Final = self._object is not None and not self.has_names
@@ -78,6 +85,23 @@ class Shape:
             if isinstance(positions, dict) and re.match(POSITION, key):
                 return shape_of(positions)
         return FREE
+
+
+_EXPRESSION = r"\$\("
+"""The pattern of what is nothing but an expression."""
+
+
+def _is_free_part(schema: Schema) -> bool:
+    values = schema.get("additionalProperties")
+    return is_plain(schema) or (isinstance(values, dict) and is_plain(values))
+
+
+def _read_as(schema: Schema) -> str | None:
+    """Return what a scalar is read as: the kind that its schema names first; None where none but expressions may."""
+    kinds = schema.get("type")
+    first = kinds[0] if isinstance(kinds, list) else kinds
+    is_expression = first == "string" and schema.get("pattern") == _EXPRESSION
+    return None if is_expression or first in ("object", "array") or first is None else str(first)
 
 
 def shape_of(schema: Schema) -> Shape:

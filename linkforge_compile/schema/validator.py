@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Final
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.schema.explain import Judgement, Path, explain
+from linkforge_compile.schema.json_types import Schema
 from linkforge_compile.schema.registry import linked
+from linkforge_compile.schema.shapes import Shape
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import Quantity
 
 if TYPE_CHECKING:
     from jsonschema import Draft7Validator
@@ -27,6 +30,27 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     What is missing inside an entry, names, and the units of quantities are for later stages to judge.
     """
     judgements = [judgement for error in _errors(tree, is_included) for judgement in explain(error, tree)]
+    return _told(tree, judgements, sink)
+
+
+def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics) -> YamlNode:
+    """Return a map or list that an expression made, judged as if it were written out under `key`; see `validate`.
+
+    Whether it is itself of the kind and length that stands there, its reader judges, as of any computed value.
+    """
+    from jsonschema import Draft7Validator
+
+    name = YamlScalar(key, key, node.span)
+    tree = YamlMap({key: YamlEntry(name, node)}, node.span)
+    shown = YamlMap({key: YamlEntry(name, _with_units(node))}, node.span)
+    whole: Schema = {"type": "object", "properties": {key: shape.schema}}
+    errors = Draft7Validator(whole).iter_errors({key: _plain(shown.entries[key].value)})
+    judgements = [one for error in errors for one in explain(error, shown) if len(one.path) > 1]
+    return _told(tree, judgements, sink).entries[key].value
+
+
+def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> YamlMap:
+    """Report what was found; return the tree without what it is about."""
     for judgement in sorted(judgements, key=lambda judgement: judgement.diagnostic.order):
         sink.report(judgement.diagnostic)
     return _pruned(tree, judgements) if judgements else tree
@@ -46,6 +70,19 @@ def _errors(tree: YamlMap, is_included: bool) -> Iterator[ValidationError]:
         if tree.get(name) is None:
             data.pop(name, None)
     return _validator(is_included).iter_errors(data)
+
+
+def _with_units(node: YamlNode) -> YamlNode:
+    """Return a node with its computed quantities as a person writes them: "0.1 m"."""
+    match node:
+        case YamlMap():
+            return YamlMap({one.name: YamlEntry(one.key, _with_units(one.value)) for one in node}, node.span)
+        case YamlList():
+            return YamlList(tuple(map(_with_units, node)), node.span)
+        case YamlScalar(text=text, value=Quantity(dimension=dimension)):
+            written = f"{text} {dimension.si_unit}"
+            return YamlScalar(written, written, node.span)
+    return node
 
 
 _FAULTY: Final = object()

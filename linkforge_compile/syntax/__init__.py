@@ -8,6 +8,7 @@ from linkforge_compile.syntax.nodes import (
     YamlMap,
     YamlNode,
     YamlScalar,
+    is_null,
 )
 from linkforge_compile.syntax.reader import Tags, read, read_data
 from linkforge_compile.syntax.scalars import scalar_value
@@ -23,6 +24,7 @@ __all__ = [
     "YamlMap",
     "YamlNode",
     "YamlScalar",
+    "is_null",
     "read",
     "read_data",
     "scalar_value",

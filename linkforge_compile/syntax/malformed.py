@@ -11,14 +11,18 @@ from yaml.events import ScalarEvent
 
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
+from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.marks import Marks
+from linkforge_compile.syntax.xacro import XACRO_EXPRESSION, xacro_facts
 
 _IN_QUOTES = re.compile(r"'[^']*'|\"[^\"]*\"")
 _COMMENT = re.compile(r"(?:^|\s)#.*")
 _KEY_STUCK_TO_VALUE = re.compile(r"\s*(?:-\s+)?([^\s:'\"]+:(?!//)[^\s:]\S*)")
 _WORD = re.compile(r"\w[\w$().-]*")
 _ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
+_IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
+_LONGEST_EXPRESSION = 2_000
 
 
 def is_cut_expression(text: str) -> bool:
@@ -28,6 +32,29 @@ def is_cut_expression(text: str) -> bool:
         return False
     rest = _IN_QUOTES.sub("", text[start:])
     return rest.count("(") > rest.count(")")
+
+
+def explain_cut(event: ScalarEvent, marks: Marks) -> Diagnostic:
+    """Return what is wrong with an expression that ended before its `)`: it needs quotes, or there is none."""
+    assert event.start_mark is not None, "the parser marks every event"
+    assert event.end_mark is not None, "the parser marks every event"
+    opening = marks.text.rfind("$(", event.start_mark.index, event.end_mark.index)
+    if _closes(marks.text, opening + len("$(")):
+        return codes.UNQUOTED_EXPRESSION.at(marks.scalar(event))
+    return UNCLOSED_EXPRESSION.at(marks.part(opening, len("$(")))
+
+
+def _closes(text: str, start: int) -> bool:
+    """Whether a `)` comes for the parenthesis before `start`, before what stands in no expression."""
+    closing = [")"]
+    for token in _IN_EXPRESSION.finditer(text, start, start + _LONGEST_EXPRESSION):
+        if token[0] in ("(", "["):
+            closing.append(")" if token[0] == "(" else "]")
+        elif token[0][0] not in "'\"" and token[0] != closing.pop():
+            return False
+        if not closing:
+            return True
+    return False
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,9 +181,13 @@ def _entry_expected(trouble: _Trouble) -> Diagnostic:
 
 
 def _bracket_expected(trouble: _Trouble) -> Diagnostic:
-    last = trouble.last_scalar
+    last, text = trouble.last_scalar, trouble.marks.text
     if last and not last.style and is_cut_expression(last.value):
-        return codes.UNQUOTED_EXPRESSION.at(trouble.marks.scalar(last))
+        return explain_cut(last, trouble.marks)
+    xacro = XACRO_EXPRESSION.match(text, max(trouble.at - len("$"), 0))
+    if xacro and (facts := xacro_facts(xacro[0])):
+        span = trouble.marks.part(xacro.start(), len(xacro[0]))
+        return codes.XACRO_EXPRESSION.at(span, text=facts["text"], ours=facts["ours"])
     opening = trouble.marks.part(trouble.began, 1)
     closing = "]" if "sequence" in trouble.construct else "}"
     return codes.UNCLOSED_BRACKET.at(trouble.here, closing=closing, notes=[Note("opened here", opening)])

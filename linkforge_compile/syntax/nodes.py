@@ -91,9 +91,7 @@ class YamlMap:
     def get(self, key: str) -> YamlNode | None:
         """Return what is said under `key`, None where nothing is: a value of null is as if not written."""
         entry = self.entries.get(key)
-        if entry is None or (isinstance(entry.value, YamlScalar) and entry.value.value is None):
-            return None
-        return entry.value
+        return None if entry is None or is_null(entry.value) else entry.value
 
     def child(self, key: str | int) -> YamlNode | None:
         entry = self.entries.get(str(key))
@@ -130,3 +128,8 @@ class YamlFault:
 
 
 YamlNode: TypeAlias = YamlScalar | YamlList | YamlMap | YamlFault
+
+
+def is_null(node: YamlNode) -> bool:
+    """Whether a node is null, written as `null` or by writing nothing."""
+    return isinstance(node, YamlScalar) and node.value is None

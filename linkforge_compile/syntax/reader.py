@@ -14,7 +14,7 @@ from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
-from linkforge_compile.syntax.malformed import explain, is_cut_expression
+from linkforge_compile.syntax.malformed import explain, explain_cut, is_cut_expression
 from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import is_overflow, scalar_value
@@ -22,11 +22,15 @@ from linkforge_compile.syntax.scalars import is_overflow, scalar_value
 MAX_DEPTH = 100
 """How deep lists and maps may nest: every later stage walks the tree by recursion."""
 
+MAX_READ_TWICE = 250_000
+"""How many characters a file may have that PyYAML's own parser, which is slow, reads where libyaml cannot."""
+
 MAX_NODES = 1_000_000
 """How many nodes aliases may make of a tree, each alias counted as a copy of its own; a data file has no more."""
 
 # PyYAML may have been built without libyaml; its own parser gives the same events, only slower.
-PARSER: type[yaml.BaseLoader | yaml.CBaseLoader] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+Parser: TypeAlias = type["yaml.BaseLoader | yaml.CBaseLoader"]
+PARSER: Parser = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 Tags: TypeAlias = Mapping[str, Callable[[YamlScalar], YamlNode]]
 """What a scalar with a tag becomes, by the tag; a fault of it is for the function to report."""
@@ -62,12 +66,20 @@ def _root(file: SourceFile, sink: Diagnostics, tags: Tags | None) -> YamlNode | 
         span = marks.part(forbidden.start(), 1)
         sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
         return None
-    reader = _Reader(marks, sink, tags)
+    return _document(marks, sink, tags, PARSER)
+
+
+def _document(marks: Marks, sink: Diagnostics, tags: Tags | None, parser: Parser) -> YamlNode | None:
+    reader = _Reader(marks, sink, tags, parser)
     try:
         return reader.document()
     except _UnreadableError as unreadable:
         sink.report(unreadable.diagnostic)
     except yaml.MarkedYAMLError as error:
+        # `{mass:}` is YAML 1.2, but none to libyaml; what was reported before it is reported again, and kept once.
+        is_empty_field = parser is not yaml.BaseLoader and error.problem == "found unexpected ':'"
+        if is_empty_field and len(marks.text) <= MAX_READ_TWICE:
+            return _document(marks, sink, tags, yaml.BaseLoader)
         sink.report(explain(error, marks, reader.last_scalar))
     return None
 
@@ -101,12 +113,12 @@ class _Anchor:
 class _Reader:
     """One pass over the events of one document."""
 
-    def __init__(self, marks: Marks, sink: Diagnostics, tags: Tags | None) -> None:
+    def __init__(self, marks: Marks, sink: Diagnostics, tags: Tags | None, parser: Parser) -> None:
         self.last_scalar: events.ScalarEvent | None = None
         self._marks = marks
         self._sink = sink
         self._tags = tags
-        self._parser = PARSER(marks.text)
+        self._parser = parser(marks.text)
         self._anchors: dict[str, _Anchor | None] = {}  # None while the anchored node is still being read
         self._size = 0
         self._deepest = 0
@@ -218,7 +230,7 @@ class _Reader:
             self._sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
             return YamlFault(span)
         if flow and not event.style and is_cut_expression(text):
-            self._sink.report(codes.UNQUOTED_EXPRESSION.at(span))
+            self._sink.report(explain_cut(event, self._marks))
             return _CutExpression(span)
         return YamlScalar(text, text, span)
 

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from numbers import Integral
+
 
 def number_text(value: float) -> str:
     """Return the shortest decimal text that reads back to the same double.
 
     Whole numbers carry no ".0", zero no sign, and exponents no padding: 4.0 is "4", -0.0 is "0", 1e-07 is "1e-7".
-    Python's repr is the shortest by digits (David Gay's algorithm); integers keep every digit.
+    Python's repr is the shortest by digits (David Gay's algorithm); integers keep every digit. Numbers of NumPy are
+    written as the double, or the integer, that they are.
     """
-    if isinstance(value, int):
-        return str(int(value))
+    if not isinstance(value, float):
+        if isinstance(value, Integral):
+            return str(int(value))
+        value = float(value)
     if value == 0:
         return "0"
-    digits, marker, exponent = repr(value).partition("e")
+    digits, marker, exponent = float.__repr__(value).partition("e")
     if not marker:
         return digits.removesuffix(".0")
     return f"{digits}e{int(exponent)}"

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from linkforge_compile.core import (
@@ -269,3 +270,52 @@ def test_shapes_are_made_of_plain_numbers():
     assert cylinder(1, 2).length == 2
     assert capsule(1, 2).radius == 1
     assert mesh("a.stl", (1, 1, 2)).scale == Vector3(1, 1, 2)
+
+
+def test_a_continuous_joint_without_effort_and_velocity_has_no_limits():
+    def limits(**given):
+        return RobotBuilder("r").link("a").child("b").continuous((0, 0, 1), **given).build().joints[0].limits
+
+    assert limits(effort=None, velocity=None) is None
+    assert limits(effort=None, velocity=2.0) == JointLimits(0.0, 0.0, 0.0, 2.0)
+    assert limits() == JointLimits(0.0, 0.0, 10.0, 1.0)
+
+
+def test_triples_may_be_arrays_of_numpy():
+    place, axis = np.array([1.0, 2.0, 3.0]), np.array([0, 0, 2])
+    builder = RobotBuilder("r")
+    base = builder.link("a").visual(box(1, 1, 1), xyz=place).collision(xyz=place).mass(1, origin_xyz=place)
+    base.child("b").revolute(axis, np.array([-1, 1]), xyz=place).imu("imu", xyz=place).commit()
+    builder.attach(
+        Robot("m", links=[Link("m")]), "b", joint_type="revolute", xyz=place, axis=axis, limits=np.array([0, 1])
+    )
+    robot = builder.build()
+    at = Vector3(1, 2, 3)
+    link = robot.link("a")
+    assert (link.visuals[0].origin.xyz, link.collisions[0].origin.xyz, link.inertial.origin.xyz) == (at, at, at)
+    assert [joint.origin.xyz for joint in robot.joints] == [at, at]
+    assert [joint.axis for joint in robot.joints] == [Vector3(0, 0, 1)] * 2
+
+
+def test_a_commit_that_fails_leaves_the_robot_as_it_was():
+    builder = RobotBuilder("r")
+    builder.link("base").imu("imu").commit()
+    before = builder.robot.clone()
+    for link in (
+        builder.link("arm", parent="nowhere").fixed().physics(material="Gazebo/Red"),
+        builder.link("hand", parent="base").fixed().imu("palm").imu("imu"),
+    ):
+        with pytest.raises(RobotValidationError):
+            link.commit()
+        assert builder.robot == before
+    builder.link("nowhere", parent="base").fixed().commit()
+    assert builder.robot.links.names == ("base", "nowhere")
+
+
+def test_a_block_that_fails_commits_nothing():
+    builder = RobotBuilder("r")
+    base = builder.link("base").mass(3)
+    with pytest.raises(ZeroDivisionError), base:
+        _ = 1 / 0
+    assert builder.robot.link("base").inertial is None
+    assert builder.link("next")._parent is None

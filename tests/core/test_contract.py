@@ -245,6 +245,12 @@ def test_fields_stand_in_order_with_their_defaults(name):
         assert dict(fields_of(cls, kw_only=True))[field] == default
 
 
+@pytest.mark.parametrize("name", FIELDS)
+def test_dataclasses_gives_the_fields_of_the_contract_first(name):
+    names = [field.name for field in dataclasses.fields(getattr(core, name))]
+    assert names[: len(FIELDS[name])] == list(FIELDS[name])
+
+
 def test_what_nobody_says_semantically_is_an_empty_description():
     assert core.Robot("r").semantic == SemanticRobotDescription(robot_name="r")
 
@@ -257,6 +263,15 @@ def test_every_class_with_fields_is_in_the_table():
 @pytest.mark.parametrize("enum", ENUMS, ids=lambda enum: enum.__name__)
 def test_enums_have_these_values_and_are_their_text(enum):
     assert {str(member) for member in enum} == set(ENUMS[enum].split())
+
+
+@pytest.mark.parametrize("enum", [JointType, GeometryType, SensorType, ValidationErrorCode], ids=lambda e: e.__name__)
+def test_members_of_enums_are_called_as_their_values_in_capitals(enum):
+    assert [member.name for member in enum] == [member.value.upper() for member in enum]
+
+
+def test_kinds_of_transmissions_are_called_so():
+    assert [kind.name for kind in TransmissionType] == ["SIMPLE", "DIFFERENTIAL", "FOUR_BAR_LINKAGE", "CUSTOM"]
 
 
 @pytest.mark.parametrize("name", METHODS)

@@ -1,8 +1,19 @@
 """Exporting is a method of the robot: checked first, unless one says not to."""
 
+import numpy as np
 import pytest
 
-from linkforge_compile.core import Joint, Link, Robot, RobotGeneratorError
+from linkforge_compile.core import (
+    GroupState,
+    Inertial,
+    Joint,
+    Link,
+    Robot,
+    RobotGeneratorError,
+    SemanticRobotDescription,
+    Transform,
+    Vector3,
+)
 
 
 def test_a_robot_is_written_as_urdf_and_srdf():
@@ -24,3 +35,22 @@ def test_a_chain_of_ten_thousand_links_can_be_exported():
     robot = Robot("snake", links=[Link(f"l{number}") for number in range(10_000)])
     robot.joints = [Joint(f"j{number}", "fixed", f"l{number}", f"l{number + 1}") for number in range(9_999)]
     assert robot.export_urdf().count("<joint ") == 9_999
+
+
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.float64, np.int32, np.int64])
+def test_numbers_of_numpy_are_written_as_numbers(kind):
+    robot = Robot("arm", links=[Link("base", Inertial(kind(2)))])
+    robot.add_link(Link("tool"))
+    robot.add_joint(Joint("weld", "fixed", "base", "tool", Transform(Vector3(*np.array([1, 2, 3], kind)))))
+    robot.semantic = SemanticRobotDescription(group_states=[GroupState("home", "g", {"weld": kind(2)})])
+    urdf = robot.export_urdf(validate=False)
+    assert '<mass value="2"/>' in urdf
+    assert 'xyz="1 2 3"' in urdf
+    assert '<joint name="weld" value="2"/>' in robot.export_srdf(validate=False)
+
+
+def test_a_version_that_was_set_later_is_written():
+    robot = Robot("arm", links=[Link("base")])
+    assert "version=" not in robot.export_urdf().split("<link")[0].split("<robot")[1]
+    robot.version = "2.0"
+    assert '<robot name="arm" version="2.0">' in robot.export_urdf(validate=False)

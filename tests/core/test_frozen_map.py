@@ -1,6 +1,7 @@
 """A mapping that hashes, pickles, and equals any mapping of the same items."""
 
 import copy
+import json
 import pickle
 
 import pytest
@@ -44,11 +45,28 @@ def test_it_joins_with_dicts_on_either_side():
     assert {"a": 2, "b": 3} | FrozenMap({"a": 1}) == {"a": 1, "b": 3}
 
 
-def test_it_cannot_be_changed():
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda frozen: frozen.__setitem__("a", 2),
+        lambda frozen: frozen.__delitem__("a"),
+        lambda frozen: frozen.__ior__({"b": 1}),
+        lambda frozen: frozen.update(b=1),
+        lambda frozen: frozen.setdefault("b", 1),
+        lambda frozen: frozen.pop("a"),
+        lambda frozen: frozen.popitem(),
+        lambda frozen: frozen.clear(),
+    ],
+)
+def test_it_cannot_be_changed(change):
     frozen = FrozenMap({"a": 1})
-    with pytest.raises(TypeError):
-        frozen["a"] = 2
-    with pytest.raises(AttributeError):
-        frozen._items = {}
-    with pytest.raises(AttributeError):
-        del frozen._items
+    with pytest.raises(TypeError, match="cannot be changed"):
+        change(frozen)
+    assert frozen == {"a": 1}
+
+
+def test_it_is_a_dict_to_whoever_asks_for_one():
+    frozen = FrozenMap({"a": 1, "b": FrozenMap({"c": 2})})
+    assert isinstance(frozen, dict)
+    assert json.dumps(frozen) == '{"a": 1, "b": {"c": 2}}'
+    assert list(reversed(frozen)) == ["b", "a"]

@@ -1,8 +1,9 @@
 """Merging: everything nameable comes along, all of it or nothing."""
 
 import sys
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from subprocess import run
+from types import MappingProxyType
 
 import pytest
 
@@ -22,6 +23,7 @@ from linkforge_compile.core import (
     Material,
     PassiveJoint,
     Robot,
+    RobotBuilder,
     RobotModelError,
     Ros2Control,
     Ros2ControlJoint,
@@ -248,3 +250,78 @@ robot.merge(Robot("s", links=[Link("b")]), "a", "j", prefix="x_").root_link
 print("networkx" in sys.modules, "linkforge_compile.core.models.srdf" in sys.modules)
 """
     assert run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "False False\n"
+
+
+def test_links_of_one_name_are_told_as_such_and_not_as_what_follows_from_them():
+    arm = Robot("arm", links=[Link("base"), Link("tool")], joints=[Joint("j", "fixed", "base", "tool")])
+    for module in (
+        Robot("module", links=[Link("tool")]),  # not as a joint from a link to itself
+        Robot("module", links=[Link("root"), Link("tool")], joints=[Joint("k", "fixed", "root", "tool")]),
+        Robot("module", links=[Link("new"), Link("base")], joints=[Joint("k", "fixed", "new", "base")]),  # nor a cycle
+    ):
+        before = arm.clone()
+        with pytest.raises(RobotModelError) as merged:
+            arm.merge(module, "tool", "mount")
+        with pytest.raises(RobotModelError) as attached:
+            RobotBuilder(robot=arm).attach(module, "tool")
+        assert merged.value.code is attached.value.code is Code.DUPLICATE_NAME
+        assert arm == before
+
+
+def test_what_is_merged_stands_behind_in_its_order_and_the_mount_last():
+    arm = Robot("arm", links=[Link("z")])
+    module = Robot("module", links=[Link("c"), Link("a"), Link("b")])
+    module.joints = [Joint("cb", "fixed", "c", "b"), Joint("ba", "fixed", "b", "a")]
+    arm.merge(module, "z", "mount", prefix="m_")
+    assert arm.links.names == ("z", "m_c", "m_a", "m_b")
+    assert arm.joints.names == ("m_cb", "m_ba", "mount")
+
+
+def test_own_extra_attributes_win():
+    arm = Robot("arm", links=[Link("base")], extra_attributes={"kind": "own"})
+    arm.merge(Robot("m", links=[Link("x")], extra_attributes={"kind": "other", "more": "1"}), "base", "mount")
+    assert dict(arm.extra_attributes) == {"kind": "own", "more": "1"}
+
+
+@pytest.mark.parametrize(
+    "break_it",
+    [
+        lambda robot: setattr(robot, "extra_attributes", [("alone",)]),
+        lambda robot: setattr(robot, "materials", MappingProxyType({})),
+    ],
+    ids=["extra_attributes", "materials"],
+)
+def test_what_cannot_be_taken_in_changes_nothing(break_it):
+    arm = Robot("arm", links=[Link("base")])
+    break_it(arm)
+    module = Robot("m", links=[Link("x")], materials={"steel": Material("steel", RED)})
+    with pytest.raises((ValueError, AttributeError)):
+        arm.merge(module, "base", "mount")
+    assert arm.links.names == ("base",)
+    assert arm.joints == ()
+
+
+@dataclass(frozen=True)
+class Rated(Joint):
+    """A joint of a user's own, who computes something."""
+
+    payload: float = 0.0
+
+    def __post_init__(self):
+        Joint.__post_init__(self)
+        object.__setattr__(self, "label", f"{self.name}: {self.payload} kg")
+
+
+def test_a_part_of_a_class_of_ones_own_takes_a_prefix_and_is_made_anew():
+    robot = Robot("arm", links=[Link("a"), Link("b")])
+    robot.add_joint(Rated("j", "fixed", "a", "b", payload=3.0))
+    robot.prefix_all("left_")
+    assert robot.joint("left_j").label == "left_j: 3.0 kg"
+    assert (robot.joints[0].parent, robot.joints[0].child) == ("left_a", "left_b")
+
+
+def test_a_prefix_that_no_name_may_have_is_refused():
+    for joint in (Joint("j", "fixed", "a", "b"), Rated("j", "fixed", "a", "b")):
+        with pytest.raises(RobotModelError) as refused:
+            joint.with_prefix("a b")
+        assert refused.value.code is Code.INVALID_NAME

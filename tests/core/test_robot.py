@@ -18,6 +18,7 @@ from linkforge_compile.core import (
     Joint,
     JointType,
     Link,
+    PassiveJoint,
     Robot,
     RobotValidationError,
     Ros2Control,
@@ -335,3 +336,37 @@ def test_a_pickle_carries_no_graph():
     slim = len(pickle.dumps(robot))
     assert not robot.has_cycle
     assert len(pickle.dumps(robot)) == slim
+
+
+def test_reading_what_is_said_semantically_changes_nothing():
+    one, other = Robot("one"), Robot("one")
+    assert other.semantic.robot_name == "one"
+    one.name = other.name = "two"
+    assert one == other
+    assert one.semantic.robot_name == other.semantic.robot_name == "two"
+
+
+def test_what_is_said_semantically_is_said_of_the_robot_by_its_name_of_now():
+    robot = Robot("one", links=[Link("a")], semantic=SemanticRobotDescription("elsewhere"))
+    robot.disable_default_collisions("a")
+    assert robot.semantic.robot_name == "one"
+    robot.name = "two"
+    assert (robot.semantic.robot_name, robot.semantic.no_default_collision_links) == ("two", ("a",))
+    robot.semantic = SemanticRobotDescription("elsewhere")
+    assert robot.semantic.robot_name == "two"
+
+
+def test_descriptions_join_by_one_law():
+    twice = SemanticRobotDescription(passive_joints=[PassiveJoint("j"), PassiveJoint("j")])
+    with pytest.raises(RobotValidationError, match="Duplicate passive joint") as merged:
+        SemanticRobotDescription().merge_with(twice)
+    with pytest.raises(RobotValidationError, match="Duplicate passive joint") as added:
+        Robot("r").add_semantic(twice)
+    assert str(merged.value) == str(added.value)
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_every_protocol_pickles_a_robot(protocol):
+    robot = Robot("r", links=[Link("a"), Link("b")], joints=[Joint("j", "fixed", "a", "b")])
+    robot.disable_collisions("a", "b").add_group("g", links=["a"])
+    assert pickle.loads(pickle.dumps(robot, protocol)) == robot

@@ -124,17 +124,20 @@ def test_a_module_that_repeats_names_is_told_and_checked_alone():
             materials: {skin: {color: [0, 0, 1]}}
             links: {torso: , palm: }
             semantic: {group_states: {hand: {open: {}}}}
-            modules: {left: {parent: torso, prefix: ""}}
-            """,
+            modules:
+              left:
+                parent: torso
+                prefix: ""   # E[LF4107]:13 module 'left' and this file both have PARTS
+            """.replace("PARTS", "link 'palm' and 2 more; give the module another prefix"),
             {
                 "left": Spec(
                     """
                     name: hand
-                    materials: {skin: {color: [1, 0, 0]}}   # E[LF4101]:13 there are two materials named 'skin'
-                    links: {palm: }   # E[LF4101]:9 there are two links named 'palm'
+                    materials: {skin: {color: [1, 0, 0]}}
+                    links: {palm: }
                     semantic:
                       groups: {hand: {links: [palm]}}
-                      group_states: {hand: {open: {}}}   # E[LF4101]:25 there are two group states named 'hand/open'
+                      group_states: {hand: {open: {}}}
                     """
                 )
             },
@@ -143,6 +146,26 @@ def test_a_module_that_repeats_names_is_told_and_checked_alone():
     assert names(result.robot.links) == ["torso", "palm"]
     assert names(result.unmerged) == ["hand"]
     assert "left_joint" in result.gaps
+
+
+def test_modules_of_one_prefix_are_told_at_the_second_whatever_they_share():
+    blue, red = (
+        Spec(f"links: {{{part}: }}\nmaterials: {{skin: {{color: {color}}}}}")
+        for part, color in (("palm", "[0, 0, 1]"), ("wrist", "[1, 0, 0]"))
+    )
+    result = lowered(
+        Spec(
+            """
+            name: body
+            links: {torso: }
+            modules:
+              left: {parent: torso, prefix: x_}
+              right: {parent: torso, prefix: x_}   # E[LF4106]:34 modules 'left' and 'right' both have PARTS
+            """.replace("PARTS", "material 'x_skin'; give one of them another prefix"),
+            {"left": blue, "right": red},
+        )
+    )
+    assert names(result.robot.links) == ["torso", "x_palm"]
 
 
 def test_a_module_that_is_no_tree_is_handed_out_for_its_own_check():

@@ -53,8 +53,9 @@ def test_a_fault_that_has_been_told_is_none_in_silence_wherever_it_is_read():
     span = SourceFile("spec.yaml", "a: b").whole
     entry = YamlEntry(YamlScalar("x", "x", span), YamlFault(span))
     fields = Fields(YamlMap({"x": entry}, span), "link 'a'", Diagnostics())
-    readers = (fields.number, fields.integer, fields.flag, fields.text, fields.vector3, fields.map)
+    readers = (fields.number, fields.integer, fields.text, fields.vector3, fields.map)
     assert [read_it("x", required="1") for read_it in readers] == [None] * len(readers)
+    assert fields.flag("x") is None
     assert fields.name("x", "link") is None
     assert fields.choice("x", Colour) is None
     assert fields.names("x") == ()

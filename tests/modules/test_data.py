@@ -39,10 +39,10 @@ def test_a_table_is_reached_into(tmp_path):
         ("!radians 1.5", 1.5),
     ],
 )
-def test_the_tags_of_xacro_make_angles(tmp_path, text, angle):
+def test_the_tags_of_xacro_make_bare_radians(tmp_path, text, angle):
     (tmp_path / "table.yaml").write_text(f"[{text}]" if "/" not in text else f"- {text}")
     found = assemble("data: {table: table.yaml}\nmetadata: {a: '$(table[0])'}\n", folder=tmp_path)
-    assert (found.told, found.metadata) == ([], {"a": Quantity(angle, Dimension.ANGLE)})
+    assert (found.told, found.metadata) == ([], {"a": angle})
 
 
 @pytest.mark.parametrize("text", ["ninety", "90 deg", "prefix", "true", "'a' + 'b'", "1/0", "link('x')", ""])

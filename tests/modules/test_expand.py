@@ -154,3 +154,19 @@ def test_a_thousand_links_are_walked_and_not_copied():
     changed = [entry.name for entry in computed if entry is not written.entries[entry.name]]
     assert changed == ["last"]
     assert isinstance(computed.child("last").get("inertial").get("mass"), YamlScalar)
+
+
+def test_the_text_that_expressions_give_is_bounded():
+    _, told = assemble(f"""
+        variables: {{long: {"a" * 60_000}}}
+        semantic: {{groups: {{"g$(i)": {{for: {{i: 1100}}, links: [$(long)]}}}}}}
+    """)
+    assert told == ["the expressions give more than 64,000,000 characters"]
+
+
+def test_how_deep_a_computed_value_nests_is_bounded():
+    _, told = assemble(f"""
+        variables: {{a: {"[" * 60}1{"]" * 60}, b: {"[" * 60}$(a){"]" * 60}}}
+        metadata: {{fits: $(a), list: $(b)}}
+    """)
+    assert told == ["the expressions give more than 100 lists and maps inside each other"]

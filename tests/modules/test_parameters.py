@@ -160,3 +160,8 @@ def test_a_file_is_relative_to_the_file_that_writes_it(tmp_path):
         {"shell": "package://p/a.stl"},
         {"shell": (tmp_path / "meshes/a.stl").as_posix()},
     ]
+
+
+def test_a_parameter_is_set_by_its_name():
+    with pytest.raises(TypeError, match="a parameter is set by its name, which is text, found 1"):
+        arguments_from_values({1: 2})

@@ -10,6 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, read, reader
 
@@ -23,6 +24,9 @@ def _each_parser(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 
 
 pytestmark = pytest.mark.usefixtures("_each_parser")
+
+
+UNCLOSED = UNCLOSED_EXPRESSION.message
 
 
 def read_text(text: str) -> tuple[YamlMap | None, list[str]]:
@@ -196,10 +200,33 @@ def test_merged_entries_keep_their_own_places():
         ("a: [1, 2\nb: 3\n", "2:2 expected ',' or ']' before this"),
         ("a: {b: 1]\n", "1:9 expected ',' or '}' before this"),
         ("a: [1, , 2]\n", "1:8 expected a value, found ','"),
+        ("a: {b: ${c / 2}}\n", "1:8 '${c / 2}' is xacro's; write '$(c / 2)'"),
+        ("a: [0, 0, ${c}]\n", "1:11 '${c}' is xacro's; write '$(c)'"),
+        ("a: {b: 1, c: $(d}\n", f"1:14 {UNCLOSED}"),
+        ("a: {b: 1, c: $(d}\ne: (f)\n", f"1:14 {UNCLOSED}"),
+        ("a: [$(b]\n", f"1:5 {UNCLOSED}"),
+        ("a: [$(b, $(c)]\n", f"1:5 {UNCLOSED}"),
+        ("a: {b: $(c, d: 1}\n", f"1:8 {UNCLOSED}"),
+        ("a: {b:, c: 1]\n", "1:13 expected ',' or '}' before this"),
     ],
 )
 def test_a_fault_is_told_once_at_its_place_in_plain_words(text: str, told: str):
     assert read_text(text)[1] == [told]
+
+
+def test_a_field_of_a_flow_map_may_be_left_empty():
+    tree, told = read_text("a: 1\na: 2\nb: {mass:}\nc: {mass:, d: [{e:}]}\n")
+    assert told == ["2:1 the key 'a' is written twice"]
+    assert tree is not None
+    assert plain(tree) == {"a": 1, "b": {"mass": None}, "c": {"mass": None, "d": [{"e": None}]}}
+
+
+@pytest.mark.skipif(not yaml.__with_libyaml__, reason="without libyaml, its own parser reads all")
+def test_only_a_file_of_common_size_is_read_by_the_slow_parser(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(reader, "PARSER", yaml.CBaseLoader)
+    monkeypatch.setattr(reader, "MAX_READ_TWICE", 10)
+    assert read_text("a: {b:}\n")[1] == []
+    assert read_text("a: {bcdef:}\n")[1] == ["1:10 this is not YAML: found unexpected ':'"]
 
 
 def test_what_libyaml_alone_can_name_is_passed_on():

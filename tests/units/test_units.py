@@ -3,6 +3,7 @@
 import math
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -105,3 +106,14 @@ def test_number_text_reads_back_to_the_same_double(number: float):
 )
 def test_numbers_are_as_short_as_they_can_be(number: float, text: str):
     assert number_text(number) == text
+
+
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.float64, np.longdouble])
+def test_a_float_of_numpy_is_spelled_as_the_double_that_it_is(kind):
+    assert number_text(kind(0.5)) == "0.5"
+    assert float(number_text(kind(0.1))) == float(kind(0.1))
+
+
+@pytest.mark.parametrize("kind", [np.int8, np.int32, np.int64, np.uint8, np.uint64])
+def test_an_integer_of_numpy_is_spelled_with_every_digit(kind):
+    assert number_text(kind(100)) == "100"

@@ -74,11 +74,16 @@ class JointDraft(LinkDraft):
         name: str | None = None,
         xyz: Triple | None = None,
         rpy: Triple | None = None,
-        effort: float = DEFAULT_JOINT_EFFORT,
-        velocity: float = DEFAULT_JOINT_VELOCITY,
+        effort: float | None = DEFAULT_JOINT_EFFORT,
+        velocity: float | None = DEFAULT_JOINT_VELOCITY,
     ) -> Self:
-        """Let the link turn about an axis without end, [N·m], [rad/s]; its limits say 0 to 0, which nobody reads."""
-        bounds = JointLimits(lower=0.0, upper=0.0, effort=effort or 0.0, velocity=velocity or 0.0)
+        """Let the link turn about an axis without end, [N·m], [rad/s]; its limits say 0 to 0, which nobody reads.
+
+        One of effort and velocity that is None counts as 0; without both the joint has no limits.
+        """
+        bounds = None
+        if effort is not None or velocity is not None:
+            bounds = JointLimits(lower=0.0, upper=0.0, effort=effort or 0.0, velocity=velocity or 0.0)
         return self._hang(JointType.CONTINUOUS, name, xyz, rpy, axis=unit_axis(axis), limits=bounds)
 
     def prismatic(  # noqa: PLR0917 the contract's signature
@@ -168,7 +173,7 @@ class JointDraft(LinkDraft):
         self._joint_type = joint_type
         self._joint_parts.update(parts)
         self._joint_name = name or self._joint_name
-        if xyz or rpy:
+        if xyz is not None or rpy is not None:
             self._joint_origin = pose(xyz, rpy)
         return self
 

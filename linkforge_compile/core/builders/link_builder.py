@@ -134,7 +134,7 @@ class LinkBuilder(JointDraft, SensorDraft):
         self._check_not_committed()
         self._mass = value
         self._inertia = inertia or self._inertia
-        if origin_xyz or origin_rpy:
+        if origin_xyz is not None or origin_rpy is not None:
             self._inertial_origin = pose(origin_xyz, origin_rpy)
         return self
 
@@ -163,7 +163,7 @@ class LinkBuilder(JointDraft, SensorDraft):
         """Add the link to the robot and return the robot's builder.
 
         Raises:
-            RobotModelError: What the robot or its parts refuse.
+            RobotModelError: What the robot or its parts refuse; the robot is as it was by then.
 
         """
         self._commit()
@@ -197,17 +197,18 @@ class LinkBuilder(JointDraft, SensorDraft):
         joint = self._made_joint()
         transmission = self._made_transmission(joint) if joint else None
         control = self._made_control(joint) if joint else None
-        robot.add_link(link, overwrite=self._in_context)
-        for sensor in self._sensors:
-            robot.add_sensor(sensor)
-        if self._gazebo:
-            robot.add_gazebo_element(GazeboElement(reference=self._link_name, **self._gazebo))
-        if joint:
-            robot.add_joint(joint)
-        if transmission:
-            robot.add_transmission(transmission)
-        if control:
-            robot.update_ros2_control(control)
+        with robot.unchanged_on_error():
+            robot.add_link(link, overwrite=self._in_context)
+            for sensor in self._sensors:
+                robot.add_sensor(sensor)
+            if self._gazebo:
+                robot.add_gazebo_element(GazeboElement(reference=self._link_name, **self._gazebo))
+            if joint:
+                robot.add_joint(joint)
+            if transmission:
+                robot.add_transmission(transmission)
+            if control:
+                robot.update_ros2_control(control)
         self._committed = True
 
     def _inertial(self) -> Inertial | None:

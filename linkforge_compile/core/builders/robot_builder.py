@@ -78,8 +78,8 @@ class RobotBuilder:
             prefix=prefix,
             joint_type=joint_type,
             origin=pose(xyz, rpy),
-            axis=unit_axis(axis) if axis else None,
-            limits=JointLimits(lower=limits[0], upper=limits[1]) if limits else None,
+            axis=None if axis is None else unit_axis(axis),
+            limits=None if limits is None else JointLimits(lower=limits[0], upper=limits[1]),
         )
         if disable_collision:
             self.robot.disable_collisions(at_link, root, reason=reason)

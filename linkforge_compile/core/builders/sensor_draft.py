@@ -52,7 +52,7 @@ class SensorDraft(LinkDraft):
         xyz: Triple = (0, 0, 0),
         rpy: Triple = (0, 0, 0),
     ) -> Self:
-        """Add a lidar of one layer by its range [m] and rays a turn."""
+        """Add a lidar of one layer by its range [m] and the rays in its sweep, half a turn ahead."""
         info = LidarInfo(range_min=range_min, range_max=range_max, horizontal_samples=samples)
         return self.sensor(Sensor(name, SensorType.LIDAR, self._link_name, lidar_info=info, origin=pose(xyz, rpy)))
 

@@ -39,7 +39,7 @@ def mesh(resource: str, scale: Triple = (1.0, 1.0, 1.0)) -> Mesh:
 
 def pose(xyz: Triple | None, rpy: Triple | None) -> Transform:
     """Return the pose at `xyz` [m], turned by `rpy` [rad]; None for zeros."""
-    return Transform(Vector3(*(xyz or (0.0, 0.0, 0.0))), Vector3(*(rpy or (0.0, 0.0, 0.0))))
+    return Transform(*(Vector3(0.0, 0.0, 0.0) if triple is None else Vector3(*triple) for triple in (xyz, rpy)))
 
 
 def unit_axis(axis: Triple) -> Vector3:

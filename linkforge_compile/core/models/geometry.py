@@ -51,6 +51,7 @@ class Vector3(Part):
         yield self.z
 
     def to_tuple(self) -> tuple[float, float, float]:
+        """Return (x, y, z)."""
         return (self.x, self.y, self.z)
 
     def __str__(self) -> str:
@@ -109,6 +110,7 @@ class Box(Element):
 
     @property
     def type(self) -> GeometryType:
+        """The tag that the shape becomes inside `<geometry>`."""
         return GeometryType.BOX
 
     def volume(self) -> float:
@@ -137,6 +139,7 @@ class Cylinder(Element):
 
     @property
     def type(self) -> GeometryType:
+        """The tag that the shape becomes inside `<geometry>`."""
         return GeometryType.CYLINDER
 
     def volume(self) -> float:
@@ -163,6 +166,7 @@ class Sphere(Element):
 
     @property
     def type(self) -> GeometryType:
+        """The tag that the shape becomes inside `<geometry>`."""
         return GeometryType.SPHERE
 
     def volume(self) -> float:
@@ -193,6 +197,7 @@ class Capsule(Element):
 
     @property
     def type(self) -> GeometryType:
+        """The tag that the shape becomes inside `<geometry>`."""
         return GeometryType.CAPSULE
 
     def volume(self) -> float:
@@ -229,6 +234,7 @@ class Mesh(Element):
 
     @property
     def type(self) -> GeometryType:
+        """The tag that the shape becomes inside `<geometry>`."""
         return GeometryType.MESH
 
 

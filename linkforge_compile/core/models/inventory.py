@@ -4,17 +4,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import KW_ONLY, dataclass, field
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple, overload
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.exceptions import RobotModelError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.graph import KinematicGraph, single_root
 from linkforge_compile.core.models.index import Filing, Index, IndexField, Key, Renamable, Repeats, itself
-from linkforge_compile.core.models.semantic_parts import SemanticParts
+from linkforge_compile.core.models.robot_fields import SemanticField, VersionStatedField
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
@@ -25,29 +26,14 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.link import Link
     from linkforge_compile.core.models.material import Material
     from linkforge_compile.core.models.ros2_control import Ros2Control
+    from linkforge_compile.core.models.semantic_parts import SemanticParts
     from linkforge_compile.core.models.sensor import Sensor
-    from linkforge_compile.core.models.srdf import SemanticRobotDescription
     from linkforge_compile.core.models.transmission import Transmission
     from linkforge_compile.source import SourceRef
 
 PARENT: Final[Key[Joint]] = attrgetter("parent")
 CHILD: Final[Key[Joint]] = attrgetter("child")
 REFERENCE: Final[Key[GazeboElement]] = attrgetter("reference")
-
-
-class SemanticField:
-    """The field `semantic`: a description to whoever reads it, its lists filed for whoever adds to them."""
-
-    @overload
-    def __get__(self, robot: None, owner: type) -> None: ...
-    @overload
-    def __get__(self, robot: Inventory, owner: type) -> SemanticRobotDescription: ...
-    def __get__(self, robot: Inventory | None, owner: type) -> SemanticRobotDescription | None:
-        # None is what a dataclass takes for the default: that nothing semantic is said.
-        return robot._semantic.description(robot.name) if robot else None
-
-    def __set__(self, robot: Inventory, said: SemanticRobotDescription | None) -> None:
-        robot._semantic = SemanticParts(said)
 
 
 class _Drawn(NamedTuple):
@@ -99,62 +85,101 @@ class Inventory:
     gazebo_elements: IndexField[GazeboElement] = IndexField(Filing("gazebo element", REFERENCE, Repeats.KEPT))
     semantic: SemanticField = SemanticField()
     extra_elements: IndexField[str] = IndexField(Filing("extra element", itself, Repeats.KEPT))
-    extra_attributes: Sequence[tuple[str, str]] | Mapping[str, str] = field(default=(), kw_only=True)
-    version_stated: bool = field(default=False, kw_only=True)
-    source: SourceRef | None = field(default=None, compare=False, repr=False, kw_only=True)
+    _: KW_ONLY
+    extra_attributes: Sequence[tuple[str, str]] | Mapping[str, str] = ()
+    version_stated: VersionStatedField = VersionStatedField()
+    source: SourceRef | None = field(default=None, compare=False, repr=False)
+    _version_stated: bool = field(init=False, repr=False, compare=False)
     _semantic: SemanticParts = field(init=False, repr=False, compare=False)
     _drawn: _Drawn | None = field(default=None, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         require_robot_name(self.name)
         self.extra_attributes = attribute_pairs(self.extra_attributes)
-        self.version_stated = self.version_stated or self.version != IR_VERSION
-        self._semantic = self._semantic.named(self.name)
 
     def get_link(self, name: str) -> Link | None:
+        """Return the link of that name, None if there is none."""
         return self.links.get(name)
 
     def link(self, name: str) -> Link:
-        """Return the link of that name; as for every kind below, NOT_FOUND is raised where `get_` gives None."""
+        """Return the link of that name.
+
+        Raises:
+            RobotValidationError: NOT_FOUND if there is none.
+
+        """
         return self.links[name]
 
     def has_link(self, name: str) -> bool:
+        """Tell whether there is a link of that name."""
         return name in self.links
 
     def get_joint(self, name: str) -> Joint | None:
+        """Return the joint of that name, None if there is none."""
         return self.joints.get(name)
 
     def joint(self, name: str) -> Joint:
+        """Return the joint of that name.
+
+        Raises:
+            RobotValidationError: NOT_FOUND if there is none.
+
+        """
         return self.joints[name]
 
     def has_joint(self, name: str) -> bool:
+        """Tell whether there is a joint of that name."""
         return name in self.joints
 
     def get_sensor(self, name: str) -> Sensor | None:
+        """Return the sensor of that name, None if there is none."""
         return self.sensors.get(name)
 
     def sensor(self, name: str) -> Sensor:
+        """Return the sensor of that name.
+
+        Raises:
+            RobotValidationError: NOT_FOUND if there is none.
+
+        """
         return self.sensors[name]
 
     def has_sensor(self, name: str) -> bool:
+        """Tell whether there is a sensor of that name."""
         return name in self.sensors
 
     def get_transmission(self, name: str) -> Transmission | None:
+        """Return the transmission of that name, None if there is none."""
         return self.transmissions.get(name)
 
     def transmission(self, name: str) -> Transmission:
+        """Return the transmission of that name.
+
+        Raises:
+            RobotValidationError: NOT_FOUND if there is none.
+
+        """
         return self.transmissions[name]
 
     def has_transmission(self, name: str) -> bool:
+        """Tell whether there is a transmission of that name."""
         return name in self.transmissions
 
     def get_ros2_control(self, name: str) -> Ros2Control | None:
+        """Return the hardware component of that name, None if there is none."""
         return self.ros2_controls.get(name)
 
     def ros2_control(self, name: str) -> Ros2Control:
+        """Return the hardware component of that name.
+
+        Raises:
+            RobotValidationError: NOT_FOUND if there is none.
+
+        """
         return self.ros2_controls[name]
 
     def has_ros2_control(self, name: str) -> bool:
+        """Tell whether there is a hardware component of that name."""
         return name in self.ros2_controls
 
     def get_gazebo_elements(self, reference: str | None = None) -> list[GazeboElement]:
@@ -173,6 +198,7 @@ class Inventory:
         return list(self.joints.where(PARENT if as_parent else CHILD, link_name))
 
     def get_child_joints(self, link_name: str) -> list[Joint]:
+        """Return the joints whose parent the link is, in the order of the joints; none for an unknown link."""
         return self.get_joints_for_link(link_name)
 
     def get_parent_joint(self, link_name: str) -> Joint | None:
@@ -180,10 +206,17 @@ class Inventory:
         return next(self.joints.where(CHILD, link_name), None)
 
     def get_parent_link(self, link_name: str) -> Link | None:
+        """Return the parent of the first joint whose child the link is, None for a root and for an unknown link."""
         joint = self.get_parent_joint(link_name)
         return self.get_link(joint.parent) if joint else None
 
     def get_child_links(self, link_name: str) -> list[Link]:
+        """Return the children of the joints whose parent the link is, in the order of the joints.
+
+        Raises:
+            RobotValidationError: NOT_FOUND for a child that is no link of the robot.
+
+        """
         return [self.link(joint.child) for joint in self.get_child_joints(link_name)]
 
     def get_root_link(self) -> Link:
@@ -197,6 +230,7 @@ class Inventory:
 
     @property
     def root_link(self) -> Link:
+        """The one link that is no joint's child; raises what `get_root_link` raises."""
         return self.get_root_link()
 
     @property
@@ -242,6 +276,17 @@ class Inventory:
 
         """
         return self.resource_resolver.resolve(uri, relative_to=relative_to)
+
+    @contextmanager
+    def unchanged_on_error(self) -> Iterator[None]:
+        """Let the robot be as it was before the block where that raises, materials and metadata excepted."""
+        before = dict(vars(self))  # collections never change in place, so this holds all of them
+        try:
+            yield
+        except BaseException:
+            vars(self).clear()
+            vars(self).update(before)
+            raise
 
     def __str__(self) -> str:
         return (

@@ -37,10 +37,12 @@ class Color(Element):
 
     @classmethod
     def white(cls) -> Color:
+        """Return opaque white."""
         return cls(1.0, 1.0, 1.0, 1.0)
 
     @classmethod
     def black(cls) -> Color:
+        """Return opaque black."""
         return cls(0.0, 0.0, 0.0, 1.0)
 
     @classmethod
@@ -49,6 +51,7 @@ class Color(Element):
         return cls(*DEFAULT_MATERIAL_RGBA)
 
     def to_tuple(self) -> tuple[float, float, float, float]:
+        """Return (r, g, b, a)."""
         return (self.r, self.g, self.b, self.a)
 
     def __str__(self) -> str:

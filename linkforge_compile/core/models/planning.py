@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
 from linkforge_compile.core.constants import SRDF_VJOIN_FIXED, SRDF_VJOIN_FLOATING, SRDF_VJOIN_PLANAR
@@ -128,7 +129,7 @@ class GroupState(Element):
 def _position_tuple(given: object) -> tuple[object, ...]:
     if isinstance(given, list | set | tuple):
         return tuple(given)
-    return (float(given),) if isinstance(given, int | float) else (given,)
+    return (float(given),) if isinstance(given, Real) else (given,)
 
 
 @dataclass(frozen=True, slots=True)

@@ -146,6 +146,7 @@ class Robot(SemanticRobot):
         if at_link is not None:
             _require(self.links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
         parts = PrefixedParts.of(component, prefix)
+        links = self.links.extended(parts.links)  # of two links of one name, nobody could say which one a joint means
         if at_link is None:
             refuse_loose_joints({link.name for link in parts.links}, parts.joints)
         else:
@@ -153,25 +154,27 @@ class Robot(SemanticRobot):
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
             parts = replace(parts, joints=(*parts.joints, with_rest_of(joint, connecting)))
         refuse_cycles(parts.joints)
-        self._take_in(parts)
+        self._take_in(parts, links)
         return self
 
-    def _take_in(self, parts: PrefixedParts) -> None:
+    def _take_in(self, parts: PrefixedParts, links: Index[Link]) -> None:
         materials = new_materials(self.materials, parts.materials)
-        links = self.links.extended(parts.links)
+        add_materials = self.materials.update
         joints = self.joints.extended(parts.joints)
         sensors = self.sensors.extended(parts.sensors)
         transmissions = self.transmissions.extended(parts.transmissions)
         ros2_controls = self.ros2_controls.extended(parts.ros2_controls)
+        gazebo_elements = self.gazebo_elements.extended(parts.gazebo_elements)
+        extra_elements = self.extra_elements.extended(parts.extra_elements)
+        extra_attributes = tuple((dict(parts.extra_attributes) | dict(self.extra_attributes)).items())
         semantic = self._semantic.joined(parts.semantic) if parts.semantic else self._semantic
         # From here on the robot changes. Links come first: they alone can still be refused, had two been renamed alike.
         self.links = links
         self.joints = joints
-        self.materials.update(materials)
+        add_materials(materials)
         self.sensors, self.transmissions, self.ros2_controls = sensors, transmissions, ros2_controls
-        self.gazebo_elements = self.gazebo_elements.extended(parts.gazebo_elements)
-        self.extra_elements = self.extra_elements.extended(parts.extra_elements)
-        self.extra_attributes = tuple((dict(parts.extra_attributes) | dict(self.extra_attributes)).items())
+        self.gazebo_elements, self.extra_elements = gazebo_elements, extra_elements
+        self.extra_attributes = extra_attributes
         self._semantic = semantic
 
     def prefix_all(self, prefix: str) -> None:

@@ -53,8 +53,6 @@ class SemanticParts:
     It never changes; the description is put together when somebody looks.
     """
 
-    __slots__ = ("_base", "_grown", "_whole")
-
     def __init__(self, base: SemanticRobotDescription | None) -> None:
         self._base = base
         self._whole = base
@@ -65,18 +63,14 @@ class SemanticParts:
         """True as long as nobody has said anything semantic."""
         return self._base is None and not any(self._grown.values())
 
-    def named(self, robot_name: str) -> SemanticParts:
-        """Return this with the robot's name in it, before anything was joined."""
-        return SemanticParts(replace(self._base, robot_name=robot_name)) if self._base else self
-
     def description(self, robot_name: str) -> SemanticRobotDescription:
-        """Return the whole; `robot_name` is its name if nobody has given it one."""
-        if self._whole is None:
+        """Return the whole under the name that the robot has now, whatever the name in what was said."""
+        if self._whole is None or self._whole.robot_name != robot_name:
             from linkforge_compile.core.models.srdf import SemanticRobotDescription
 
-            base = self._base or SemanticRobotDescription(robot_name=robot_name)
+            base = self._base or SemanticRobotDescription()
             members: dict[str, Any] = {name: tuple(index) for name, index in self._grown.items()}
-            self._whole = replace(base, **members)
+            self._whole = replace(base, **{**members, "robot_name": robot_name})
         return self._whole
 
     def holds(self, collection: str, key: Hashable) -> bool:

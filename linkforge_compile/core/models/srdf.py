@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Any, TypeVar
 
-from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.planning import (
     Chain,
@@ -84,29 +83,12 @@ class SemanticRobotDescription(Element):
         A collision pair or link without default collisions that both have is there once, as this one says it.
 
         Raises:
-            RobotValidationError: DUPLICATE_NAME for anything else that both have; the field is where it stands.
+            RobotValidationError: DUPLICATE_NAME for anything else that both have, or the other twice.
 
         """
-        own_attributes = dict(self.extra_attributes)
-        return replace(
-            self,
-            virtual_joints=_joined("virtual_joints", self.virtual_joints, other.virtual_joints),
-            groups=_joined("groups", self.groups, other.groups),
-            group_states=_joined("group_states", self.group_states, other.group_states),
-            end_effectors=_joined("end_effectors", self.end_effectors, other.end_effectors),
-            passive_joints=_joined("passive_joints", self.passive_joints, other.passive_joints),
-            disabled_collisions=_joined("disabled_collisions", self.disabled_collisions, other.disabled_collisions),
-            enabled_collisions=_joined("enabled_collisions", self.enabled_collisions, other.enabled_collisions),
-            no_default_collision_links=_joined(
-                "no_default_collision_links", self.no_default_collision_links, other.no_default_collision_links
-            ),
-            link_sphere_approximations=_joined(
-                "link_sphere_approximations", self.link_sphere_approximations, other.link_sphere_approximations
-            ),
-            joint_properties=_joined("joint_properties", self.joint_properties, other.joint_properties),
-            extra_elements=(*self.extra_elements, *other.extra_elements),
-            extra_attributes=tuple((dict(other.extra_attributes) | own_attributes).items()),
-        )
+        from linkforge_compile.core.models.semantic_parts import SemanticParts
+
+        return SemanticParts(self).joined(other).description(self.robot_name)
 
     def normalized(self) -> SemanticRobotDescription:
         """Return it with every collection sorted by name; a collision pair counts by its links in order.
@@ -130,28 +112,3 @@ class SemanticRobotDescription(Element):
 
 def _in_order(collection: str, members: Sequence[T]) -> tuple[T, ...]:
     return tuple(sorted(members, key=SEMANTIC_KEYS[collection]))
-
-
-def _joined(collection: str, ours: Sequence[T], theirs: Sequence[T]) -> tuple[T, ...]:
-    if not theirs:
-        return tuple(ours)
-    key = SEMANTIC_KEYS[collection]
-    known = {key(member) for member in ours}
-    if collection in SEMANTIC_SETS:
-        new = {key(member): member for member in reversed(theirs) if key(member) not in known}
-        return (*ours, *reversed(new.values()))
-    for member in theirs:
-        if key(member) in known:
-            raise _duplicate(collection, key(member))
-    return (*ours, *theirs)
-
-
-def _duplicate(collection: str, key: str | tuple[str, str]) -> RobotValidationError:
-    path = (key,) if isinstance(key, str) else key
-    return RobotValidationError(
-        ValidationErrorCode.DUPLICATE_NAME,
-        f"both descriptions have '{' '.join(path)}' among their {collection}",
-        target="SemanticRobotDescription",
-        value=key,
-        field=(collection, *path),
-    )

@@ -26,4 +26,11 @@ NO_SUCH_ITEM = Code("LF3130", Severity.ERROR, "no item {index} in a list of {len
 NOT_TEXT = Code("LF3131", Severity.ERROR, "{found} cannot stand inside text")
 
 CIRCULAR_NAMES = Code("LF3141", Severity.ERROR, "'{first}' is computed from itself: {path}")
-CHAIN_TOO_LONG = Code("LF3142", Severity.ERROR, "'{first}' is computed through too many other names")
+CHAIN_TOO_LONG = Code("LF3142", Severity.ERROR, "'{first}' is computed through {count} other names")
+
+SEEN_IN_THE_TEXT = (
+    *(UNREADABLE_EXPRESSION, UNCLOSED_EXPRESSION, UNCLOSED_TEXT, EMPTY_EXPRESSION, EXPRESSION_TOO_LARGE),
+    *(NOT_IN_EXPRESSIONS, UNKNOWN_NAME, UNKNOWN_FUNCTION, FUNCTION_NOT_CALLED, WRONG_ARGUMENT_COUNT),
+    *(CIRCULAR_NAMES, CHAIN_TOO_LONG),
+)
+"""The faults that an expression has whatever the values of its names are."""

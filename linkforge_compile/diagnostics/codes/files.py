@@ -27,3 +27,9 @@ NAME_OUTSIDE_TEXT = Code(
     "LF3091", _E, "{function} stands in free parts and 'extra' only; everywhere else write the name"
 )
 PATH_OF_THIS_MACHINE = Code("LF3092", _W, "path() ties the output to this machine; pass it in by 'with' instead")
+FILE_OUTSIDE_PACKAGE = Code(
+    "LF3093",
+    _W,
+    "'{path}' lies outside the module's package, so its absolute path ties the output to this machine; "
+    "write 'package://NAME/PATH'",
+)

@@ -41,11 +41,11 @@ LIMITS_CROSSED = Code("LF5204", _E, "lower must not be above upper, found {lower
 JOINT_TO_ITSELF = Code("LF5205", _E, "{owner} joins link '{link}' to itself")
 
 # LF53xx: modules and the semantic part
-MOUNT_WITHOUT_PARENT = Code(
+JOINT_WITHOUT_PARENT = Code(
     "LF5301", _E, "{owner} has '{field}' but no 'parent'; name the link that it hangs on, or leave '{field}' out"
 )
 VIRTUAL_JOINT_LEFT_OUT = Code(
-    "LF5302", _N, "virtual joint '{joint}' is left out: '{link}' hangs on another link where this file is used"
+    "LF5302", _N, "virtual joint '{joint}' is left out{others}: '{link}' hangs on another link where this file is used"
 )
 EMPTY_GROUP = Code("LF5303", _E, "planning group '{group}' has no chain, links, joints or subgroups")
 PAIR_WITH_ITSELF = Code("LF5304", _E, "a collision pair takes two links, found '{link}' twice")

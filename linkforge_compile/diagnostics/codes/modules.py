@@ -39,6 +39,10 @@ SET_TWICE = Code("LF3029", _E, "parameter '{name}' is set twice")
 PARAMETER_WITHOUT_TYPE = Code("LF3030", _E, "parameter '{name}' has neither a type nor a default; write 'type: length'")
 UNFIT_CONSTRAINT = Code("LF3031", _E, "'{constraint}' says nothing about a parameter of type {type}")
 BAD_PATTERN = Code("LF3032", _E, "'{pattern}' cannot be a pattern: {reason}")
+CROSSED_BOUNDS = Code(
+    "LF3033", _E, "parameter '{parameter}' can have no value: 'minimum' is {minimum}, 'maximum' {maximum}"
+)
+NO_CHOICE = Code("LF3034", _E, "parameter '{parameter}' can have no value: 'enum' is empty; list what it may be")
 
 # LF304x: names of parameters and variables
 INVALID_VARIABLE_NAME = Code(
@@ -50,5 +54,5 @@ NAME_OF_TWO_KINDS = Code("LF3042", _E, "'{name}' is both {kinds}")
 # LF305x: what expressions make of the tree
 COMPUTED_KEY = Code("LF3050", _E, "a key must be text, found {found}")
 SAME_KEY = Code("LF3051", _E, "the key '{name}' comes twice once the expressions are computed")
-TREE_TOO_LARGE = Code("LF3052", _E, "the expressions give more than {limit} values")
+TREE_TOO_LARGE = Code("LF3052", _E, "the expressions give more than {limit}")
 TEXT_NOT_NUMBER = Code("LF3053", _E, "text with an expression inside is never a number, found '{text}'; {remedy}")

@@ -14,6 +14,9 @@ KEY_WITHOUT_NAME = Code(
 TOO_MUCH_REPEATED = Code("LF3205", _E, "the 'for' of all files together give more than {limit} values")
 RESERVED_KEY = Code("LF3206", _E, "'{name}' cannot be a name among the {owner}: the word is kept for repetition")
 LONG_FORM = Code("LF3207", _E, "beside 'for' and 'when' goes 'value' and nothing else here, found {found}")
+COMPUTED_REPETITION = Code(
+    "LF3208", _E, "'{name}' means nothing in what an expression makes; write it where the expression stands"
+)
 
 # LF321x: `defaults`
 REPEATED_DEFAULT = Code("LF3211", _E, "a default is no entry and cannot have 'for'")
