@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
-from linkforge_compile.backends.markup import attributes, elements
-from linkforge_compile.backends.unwritable import refused, unwritable_texts
-from linkforge_compile.backends.urdf import capsules
+from linkforge_compile.backends.markup import RestatedAttributeError, attributes, elements
+from linkforge_compile.backends.srdf import render_srdf
+from linkforge_compile.backends.unwritable import refused, says_extra_attributes, unwritable_texts
+from linkforge_compile.backends.urdf import capsules, render_urdf
+from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.diagnostics import Diagnostic, Note
-from linkforge_compile.diagnostics.codes.backends import NEW_GEOMETRY, OLD_VERSION, TWO_MATERIALS, UNKNOWN_VERSION
+from linkforge_compile.diagnostics.codes.backends import (
+    NEW_GEOMETRY,
+    OLD_VERSION,
+    TWO_MATERIALS,
+    UNKNOWN_VERSION,
+    UNWRITABLE,
+)
+from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
@@ -22,6 +32,7 @@ _READ_VERSIONS = ("1.0", "1.1", "1.2")
 def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
     """Yield what `render_urdf` leaves out or refuses, and what common readers refuse in what it writes."""
     yield from check_texts(robot)
+    yield from check_attributes(_collections(robot), robot, partial(render_urdf, robot, gazebo=gazebo))
     yield from check_capsules(robot)
     yield from check_version(robot)
     yield from check_materials_of_one_name(robot)
@@ -34,13 +45,34 @@ def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
 def srdf_limits(robot: Robot) -> Iterator[Diagnostic]:
     """Yield what `render_srdf` refuses."""
     yield from unwritable_texts(robot.semantic)
+    if robot.says_semantic:
+        yield from check_attributes(robot.semantic, robot, partial(render_srdf, robot))
 
 
 def check_texts(robot: Robot) -> Iterator[Diagnostic]:
     """XML holds no control characters, extras must be well-formed, and only some names can be those of tags."""
     yield from refused(lambda: attributes(robot), robot.source, "extra_attributes")
     yield from refused(lambda: elements(robot), robot.source, "extra")
-    collections = (
+    yield from unwritable_texts(_collections(robot))
+
+
+def check_attributes(parts: object, robot: Robot, render: Callable[[], str]) -> Iterator[Diagnostic]:
+    """An element has each attribute once: what a field of the language says, `extra_attributes` cannot say again.
+
+    Which attributes an element has, only its rendering knows; so where there are extra ones at all, it is tried.
+    """
+    if not (robot.extra_attributes or says_extra_attributes(parts)):
+        return
+    try:
+        render()
+    except RestatedAttributeError as error:
+        yield UNWRITABLE.at(error.source, "extra_attributes", Key(error.name), reason=error)
+    except RobotGeneratorError:
+        return  # told by what looks at the texts
+
+
+def _collections(robot: Robot) -> tuple[object, ...]:
+    return (
         tuple(robot.materials.values()),
         robot.links,
         robot.joints,
@@ -49,7 +81,6 @@ def check_texts(robot: Robot) -> Iterator[Diagnostic]:
         robot.ros2_controls,
         robot.gazebo_elements,
     )
-    yield from unwritable_texts(collections)
 
 
 def check_capsules(robot: Robot) -> Iterator[Diagnostic]:

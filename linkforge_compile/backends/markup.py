@@ -14,6 +14,7 @@ from typing import Protocol, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.part import attribute_pairs
+from linkforge_compile.source import SourceRef
 from linkforge_compile.units import number_text
 
 _EMPTY = re.compile(r"<(([^\s<>]+)[^<>]*)></\2>")
@@ -55,6 +56,8 @@ class Extended(Protocol):
     def extra_attributes(self) -> Sequence[tuple[str, str]] | Mapping[str, str]: ...
     @property
     def extra_elements(self) -> Sequence[str]: ...
+    @property
+    def source(self) -> SourceRef | None: ...
 
 
 def spelled(value: Spellable) -> str:
@@ -120,7 +123,7 @@ def attributes(part: Extended | None = None, /, **stated: Spellable | None) -> X
     if part is None or not part.extra_attributes:
         return Xml(text)
     extra = attribute_pairs(part.extra_attributes)
-    _require_attributes(stated, extra)
+    _require_attributes(part, stated, extra)
     return Xml(text + "".join([f' {name}="{escaped(value)}"' for name, value in extra]))
 
 
@@ -128,13 +131,22 @@ def _quotable(value: Spellable) -> str:
     return escaped(value) if isinstance(value, str) else spelled(value)
 
 
-def _require_attributes(stated: Mapping[str, object], extra: Iterable[tuple[str, str]]) -> None:
+class RestatedAttributeError(RobotGeneratorError):
+    """An extra attribute, `name`, says again what a field of its part says; `source` is where the part was written."""
+
+    def __init__(self, name: str, source: SourceRef | None) -> None:
+        self.name = name
+        self.source = source
+        super().__init__(f"the attribute '{name}' is stated twice")
+
+
+def _require_attributes(part: Extended, stated: Mapping[str, object], extra: Iterable[tuple[str, str]]) -> None:
     seen = {name for name, value in stated.items() if value is not None}
     for name, _ in extra:
         if not is_xml_name(name):
             raise RobotGeneratorError(f"'{name}' cannot be the name of an XML attribute")
         if name in seen:
-            raise RobotGeneratorError(f"the attribute '{name}' is stated twice")
+            raise RestatedAttributeError(name, part.source)
         seen.add(name)
 
 

@@ -76,6 +76,16 @@ def refused(write: Callable[[], object], where: SourceRef | None, *path: str) ->
         yield UNWRITABLE.at(where, *path, reason=error)
 
 
+def says_extra_attributes(part: object) -> bool:
+    """Whether anything in a part of a robot, at any depth, has attributes beside those of its fields."""
+    if isinstance(part, Element | Link | Interface):
+        kind: type = type(part)
+        return bool(part.extra_attributes) or any(says_extra_attributes(getattr(part, name)) for name in _content(kind))
+    if isinstance(part, Mapping):
+        return any(map(says_extra_attributes, part.values()))
+    return isinstance(part, Sequence) and not isinstance(part, str) and any(map(says_extra_attributes, part))
+
+
 @cache
 def _content(kind: type) -> tuple[str, ...]:
     """Return the fields of a kind of part, without what every part has."""

@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes.model import (
     MOUNT_SAYS_ENDS,
     TWO_MOUNTS,
 )
+from linkforge_compile.lowering.duplicates import tell_duplicate
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.joint import Ends, joint_between
 from linkforge_compile.lowering.module_joint import ModuleJoint, gazebo_of, module_fields
@@ -81,6 +82,9 @@ def hung_by(mount: ModuleJoint, module: Instance, root: str | None, sink: Diagno
 def hang_on_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diagnostics) -> bool:
     """Hang a compiled robot on the link `world`, made as its first unless it is declared; False for a fault."""
     if mount.joint is None or not _holds_root(mount, root, "", sink):
+        return False
+    if (other := robot.joints.get(mount.name)) is not None:
+        tell_duplicate(sink, "joint", mount.name, mount.joint.source, other.source)
         return False
     if WORLD not in robot.links:
         robot.links = (Link(WORLD, source=mount.joint.source), *robot.links)

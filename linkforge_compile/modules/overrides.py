@@ -39,7 +39,8 @@ class Override:
     def applied(self, tree: YamlMap, missing: Mapping[str, Note]) -> YamlMap:
         """Return a module's tree as this override leaves it; `missing` says why names are not there.
 
-        Whatever hangs on a link that is deleted goes with it: the joint to it, its collision pairs and its spheres.
+        Whatever hangs on a link that is deleted goes with it: the joint to it, the Gazebo blocks about either, its
+        collision pairs and its spheres.
         """
         whole = with_frames_as_joints(tree)
         patched = _Patch(self.sink, missing).map(whole, self.patch, shapes(), "the module")
@@ -197,10 +198,16 @@ def _without_links(tree: YamlMap, links: set[str]) -> YamlMap:
     if not links:
         return tree
     sections = dict(tree.entries)
-    joints, semantic = tree.get("joints"), tree.get("semantic")
+    joints, gazebo, semantic = tree.get("joints"), tree.get("gazebo"), tree.get("semantic")
+    gone = set(links)
     if isinstance(joints, YamlMap):
         kept = [entry for entry in joints if _text(entry.value, "child") not in links]
+        gone |= joints.entries.keys() - {entry.name for entry in kept}
         sections["joints"] = YamlEntry(sections["joints"].key, _map_of(kept, joints.span))
+    if isinstance(gazebo, YamlList | YamlMap):
+        blocks = gazebo.items if isinstance(gazebo, YamlList) else (gazebo,)
+        about = tuple(block for block in blocks if _text(block, "reference") not in gone)
+        sections["gazebo"] = YamlEntry(sections["gazebo"].key, YamlList(about, gazebo.span))
     if isinstance(semantic, YamlMap):
         sections["semantic"] = YamlEntry(sections["semantic"].key, _semantic_without(semantic, links))
     return YamlMap(sections, tree.span)

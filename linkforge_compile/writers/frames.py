@@ -32,6 +32,6 @@ def written_frame(pen: Pen, link: Link, joint: Joint) -> YamlMap:
 
 
 def _is_frame(link: Link, joint: Joint) -> bool:
-    return link == Link(link.name) and joint == Joint(
-        joint.name, JointType.FIXED, joint.parent, link.name, joint.origin
-    )
+    if link.name != joint.child or link != Link(link.name):
+        return False
+    return joint == Joint(joint.name, JointType.FIXED, joint.parent, joint.child, joint.origin)

@@ -65,6 +65,11 @@ def test_elements_with_plugins_hash():
     )
 
 
+def test_a_class_of_gazebo_sim_keeps_its_name():
+    plugin = GazeboPlugin("gz::sim::systems::Imu", "gz-sim-imu-system")
+    assert plugin.with_prefix("left_") == plugin
+
+
 def test_a_prefix_reaches_the_reference_and_the_names_of_plugins():
     element = GazeboElement("base", {"material": "base"}, [PLUGIN], material="Gazebo/Red").with_prefix("left_")
     assert element.reference == "left_base"

@@ -195,3 +195,20 @@ def test_an_override_may_give_a_parameter_and_take_one_back(tmp_path):
         folder=tmp_path,
     )
     assert plain(made.instance.modules[0].modules[0].tree.get("metadata")) == {"size": [9, 2]}
+
+
+def test_gazebo_blocks_about_what_is_deleted_go_with_it(tmp_path):
+    from linkforge_compile import compile_file
+
+    (tmp_path / "arm.robot.yaml").write_text(
+        "linkforge: 1\nname: arm\nlinks: {base: , cover: }\n"
+        "joints: {lid: {type: fixed, parent: base, child: cover}}\n"
+        "gazebo: [{reference: cover, mu1: 1}, {reference: lid, provide_feedback: true}, {reference: base, mu1: 2}]\n"
+    )
+    (tmp_path / "cell.robot.yaml").write_text(
+        "linkforge: 1\nname: cell\nlinks: {floor: }\n"
+        "modules: {a: {use: arm.robot.yaml, parent: floor, override: {links: {cover: null}}}}\n"
+    )
+    compilation = compile_file(tmp_path / "cell.robot.yaml")
+    assert not compilation.diagnostics
+    assert [element.reference for element in compilation.result().gazebo_elements] == ["a_base"]

@@ -129,6 +129,12 @@ def test_empty_links_at_the_end_are_frames():
     """)
 
 
+def test_a_bare_link_that_others_hang_on_is_no_frame():
+    text = "linkforge: 1\nname: r\nlinks: {b: , world: }\njoints: {j: {type: fixed, parent: world, child: b}}\n"
+    robot = compile_text(text).result()
+    assert compile_text(write_spec(robot)).result() == robot
+
+
 def test_empty_links_before_others_stay_links_for_the_sake_of_their_order():
     joints = [Joint(f"{name}_joint", JointType.FIXED, "base", name) for name in ("tool0", "body")]
     assert spec(links=[Link("base"), Link("tool0"), Link("body", Inertial(1))], joints=joints) == lines("""

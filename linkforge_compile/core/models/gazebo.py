@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.frozen_map import FreePart, FrozenMap
 from linkforge_compile.core.part import Element, freeze
+from linkforge_compile.core.prefixing import prefixed_copy
 from linkforge_compile.core.rules import require_finite, require_not_blank
 
 
@@ -25,6 +26,14 @@ class GazeboPlugin(Element):
     """
 
     PREFIXED = ("name",)
+
+    def with_prefix(self, prefix: str) -> GazeboPlugin:
+        """Return the plugin with the prefix before its name, unless that is a class of Gazebo Sim's.
+
+        Gazebo Classic's plugins are named by their user; Gazebo Sim loads the class that the name says, such as
+        `gz::sim::systems::Imu`, and there is none with a prefix.
+        """
+        return self if "::" in self.name else prefixed_copy(self, prefix) if prefix else self
 
     name: str
     filename: str
