@@ -5,11 +5,9 @@ Values flow down, faults flow sideways into the sink, and no stage stops the lin
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends import srdf_limits, urdf_limits
@@ -31,6 +29,7 @@ from linkforge_compile.modules import (
     list_parameters,
     variants_of,
 )
+from linkforge_compile.stack import with_room
 
 if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
@@ -178,37 +177,8 @@ def _file(path: str | Path) -> _Read:
     return lambda loader, sink: loader.open(Path(path), sink)
 
 
-_DEEP = 100
-"""How many callers may wait on the stack before the compiler, which walks trees by recursion, takes another one."""
-
-
 def _compile(read: _Read, settings: _Settings) -> Compilation:
-    """Compile on a stack with room enough, however deep the caller's is: the same spec gives the same everywhere."""
-    caller: FrameType | None = sys._getframe()
-    depth = 0
-    while caller and depth < _DEEP:
-        caller, depth = caller.f_back, depth + 1
-    return _compiled(read, settings) if caller is None else _on_a_stack_of_its_own(lambda: _compiled(read, settings))
-
-
-def _on_a_stack_of_its_own(work: Callable[[], Compilation]) -> Compilation:
-    import threading
-
-    compilations: list[Compilation] = []
-    errors: list[BaseException] = []
-
-    def run() -> None:
-        try:
-            compilations.append(work())
-        except BaseException as error:  # the caller's, who waits
-            errors.append(error)
-
-    thread = threading.Thread(target=run)
-    thread.start()
-    thread.join()
-    if errors:
-        raise errors[0]
-    return compilations[0]
+    return with_room(lambda: _compiled(read, settings))
 
 
 def _compiled(read: _Read, settings: _Settings) -> Compilation:

@@ -12,6 +12,7 @@ MAY_IMPORT = {
     "source": "",
     "units": "",
     "resources": "",
+    "stack": "",
     "_version": "",
     "diagnostics": "source",
     "syntax": "source diagnostics units",
@@ -23,7 +24,7 @@ MAY_IMPORT = {
     "checks": "source diagnostics core",
     "backends": "source diagnostics units core resources",
     "writers": "source units syntax core modules",
-    "pipeline": "source diagnostics units syntax schema modules lowering checks backends core writers",
+    "pipeline": "source diagnostics units syntax schema modules lowering checks backends core writers stack",
     "cli": "source diagnostics core checks schema pipeline backends writers resources _version",
 }
 

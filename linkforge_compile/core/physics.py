@@ -96,7 +96,15 @@ def rotated(inertia: InertiaTensor, rpy: Vector3) -> InertiaTensor:
     turn = rotation_matrix(rpy)
     half = _product(turn, _matrix(inertia))
     (ixx, ixy, ixz), (_, iyy, iyz), (_, _, izz) = _product(half, _transposed(turn))
+    # The sine of half a turn is 1.2e-16 and not 0, and another platform's may be the next double: no product of
+    # inertia is meant by that, and no byte of the output may depend on it.
+    noise = _TURNING_NOISE * (abs(ixx) + abs(iyy) + abs(izz))
+    ixy, ixz, iyz = (product if abs(product) > noise else 0.0 for product in (ixy, ixz, iyz))
     return InertiaTensor(ixx, iyy, izz, ixy, ixz, iyz)
+
+
+_TURNING_NOISE = 1e-15
+"""What rounding leaves of a product of inertia that is zero, as part of the moments."""
 
 
 def shifted(inertia: InertiaTensor, mass: float, lever_arm: Vector3) -> InertiaTensor:
