@@ -17,7 +17,7 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_KIND,
 )
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.units import Dimension, Quantity, number_text, parse_quantity, unit_text, units_of
+from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, parse_quantity, unit_text, units_of
 
 _WORDS = {
     Dimension.LENGTH: ("a length", "25 mm"),
@@ -34,8 +34,6 @@ _WORDS = {
 }
 """Each dimension as a person says it, and a value that shows how it is written."""
 
-# A whole turn that was rounded to two decimals (6.29) is still radians.
-_WIDEST_ANGLE = 2 * math.pi + 0.005
 _LONGEST_LENGTH = 100.0
 
 
@@ -109,7 +107,7 @@ def as_float(value: float) -> float:
 def doubt(node: YamlNode, number: float, measure: Measure) -> Code | None:
     """Return the warning for a number that is likely meant in degrees or millimetres, None for every other."""
     bare = isinstance(node, YamlScalar) and isinstance(node.value, int | float)
-    if measure.dimensions == (Dimension.ANGLE,) and bare and abs(number) > _WIDEST_ANGLE:
+    if measure.dimensions == (Dimension.ANGLE,) and bare and abs(number) > WIDEST_ANGLE:
         return WIDE_ANGLE
     if measure.dimensions == (Dimension.LENGTH,) and abs(number) > _LONGEST_LENGTH and not measure.may_be_far:
         return LONG_LENGTH

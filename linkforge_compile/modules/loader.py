@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from itertools import islice
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostics, Note
@@ -15,7 +14,7 @@ from linkforge_compile.modules.file_text import MAX_BYTES, UnreadableError, file
 from linkforge_compile.modules.includes import Whole, lay_together, reached
 from linkforge_compile.modules.noted import NotedSink
 from linkforge_compile.modules.packages import Package
-from linkforge_compile.modules.paths import as_typed
+from linkforge_compile.modules.paths import as_typed, names_in
 from linkforge_compile.modules.places import judge_places
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile, Span
@@ -23,8 +22,6 @@ from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read, 
 
 MAX_DATA_BYTES = MAX_BYTES
 """How much the files of `data` of one compile may hold together."""
-
-_MAX_NEAR_NAMES = 10_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -155,13 +152,6 @@ def _text(path: Path, used: Used, sink: Diagnostics) -> str | None:
         return None
     if text is None:
         notes = [Note(f"looked for it at {as_typed(path)}")] if used.where else []
-        near = _neighbours(path)
+        near = names_in(path.parent)
         sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
     return text
-
-
-def _neighbours(path: Path) -> tuple[str, ...]:
-    try:
-        return tuple(entry.name for entry in islice(path.parent.iterdir(), _MAX_NEAR_NAMES))
-    except OSError:
-        return ()

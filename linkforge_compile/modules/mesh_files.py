@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from itertools import islice
 from pathlib import Path
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import USE_OF_NOWHERE
 from linkforge_compile.modules.loader import Loader
+from linkforge_compile.modules.paths import names_in
 from linkforge_compile.modules.uses import UseSite, locate
 from linkforge_compile.source import SourceFile, Span
 
@@ -18,8 +18,6 @@ FindMesh: TypeAlias = Callable[[str, Span, Diagnostics], Path | None]
 
 MakeSite: TypeAlias = Callable[[str, Span], UseSite]
 """Makes the site of a path that is written at a place."""
-
-_MAX_NEAR_NAMES = 10_000
 
 
 def mesh_finder(sites: Mapping[SourceFile, MakeSite], loader: Loader) -> FindMesh:
@@ -46,7 +44,4 @@ def misspelt_part(path: Path) -> tuple[str, tuple[str, ...]]:
     missing = path
     while not missing.parent.is_dir() and missing.parent != missing:
         missing = missing.parent
-    try:
-        return missing.name, tuple(entry.name for entry in islice(missing.parent.iterdir(), _MAX_NEAR_NAMES))
-    except OSError:
-        return missing.name, ()
+    return missing.name, names_in(missing.parent)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -26,14 +25,12 @@ from linkforge_compile.modules.kinds import KINDS, Kind
 from linkforge_compile.modules.values import describe
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.units import Dimension, Quantity, number_text
+from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text
 
 if TYPE_CHECKING:
     from linkforge_compile.modules.patterns import Pattern
 
 _CONSTRAINTS = ("minimum", "maximum", "enum", "pattern")
-_WHOLE_TURN = 2 * math.pi + 0.005
-"""A turn that was rounded to two decimals (6.29) is still radians."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +96,7 @@ class Parameter:
         if violation:
             sink.report(violation)
             return None
-        if self.kind.name == Dimension.ANGLE and isinstance(given, int | float) and abs(given) > _WHOLE_TURN:
+        if self.kind.name == Dimension.ANGLE and isinstance(given, int | float) and abs(given) > WIDEST_ANGLE:
             sink.report(WIDE_ANGLE.at(where, field=f"parameter '{self.name}'", found=number_text(given)))
         return value
 

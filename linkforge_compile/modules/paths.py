@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from itertools import islice
 from pathlib import Path
 
 
@@ -22,3 +23,14 @@ def as_typed(path: Path) -> Path:
     """Return the path as a person in the working directory would type it: relative where it lies below."""
     here = Path.cwd()
     return path.relative_to(here) if path.is_relative_to(here) else path
+
+
+_MAX_NAMES = 10_000
+
+
+def names_in(folder: Path) -> tuple[str, ...]:
+    """Return what lies in a folder, to offer for a name that does not; nothing where it cannot be read."""
+    try:
+        return tuple(entry.name for entry in islice(folder.iterdir(), _MAX_NAMES))
+    except OSError:
+        return ()

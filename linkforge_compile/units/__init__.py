@@ -1,7 +1,17 @@
 """Quantities: numbers that know their dimension, the units people write them in, and numbers as text."""
 
 from linkforge_compile.units.numbers import number_text
-from linkforge_compile.units.quantity import Dimension, Quantity
+from linkforge_compile.units.quantity import WIDEST_ANGLE, Dimension, Quantity
 from linkforge_compile.units.table import UNITS, Unit, parse_quantity, unit_text, units_of
 
-__all__ = ["UNITS", "Dimension", "Quantity", "Unit", "number_text", "parse_quantity", "unit_text", "units_of"]
+__all__ = [
+    "UNITS",
+    "WIDEST_ANGLE",
+    "Dimension",
+    "Quantity",
+    "Unit",
+    "number_text",
+    "parse_quantity",
+    "unit_text",
+    "units_of",
+]

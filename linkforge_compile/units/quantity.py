@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -40,6 +41,10 @@ _SI_UNITS = {
     Dimension.DENSITY: "kg/m^3",
     Dimension.INERTIA: "kg*m^2",
 }
+
+
+WIDEST_ANGLE = 2 * math.pi + 0.005
+"""Beyond this a bare angle [rad] was meant in degrees; a whole turn rounded to two decimals (6.29) is still radians."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -90,8 +90,7 @@ def _write(robot: Robot, spec: str, targets: dict[str, Path | None], gazebo: str
     from linkforge_compile.backends import BACKENDS
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
 
-    has_semantic = robot.semantic.normalized() != type(robot.semantic)(robot_name=robot.name)
-    if not has_semantic:
+    if not robot.says_semantic or robot.semantic.is_empty:
         if "urdf" not in targets:
             print(f"{spec}: error: the robot has no `semantic` part, so there is no SRDF to write", file=sys.stderr)
             return FAULTY_SPEC

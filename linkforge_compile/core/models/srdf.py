@@ -77,6 +77,11 @@ class SemanticRobotDescription(Element):
     def __post_init__(self) -> None:
         freeze(self, *SEMANTIC_KEYS)
 
+    @property
+    def is_empty(self) -> bool:
+        """True for a description of nothing, whatever robot it names."""
+        return self == SemanticRobotDescription(self.robot_name)
+
     def merge_with(self, other: SemanticRobotDescription) -> SemanticRobotDescription:
         """Return this description with the members of the other behind its own; the name stays this one's.
 
