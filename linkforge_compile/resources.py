@@ -1,4 +1,4 @@
-"""Finds schemas/ and templates/: inside the package in a wheel, at the top of the repository in a checkout."""
+"""Finds schemas/, templates/ and the manual: inside the package in a wheel, in the repository in a checkout."""
 
 from __future__ import annotations
 
@@ -9,9 +9,7 @@ from pathlib import Path
 @cache
 def data_folder() -> Path:
     """Return the folder that holds `schemas` and `templates`."""
-    package = Path(__file__).parent
-    packed = package / "_data"
-    return packed if packed.is_dir() else package.parent
+    return _packed() if _packed().is_dir() else _packed().parents[1]
 
 
 def schemas_folder() -> Path:
@@ -20,3 +18,12 @@ def schemas_folder() -> Path:
 
 def templates_folder() -> Path:
     return data_folder() / "templates"
+
+
+def manual_folder() -> Path:
+    """Return the folder with one page a diagnostic, LF4102.md; in a checkout it is among the docs."""
+    return _packed() / "diagnostics" if _packed().is_dir() else data_folder() / "docs" / "diagnostics"
+
+
+def _packed() -> Path:
+    return Path(__file__).parent / "_data"

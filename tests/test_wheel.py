@@ -22,12 +22,15 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_every_schema_and_template_is_in_the_wheel(wheel: Path):
+def test_every_schema_template_and_page_of_the_manual_is_in_the_wheel(wheel: Path):
     packed = set(zipfile.ZipFile(wheel).namelist())
     for folder, ending in (("schemas", "*.json"), ("templates", "*.j2")):
         files = [path.relative_to(ROOT).as_posix() for path in (ROOT / folder).rglob(ending)]
         assert files
         assert {f"linkforge_compile/_data/{file}" for file in files} <= packed
+    manual = {f"linkforge_compile/_data/diagnostics/{path.name}" for path in (ROOT / "docs/diagnostics").glob("LF*.md")}
+    assert manual
+    assert manual <= packed
     assert not any(name.startswith(("tests/", "examples/", "schemas/")) for name in packed)
 
 
@@ -49,3 +52,4 @@ def test_the_installed_command_compiles_and_has_its_schema(wheel: Path, tmp_path
         "utf-8"
     )
     assert '"$schema": "http://json-schema.org/draft-07/schema#"' in run("schema")
+    assert run("explain", "LF1002") == (ROOT / "docs/diagnostics/LF1002.md").read_text("utf-8")

@@ -17,7 +17,7 @@ _COMMANDS = {
     "check": "tell all that is wrong with specs, writing nothing",
     "params": "list the parameters and variants of a spec",
     "expand": "print a spec as one flat file: no modules, expressions, loops or defaults left",
-    "explain": "tell where a value of the finished robot comes from",
+    "explain": "tell where a value of the finished robot comes from, or what a code means",
     "schema": "print the JSON Schema of specs, for editors",
 }
 

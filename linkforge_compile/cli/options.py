@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkforge_compile.cli.colour import is_coloured
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.render import render_text
@@ -68,6 +68,5 @@ def split_assignments(words: Iterable[str]) -> tuple[list[str], list[str]]:
 
 
 def tell(diagnostics: Iterable[Diagnostic]) -> None:
-    """Write diagnostics to standard error, coloured on a terminal unless NO_COLOR is set (no-color.org)."""
-    colour = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
-    sys.stderr.write(render_text(diagnostics, colour=colour))
+    """Write diagnostics to standard error."""
+    sys.stderr.write(render_text(diagnostics, colour=is_coloured(sys.stderr)))

@@ -64,6 +64,13 @@ class Code:
     severity: Severity
     message: str
 
+    @property
+    def title(self) -> str:
+        """The sentence as it stands before there are facts: "no link named '…'"."""
+        from string import Formatter
+
+        return "".join(text + "…" * (field is not None) for text, field, *_ in Formatter().parse(self.message))
+
     def at(
         self,
         where: Where,

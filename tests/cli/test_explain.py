@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from linkforge_compile.diagnostics.codes import REGISTER
+from linkforge_compile.resources import manual_folder
 from tests.cli.test_compile import linkforge
 
 ARM = """\
@@ -95,3 +97,35 @@ def test_what_an_override_and_a_default_gave_way_to_is_told(tmp_path: Path):
     unchanged = linkforge("explain", "cell.robot.yaml", "joints/left_elbow/limits/velocity", cwd=tmp_path)
     assert "instead of what is written at arm.robot.yaml:8:50" in unchanged.stdout
     assert "cell.robot.yaml:5:15" not in run.stdout
+
+
+def test_a_code_is_explained_by_its_page_of_the_manual(tmp_path: Path):
+    run = linkforge("explain", "lf1002", cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert run.stdout == (manual_folder() / "LF1002.md").read_text("utf-8")
+
+
+def test_a_page_is_styled_where_colours_are_asked_for(tmp_path: Path):
+    run = linkforge("explain", "LF1002", cwd=tmp_path, FORCE_COLOR="1", NO_COLOR="")
+    assert run.stdout.startswith("\033[1mLF1002: YAML is indented with spaces, found a tab\033[0m\n")
+    assert "```" not in run.stdout
+    assert "    \033[36mlinks:\033[0m" in run.stdout.splitlines()
+
+
+def test_all_codes_are_listed(tmp_path: Path):
+    lines = linkforge("explain", "--codes", cwd=tmp_path).stdout.splitlines()
+    assert [line.partition(" ")[0] for line in lines] == sorted(REGISTER)
+    assert "LF4102  error    no link named '…'" in lines
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("LF4192",), "no diagnostic has the code 'LF4192'; did you mean 'LF4102'?"),
+        (("--codes", "LF4102"), "--codes lists all codes and takes no words, found 'LF4102'"),
+    ],
+)
+def test_a_code_that_is_none_is_wrong_usage(tmp_path: Path, words: tuple[str, ...], said: str):
+    run = linkforge("explain", *words, cwd=tmp_path)
+    assert run.returncode == 2
+    assert said in run.stderr

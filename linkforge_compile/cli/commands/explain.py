@@ -1,7 +1,8 @@
-"""`linkforge explain`: where a value of the finished robot was written, and through which files it came."""
+"""`linkforge explain`: where a value of the finished robot comes from, and what a diagnostic's code means."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -22,20 +23,51 @@ examples:
   linkforge explain cell.robot.yaml joints/left_elbow/limits/effort
   linkforge explain cell.robot.yaml links/left_forearm/visual/0/origin/xyz
   linkforge explain cell.robot.yaml semantic/group_states/arm/home
+  linkforge explain LF4102                  what a diagnostic means, with a wrong and a right spec
+  linkforge explain --codes                 all of them
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.usage = "linkforge explain [options] SPEC PATH [NAME:=VALUE ...]"
+    parser.usage = (
+        "linkforge explain [options] SPEC PATH [NAME:=VALUE ...]\n"
+        "       linkforge explain CODE\n"
+        "       linkforge explain --codes"
+    )
     parser.epilog = _EXAMPLES
-    parser.add_argument("words", metavar="SPEC PATH", nargs="+", help="the spec, and the path of a value in its robot")
+    parser.add_argument(
+        "words", metavar="SPEC PATH", nargs="*", help="the spec, and the path of a value in its robot; or the one CODE"
+    )
+    parser.add_argument("--codes", action="store_true", help="list the code of every diagnostic")
     add_spec_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from linkforge_compile.cli.manual import is_code
+
+    if arguments.codes or (len(arguments.words) == 1 and is_code(arguments.words[0])):
+        return _print_manual(arguments.words, list_codes=arguments.codes)
+    return _explain_value(arguments)
+
+
+def _print_manual(words: list[str], *, list_codes: bool) -> int:
+    from linkforge_compile.cli.colour import is_coloured
+    from linkforge_compile.cli.manual import UnknownCodeError, page, register_table
+    from linkforge_compile.cli.output import write_to_stdout
+
+    if list_codes and words:
+        raise UsageError(f"--codes lists all codes and takes no words, found '{words[0]}'")
+    try:
+        write_to_stdout(register_table() if list_codes else page(words[0], styled=is_coloured(sys.stdout)))
+    except UnknownCodeError as error:
+        raise UsageError(f"{error} (--codes lists all)") from None
+    return OK
+
+
+def _explain_value(arguments: argparse.Namespace) -> int:
     words, assignments = split_assignments(arguments.words)
     if len(words) < 2:
-        raise UsageError("takes a spec and a path, such as joints/elbow/limits/effort")
+        raise UsageError("takes a spec and a path, such as joints/elbow/limits/effort, or a code, such as LF4102")
     *specs, path = words
     compilation = compile_spec(one_spec(specs), assignments, arguments)
     tell(compilation.diagnostics)

@@ -1,0 +1,56 @@
+"""The manual holds: its wrong examples are told as it says, its right ones compile."""
+
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile.cli.main import main
+from linkforge_compile.cli.manual import heading
+from linkforge_compile.diagnostics.codes import REGISTER
+from linkforge_compile.resources import manual_folder
+from tests.diagnostics.manual_page import Example, Page
+
+PAGES = sorted(manual_folder().glob("LF*.md"))
+TO_WRITE = Path(__file__).with_name("pages_to_write.txt").read_text("utf-8").split()
+
+SHOWN = [path for path in PAGES if "Wrong" in Page.read(path).sections]
+
+
+def run(example: Example, folder: Path, capfd: pytest.CaptureFixture[str]) -> tuple[int, str]:
+    """Return the exit code of the example's command and what it printed."""
+    folder.mkdir()
+    example.write(folder)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        exit_code = main(example.command)
+    return exit_code, "".join(capfd.readouterr())
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.stem)
+def test_a_page_begins_with_its_code_and_what_the_code_says(path: Path):
+    page = Page.read(path)
+    assert page.heading == f"# {heading(REGISTER[path.stem])}"
+    assert len(page.paragraphs) >= 2, "a paragraph of what it says and when, and one of why it matters"
+    assert list(page.sections) in (["Wrong", "Right"], ["What to do"])
+
+
+@pytest.mark.parametrize("path", SHOWN, ids=lambda path: path.stem)
+def test_a_wrong_example_is_told_and_the_right_one_is_not(
+    path: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+):
+    sections = Page.read(path).sections
+    sign = f"[{path.stem}]"
+    _, told_of_wrong = run(Example.read(sections["Wrong"]), tmp_path / "wrong", capfd)
+    assert sign in told_of_wrong
+    exit_code, told_of_right = run(Example.read(sections["Right"]), tmp_path / "right", capfd)
+    assert exit_code == 0, told_of_right
+    assert sign not in told_of_right
+
+
+def test_every_code_has_a_page():
+    missing = set(REGISTER) - {path.stem for path in PAGES}
+    assert missing <= set(TO_WRITE), "write docs/diagnostics/CODE.md, as docs/diagnostics/README.md says"
+
+
+def test_what_is_to_be_written_is_not_there_yet():
+    assert not {path.stem for path in PAGES} & set(TO_WRITE), "take the code out of pages_to_write.txt"
