@@ -18,6 +18,7 @@ from linkforge_compile._version import __version__
 
 if TYPE_CHECKING:
     from linkforge_compile.backends import render_srdf, render_urdf
+    from linkforge_compile.backends.source_map import SourceMap, render_srdf_with_map, render_urdf_with_map
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
     from linkforge_compile.pipeline import Compilation, CompileError, check_file, compile_file, compile_text
@@ -31,13 +32,16 @@ __all__ = [
     "Diagnostics",
     "Robot",
     "Severity",
+    "SourceMap",
     "Span",
     "__version__",
     "check_file",
     "compile_file",
     "compile_text",
     "render_srdf",
+    "render_srdf_with_map",
     "render_urdf",
+    "render_urdf_with_map",
     "write_spec",
 ]
 
@@ -48,12 +52,15 @@ _HOMES = {
     "Diagnostics": "diagnostics",
     "Robot": "core",
     "Severity": "diagnostics",
+    "SourceMap": "backends.source_map",
     "Span": "source",
     "check_file": "pipeline",
     "compile_file": "pipeline",
     "compile_text": "pipeline",
     "render_srdf": "backends",
+    "render_srdf_with_map": "backends.source_map",
     "render_urdf": "backends",
+    "render_urdf_with_map": "backends.source_map",
     "write_spec": "writers",
 }
 

@@ -12,6 +12,7 @@ from functools import cache
 from numbers import Real
 from typing import Protocol, TypeAlias
 
+from linkforge_compile.backends.marks import is_recording, mark, mark_of_attribute
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.source import SourceRef
@@ -71,6 +72,12 @@ def spelled(value: Spellable) -> str:
     return " ".join(map(number_text, value))
 
 
+def placed(text: str, source: SourceRef | None, *path: str | int) -> str:
+    """Return text for a template, marked with where it was written: under a path of an object."""
+    # An element without content closes itself, so an empty text stays empty.
+    return Xml(mark(source, *path) + escaped(text)) if text and is_recording() else text
+
+
 def escaped(text: str) -> str:
     """Return text as it stands in an attribute or between tags.
 
@@ -120,11 +127,28 @@ def attributes(part: Extended | None = None, /, **stated: Spellable | None) -> X
 
     """
     text = "".join([f' {name}="{_quotable(value)}"' for name, value in stated.items() if value is not None])
-    if part is None or not part.extra_attributes:
+    if part is None or not (part.extra_attributes or is_recording()):
         return Xml(text)
     extra = attribute_pairs(part.extra_attributes)
     _require_attributes(part, stated, extra)
+    if is_recording():
+        return _marked_attributes(part, stated, extra)
     return Xml(text + "".join([f' {name}="{escaped(value)}"' for name, value in extra]))
+
+
+def attributes_at(source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
+    """Return ` name="value"` for what is no part of its own, but written under a path of one."""
+    return Xml(mark(source, *path) + attributes(**stated))
+
+
+def _marked_attributes(part: Extended, stated: Mapping[str, Spellable | None], extra: Iterable[tuple[str, str]]) -> Xml:
+    own = (
+        f'{mark_of_attribute(part.source, name)} {name}="{_quotable(value)}"'
+        for name, value in stated.items()
+        if value is not None
+    )
+    raw = (f'{mark(part.source, "extra_attributes", name)} {name}="{escaped(value)}"' for name, value in extra)
+    return Xml("".join((mark(part.source), *own, *raw)))
 
 
 def _quotable(value: Spellable) -> str:
@@ -161,7 +185,13 @@ def elements(part: Extended) -> Xml:
         return NOTHING
     from linkforge_compile.backends.raw import raw_elements
 
-    return Xml("\n".join(raw_elements(text) for text in part.extra_elements))
+    raws = enumerate(part.extra_elements)
+    return Xml("\n".join(raw_elements(text, part.source, "extra", number) for number, text in raws))
+
+
+def leaf_at(tag: str, source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
+    """Return an element of attributes that is no part of its own, but written under a path of one."""
+    return Xml(f"<{tag}{attributes_at(source, *path, **stated)}/>")
 
 
 def leaf(tag: str, part: Extended | None, /, **stated: Spellable | None) -> Xml:

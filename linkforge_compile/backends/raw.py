@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
+from linkforge_compile.backends.marks import mark, mark_of_line
 from linkforge_compile.backends.markup import Xml, escaped, is_xml_name, require_writable, spelled
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.source import SourceRef
 
 _MOST_NESTED = 100
 
@@ -14,21 +16,28 @@ Content: TypeAlias = "str | Node"
 """What stands in an element: text, an element, or a comment, which is Xml."""
 
 
+Path: TypeAlias = tuple[str | int, ...]
+"""Keys and positions that lead from an object to what is written in it."""
+
+
 class Node(NamedTuple):
-    """An element as it was read or as parameters spell it; `content` is in document order."""
+    """An element as it was read or as parameters spell it; `content` is in document order, `mark` in its tag."""
 
     tag: str
     attributes: Sequence[tuple[str, str]]
     content: list[Content]
+    mark: str = ""
 
     @property
     def start(self) -> str:
         """The opening tag without its end."""
-        return f"<{self.tag}" + "".join(f' {name}="{escaped(value)}"' for name, value in self.attributes)
+        return f"<{self.tag}{self.mark}" + "".join(f' {name}="{escaped(value)}"' for name, value in self.attributes)
 
 
-def raw_elements(text: str) -> Xml:
+def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -> Xml:
     """Return raw XML laid out; names, prefixes and values as written. Blank text between tags is layout.
+
+    The text was written under `path` of what `source` points to.
 
     Prefixes need no declaration here: it usually stands on `<robot>`.
 
@@ -37,43 +46,45 @@ def raw_elements(text: str) -> Xml:
 
     """
     require_writable(text)
-    content = _parse(text)
+    content = _parse(text, source, path)
     if any(map(_is_text, content)):
         raise RobotGeneratorError(f"raw XML must be elements, found text in {text!r}")
     return Xml("\n".join(_lines(content)))
 
 
-def parameter_elements(parameters: Mapping[str, object]) -> Xml:
+def parameter_elements(parameters: Mapping[str, object], source: SourceRef | None = None, *path: str | int) -> Xml:
     """Return the parameters of a free part as child elements.
 
     A mapping is an element with children, where a key `_x` is its attribute `x` and `_text` its text; a list
-    repeats its tag; anything else is text.
+    repeats its tag; anything else is text. They were written under `path` of what `source` points to.
 
     Raises:
         RobotGeneratorError: for a key that cannot be a tag.
 
     """
-    return Xml("\n".join(_lines(_nodes(parameters))))
+    return Xml("\n".join(_lines(_nodes(parameters, source, path))))
 
 
-def _nodes(parameters: Mapping[str, object]) -> list[Content]:
-    return [
-        _node(tag, value)
-        for tag, values in parameters.items()
-        for value in (values if isinstance(values, Sequence) and not isinstance(values, str) else (values,))
-    ]
+def _nodes(parameters: Mapping[str, object], source: SourceRef | None, path: Path) -> list[Content]:
+    nodes: list[Content] = []
+    for tag, value in parameters.items():
+        if isinstance(value, Sequence) and not isinstance(value, str):
+            nodes += [_node(tag, item, source, (*path, tag, number)) for number, item in enumerate(value)]
+        else:
+            nodes.append(_node(tag, value, source, (*path, tag)))
+    return nodes
 
 
-def _node(tag: str, value: object) -> Node:
+def _node(tag: str, value: object, source: SourceRef | None, path: Path) -> Node:
     _require_name(tag)
     if not isinstance(value, Mapping):
-        return Node(tag, (), [text] if (text := _text(value)) else [])
+        return Node(tag, (), [text] if (text := _text(value)) else [], mark(source, *path))
     attributes = [(key[1:], _text(item)) for key, item in value.items() if key.startswith("_") and key != "_text"]
     for name, _ in attributes:
         _require_name(name)
-    children = _nodes({key: item for key, item in value.items() if not key.startswith("_")})
+    children = _nodes({key: item for key, item in value.items() if not key.startswith("_")}, source, path)
     text = _text(value.get("_text", ""))
-    return Node(tag, attributes, [text, *children] if text else children)
+    return Node(tag, attributes, [text, *children] if text else children, mark(source, *path))
 
 
 def _text(value: object) -> str:
@@ -109,7 +120,7 @@ def _inline(item: Content) -> str:
     return f"{item.start}>{''.join(map(_inline, item.content))}</{item.tag}>" if item.content else f"{item.start}/>"
 
 
-def _parse(text: str) -> list[Content]:
+def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     # expat knows nothing of namespaces unless told, so an undeclared `drake:` stays what it is; lxml refuses it.
     from xml.parsers import expat
 
@@ -119,7 +130,8 @@ def _parse(text: str) -> list[Content]:
     def begin(tag: str, attributes: list[str]) -> None:
         if len(open_nodes) > _MOST_NESTED:
             raise RobotGeneratorError(f"raw XML is nested more than {_MOST_NESTED} elements deep")
-        node = Node(tag, tuple(zip(attributes[::2], attributes[1::2], strict=True)), [])
+        pairs = tuple(zip(attributes[::2], attributes[1::2], strict=True))
+        node = Node(tag, pairs, [], mark_of_line(source, path, parser.CurrentLineNumber))
         open_nodes[-1].content.append(node)
         open_nodes.append(node)
 

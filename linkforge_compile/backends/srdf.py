@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.backends.environment import render
-from linkforge_compile.backends.markup import Xml, attributes, elements, leaf, spelled
+from linkforge_compile.backends.marks import mark
+from linkforge_compile.backends.markup import Xml, attributes, elements, leaf, placed, spelled
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -77,7 +78,7 @@ def render_srdf(robot: Robot, *, pretty: bool = True, banner: str | None = None)
 def _semantic_view(robot: Robot) -> SemanticView:
     semantic = robot.semantic
     return SemanticView(
-        attributes(semantic, name=semantic.robot_name or robot.name),
+        Xml(mark(robot.source, "name") + attributes(semantic, name=semantic.robot_name or robot.name)),
         tuple(map(_group, semantic.groups)),
         tuple(map(_group_state, semantic.group_states)),
         tuple(
@@ -114,7 +115,7 @@ def _semantic_view(robot: Robot) -> SemanticView:
             for remark in semantic.joint_properties
         ),
         tuple(map(_spheres, semantic.link_sphere_approximations)),
-        semantic.no_default_collision_links,
+        _without_collisions(robot),
         _pairs("enable_collisions", semantic.enabled_collisions),
         _pairs("disable_collisions", semantic.disabled_collisions),
         elements(semantic),
@@ -124,18 +125,31 @@ def _semantic_view(robot: Robot) -> SemanticView:
 def _group(group: PlanningGroup) -> GroupView:
     return GroupView(
         attributes(group, name=group.name),
-        group.links,
-        group.joints,
+        _members(group, group.links, "links"),
+        _members(group, group.joints, "joints"),
         tuple(leaf("chain", chain, base_link=chain.base_link, tip_link=chain.tip_link) for chain in group.chains),
-        group.subgroups,
+        _members(group, group.subgroups, "subgroups"),
         elements(group),
     )
+
+
+def _members(group: PlanningGroup, names: Sequence[str], key: str) -> list[str]:
+    return [placed(name, group.source, key, number) for number, name in enumerate(names)]
+
+
+def _without_collisions(robot: Robot) -> list[str]:
+    # Names alone, collected from all modules: what is known of each is where its link was written.
+    names = robot.semantic.no_default_collision_links
+    return [placed(name, robot.links[name].source if name in robot.links else None) for name in names]
 
 
 def _group_state(state: GroupState) -> StateView:
     return StateView(
         attributes(state, name=state.name, group=state.group),
-        tuple((joint, " ".join(map(spelled, positions))) for joint, positions in state.joint_values.items()),
+        tuple(
+            (placed(joint, state.source, joint), " ".join(map(spelled, positions)))
+            for joint, positions in state.joint_values.items()
+        ),
         elements(state),
     )
 

@@ -18,6 +18,7 @@ _COMMANDS = {
     "params": "list the parameters and variants of a spec",
     "expand": "print a spec as one flat file: no modules, expressions, loops or defaults left",
     "explain": "tell where a value of the finished robot comes from, or what a code means",
+    "where": "tell what in a spec wrote a line of the URDF or SRDF",
     "schema": "print the JSON Schema of specs, for editors",
 }
 

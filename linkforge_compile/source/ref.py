@@ -60,6 +60,11 @@ class SourceRef:
             node, span = inner, inner.span
         return span
 
+    def trail_to(self, place: Span) -> tuple[Span, ...]:
+        """Return the uses that led to a place: to the object's own file or, from an override, to one that uses it."""
+        files = [use.file for use in self.trail]
+        return self.trail[files.index(place.file) + 1 :] if place.file in files else self.trail
+
     def __deepcopy__(self, memo: object) -> SourceRef:
         return self
 

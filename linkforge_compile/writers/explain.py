@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source import Span
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, write
 from linkforge_compile.writers.pen import Pen
@@ -77,15 +77,9 @@ def explain(robot: Robot, path: str) -> Explanation:
     node, is_written = _deepest(source.node, steps[last].key, keys)
     place = source.span if node is source.node else node.span
     if not is_written:
-        return Explanation(text, False, place, None, _trail(source, place))
+        return Explanation(text, False, place, None, source.trail_to(place))
     replaced = _replaced(source.node, steps[last].key, keys)
-    return Explanation(text, True, place, _expression(place), _trail(source, place), replaced)
-
-
-def _trail(source: SourceRef, place: Span) -> tuple[Span, ...]:
-    """Return the uses that led to a place: to the object's own file or, from an override, to one that uses it."""
-    files = [use.file for use in source.trail]
-    return source.trail[files.index(place.file) + 1 :] if place.file in files else source.trail
+    return Explanation(text, True, place, _expression(place), source.trail_to(place), replaced)
 
 
 def _steps(node: YamlNode, path: str, before: str) -> tuple[_Step, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from linkforge_compile.backends.markup import Xml, attributes, elements, spelled
+from linkforge_compile.backends.markup import Xml, attributes, attributes_at, elements, placed, spelled
 from linkforge_compile.backends.raw import parameter_elements, raw_elements
 from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
@@ -50,7 +50,9 @@ class GazeboView(NamedTuple):
 def physics_views(links: Iterable[Link]) -> tuple[GazeboView, ...]:
     """Return a block for each link whose physics differ from the defaults, with what differs."""
     return tuple(
-        GazeboView(attributes(reference=link.name), _physics_tags(link.physics), Xml(), (), Xml())
+        GazeboView(
+            attributes_at(link.physics.source, reference=link.name), _physics_tags(link.physics), Xml(), (), Xml()
+        )
         for link in links
         if link.physics != DEFAULT_PHYSICS
     )
@@ -61,11 +63,11 @@ def gazebo_views(blocks: Iterable[GazeboElement]) -> tuple[GazeboView, ...]:
         GazeboView(
             attributes(block, reference=block.reference),
             tuple(
-                (tag, spelled(value))
+                (tag, placed(spelled(value), block.source, name))
                 for name, tag in _ELEMENT_TAGS.items()
                 if (value := getattr(block, name)) is not None
             ),
-            parameter_elements(block.properties),
+            _properties(block),
             tuple(map(plugin_view, block.plugins)),
             elements(block),
         )
@@ -77,14 +79,25 @@ def plugin_view(plugin: GazeboPlugin) -> PluginView:
     raw = plugin.raw_xml
     return PluginView(
         attributes(plugin, name=plugin.name, filename=plugin.filename),
-        raw_elements(raw) if raw is not None else parameter_elements(plugin.parameters),
+        raw_elements(raw) if raw is not None else parameter_elements(plugin.parameters, plugin.source, "parameters"),
         elements(plugin),
+    )
+
+
+def _properties(block: GazeboElement) -> Xml:
+    # Tags of Gazebo that are keys of the language stand in the block itself, others in its `properties`.
+    own = block.source.node if block.source else None
+    return Xml(
+        "\n".join(
+            parameter_elements({tag: part}, block.source, *(() if own and own.child(tag) else ("properties",)))
+            for tag, part in block.properties.items()
+        )
     )
 
 
 def _physics_tags(physics: LinkPhysics) -> tuple[tuple[str, str], ...]:
     return tuple(
-        (tag, spelled(value))
+        (tag, placed(spelled(value), physics.source, name))
         for name, tag in _PHYSICS_TAGS.items()
         if (value := getattr(physics, name)) != getattr(DEFAULT_PHYSICS, name)
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from linkforge_compile.backends.markup import NOTHING, Xml, attributes, elements, leaf
+from linkforge_compile.backends.markup import NOTHING, Xml, attributes, elements, leaf, leaf_at, placed
 from linkforge_compile.backends.urdf.link import origin
 from linkforge_compile.core.models.joint import (
     Joint,
@@ -38,8 +38,8 @@ def joint_views(joints: Iterable[Joint]) -> tuple[JointView, ...]:
         JointView(
             attributes(joint, name=joint.name, type=joint.type),
             origin(joint.origin),
-            joint.parent,
-            joint.child,
+            placed(joint.parent, joint.source, "parent"),
+            placed(joint.child, joint.source, "child"),
             _axis(joint),
             _limit(joint.limits),
             _dynamics(joint.dynamics),
@@ -54,7 +54,7 @@ def joint_views(joints: Iterable[Joint]) -> tuple[JointView, ...]:
 
 def _axis(joint: Joint) -> Xml:
     axis = joint.axis_as_written or joint.axis
-    return leaf("axis", None, xyz=axis) if axis else NOTHING
+    return leaf_at("axis", joint.source, "axis", xyz=axis) if axis else NOTHING
 
 
 def _limit(limits: JointLimits | None) -> Xml:

@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from linkforge_compile.backends.markup import NOTHING, Xml, attributes, elements, leaf
+from linkforge_compile.backends.markup import (
+    NOTHING,
+    Xml,
+    attributes,
+    attributes_at,
+    elements,
+    leaf,
+    leaf_at,
+    placed,
+)
 from linkforge_compile.core.models.geometry import Box, Geometry, Mesh, Sphere, Transform
 from linkforge_compile.core.models.link import Collision, Inertial, Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Material
@@ -75,7 +84,9 @@ def material_view(material: Material) -> MaterialView:
     return MaterialView(
         attributes(material, name=material.name),
         leaf("color", material.color, rgba=material.color.to_tuple()) if material.color else NOTHING,
-        leaf("texture", None, filename=material.texture) if material.texture is not None else NOTHING,
+        NOTHING
+        if material.texture is None
+        else leaf_at("texture", material.source, "texture", filename=material.texture),
         elements(material),
     )
 
@@ -90,7 +101,7 @@ def _inertial(inertial: Inertial) -> InertialView:
     return InertialView(
         attributes(inertial),
         origin(inertial.origin),
-        number_text(inertial.mass),
+        placed(number_text(inertial.mass), inertial.source, "mass"),
         leaf(
             "inertia",
             tensor,
@@ -133,5 +144,5 @@ def _material_of(visual: Visual, materials: Mapping[str, Material]) -> MaterialV
     if material is None:
         return None
     if materials.get(material.name) == material:
-        return MaterialView(attributes(name=material.name))
+        return MaterialView(attributes_at(visual.source, "material", name=material.name))
     return material_view(material)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.backends.markup import Xml, attributes, elements, spelled
+from linkforge_compile.backends.markup import Xml, attributes, elements, placed, spelled
 from linkforge_compile.core.models.ros2_control import (
     Interface,
     Ros2Control,
@@ -13,6 +13,9 @@ from linkforge_compile.core.models.ros2_control import (
     Ros2ControlJoint,
     Ros2ControlSensor,
 )
+
+if TYPE_CHECKING:
+    from linkforge_compile.source import SourceRef
 
 Parameters: TypeAlias = tuple[tuple[str, str], ...]
 """Names and texts of `<param>`."""
@@ -51,8 +54,8 @@ def ros2_control_views(controls: Iterable[Ros2Control]) -> tuple[Ros2ControlView
     return tuple(
         Ros2ControlView(
             attributes(control, name=control.name, type=control.type),
-            control.hardware_plugin,
-            _parameters(control.parameters),
+            placed(control.hardware_plugin, control.source, "hardware_plugin"),
+            _parameters(control.parameters, control.source, "parameters"),
             (
                 *(_component("joint", joint, joint.command_interfaces) for joint in control.joints),
                 *(_component("sensor", sensor, ()) for sensor in control.sensors),
@@ -72,15 +75,17 @@ def _component(
         attributes(component, name=component.name),
         tuple(map(_interface, commands)),
         tuple(map(_interface, component.state_interfaces)),
-        _parameters(component.parameters),
+        _parameters(component.parameters, component.source, "parameters"),
         elements(component),
     )
 
 
 def _interface(name: str) -> InterfaceView:
     interface = Interface.of(name)
-    return InterfaceView(attributes(interface, name=interface), _parameters(interface.parameters), elements(interface))
+    return InterfaceView(
+        attributes(interface, name=interface), _parameters(interface.parameters, interface.source), elements(interface)
+    )
 
 
-def _parameters(parameters: Mapping[str, str]) -> Parameters:
-    return tuple((name, spelled(value)) for name, value in parameters.items())
+def _parameters(parameters: Mapping[str, str], source: SourceRef | None, *path: str) -> Parameters:
+    return tuple((placed(name, source, *path, name), spelled(value)) for name, value in parameters.items())

@@ -7,7 +7,7 @@ from dataclasses import fields
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
-from linkforge_compile.backends.markup import NOTHING, Xml, attributes, elements, escaped, spelled
+from linkforge_compile.backends.markup import NOTHING, Xml, attributes, elements, escaped, placed, spelled
 from linkforge_compile.backends.urdf.gazebo import PluginView, plugin_view
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.sensor import Sensor, SensorNoise, SensorType
@@ -16,6 +16,7 @@ from linkforge_compile.units import number_text
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.source import SourceRef
 
 Gazebo: TypeAlias = Literal["gz", "classic"]
 """Gazebo Sim (Harmonic) or Gazebo Classic (11)."""
@@ -97,15 +98,15 @@ class SensorView(NamedTuple):
 def sensor_views(robot: Robot, gazebo: Gazebo) -> tuple[SensorView, ...]:
     return tuple(
         SensorView(
-            sensor_reference(sensor, robot),
+            placed(sensor_reference(sensor, robot), sensor.source, "link"),
             attributes(sensor, name=sensor.name, type=_TYPES[gazebo].get(sensor.type, sensor.type)),
-            spelled(sensor.always_on),
-            number_text(sensor.update_rate),
-            spelled(sensor.visualize),
+            placed(spelled(sensor.always_on), sensor.source, "always_on"),
+            placed(number_text(sensor.update_rate), sensor.source, "update_rate"),
+            placed(spelled(sensor.visualize), sensor.source, "visualize"),
             _pose(sensor.origin),
-            sensor.topic,
+            None if sensor.topic is None else placed(sensor.topic, sensor.source, "topic"),
             # Gazebo Classic leaves the frame to the plugin that publishes.
-            sensor.frame if gazebo == "gz" else None,
+            None if sensor.frame is None or gazebo != "gz" else placed(sensor.frame, sensor.source, "frame"),
             _info(sensor, gazebo),
             plugin_view(sensor.plugin) if sensor.plugin else None,
             elements(sensor),
@@ -126,7 +127,8 @@ def _info(sensor: Sensor, gazebo: Gazebo) -> InfoView | None:
     info: Element | None = getattr(sensor, f"{kind}_info")
     if info is None:
         return None
-    values = {field.name: _ready(getattr(info, field.name)) for field in fields(info) if field.name not in _EVERYWHERE}
+    names = [field.name for field in fields(info) if field.name not in _EVERYWHERE]
+    values = {name: _ready(getattr(info, name), info.source, name) for name in names}
     tag = _INFO_TAGS[gazebo].get(kind, kind)
     return InfoView(kind, tag, attributes(info), MappingProxyType(values), elements(info))
 
@@ -134,20 +136,20 @@ def _info(sensor: Sensor, gazebo: Gazebo) -> InfoView | None:
 _EVERYWHERE = frozenset(field.name for field in fields(Element))
 
 
-def _ready(value: str | float | SensorNoise | None) -> Value:
+def _ready(value: str | float | SensorNoise | None, source: SourceRef | None, name: str) -> Value:
     if isinstance(value, SensorNoise):
         return _noise(value)
-    return None if value is None else spelled(value)
+    return None if value is None else placed(spelled(value), source, name)
 
 
 def _noise(noise: SensorNoise) -> NoiseView:
     return NoiseView(
         attributes(noise),
-        noise.type,
-        number_text(noise.mean),
-        number_text(noise.stddev),
-        number_text(noise.bias_mean) if noise.bias_mean else None,
-        number_text(noise.bias_stddev) if noise.bias_stddev else None,
+        placed(noise.type, noise.source, "type"),
+        placed(number_text(noise.mean), noise.source, "mean"),
+        placed(number_text(noise.stddev), noise.source, "stddev"),
+        placed(number_text(noise.bias_mean), noise.source, "bias_mean") if noise.bias_mean else None,
+        placed(number_text(noise.bias_stddev), noise.source, "bias_stddev") if noise.bias_stddev else None,
         elements(noise),
     )
 

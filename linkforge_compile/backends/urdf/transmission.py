@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from linkforge_compile.backends.markup import Xml, attributes, elements
+from linkforge_compile.backends.markup import Xml, attributes, elements, placed
 from linkforge_compile.backends.raw import parameter_elements
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.units import number_text
@@ -36,14 +36,14 @@ def transmission_views(transmissions: Iterable[Transmission]) -> tuple[Transmiss
     return tuple(
         TransmissionView(
             attributes(transmission, name=transmission.name),
-            transmission.type,
+            placed(transmission.type, transmission.source, "type"),
             # An actuator states its reduction even if it is 1, because loaders ask for it; a joint need not.
             tuple(
                 _end(joint, joint.mechanical_reduction if joint.mechanical_reduction != 1 else None)
                 for joint in transmission.joints
             ),
             tuple(_end(actuator, actuator.mechanical_reduction) for actuator in transmission.actuators),
-            parameter_elements(transmission.parameters),
+            parameter_elements(transmission.parameters, transmission.source, "parameters"),
             elements(transmission),
         )
         for transmission in transmissions
@@ -53,8 +53,11 @@ def transmission_views(transmissions: Iterable[Transmission]) -> tuple[Transmiss
 def _end(end: TransmissionJoint | TransmissionActuator, reduction: float | None) -> EndView:
     return EndView(
         attributes(end, name=end.name),
-        end.hardware_interfaces,
-        number_text(reduction) if reduction is not None else None,
-        number_text(end.offset) if end.offset != 0 else None,
+        [
+            placed(interface, end.source, "hardware_interfaces", number)
+            for number, interface in enumerate(end.hardware_interfaces)
+        ],
+        placed(number_text(reduction), end.source, "mechanical_reduction") if reduction is not None else None,
+        placed(number_text(end.offset), end.source, "offset") if end.offset != 0 else None,
         elements(end),
     )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +12,7 @@ from linkforge_compile.cli.options import add_spec_options, split_assignments, t
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable
+    from collections.abc import Iterable, Iterator
 
     from linkforge_compile.core import Robot
 
@@ -28,6 +27,7 @@ examples:
   linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
   linkforge compile arm.robot.yaml --gazebo classic     with sensors as Gazebo Classic reads them
   linkforge compile arm.robot.yaml --variant sim        with the values of one of its variants
+  linkforge compile arm.robot.yaml -o build/ --source-map   and what wrote each line, in build/arm.urdf.map.json
   linkforge compile - < arm.robot.yaml                  from standard input
 """
 
@@ -43,6 +43,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a folder for NAME.urdf and NAME.srdf, or one file that ends in .urdf, .srdf or .xml",
     )
     parser.add_argument("--format", choices=FORMATS, help="only this one (standard output: urdf unless said)")
+    parser.add_argument(
+        "--source-map",
+        action="store_true",
+        help="write FILE.map.json beside each file, for `linkforge where FILE:LINE` to tell what wrote the line",
+    )
     add_spec_options(parser)
 
 
@@ -50,11 +55,13 @@ def run(arguments: argparse.Namespace) -> int:
     specs, assignments = split_assignments(arguments.words)
     spec = one_spec(specs)
     targets = _targets(spec, arguments.output, arguments.format)
+    if arguments.source_map:
+        _require_files(targets.values())
     compilation = compile_spec(spec, assignments, arguments)
     tell(compilation.diagnostics)
     if compilation.robot is None:
         return FAULTY_SPEC
-    return _write(compilation.robot, spec, targets, arguments.gazebo)
+    return _write(compilation.robot, spec, targets, arguments)
 
 
 def _targets(spec: str, output: str | None, chosen: str | None) -> dict[str, Path | None]:
@@ -86,23 +93,56 @@ def _is_file(output: str, path: Path) -> bool:
     return bool(path.suffix) or (path.exists() and not path.is_file())
 
 
-def _write(robot: Robot, spec: str, targets: dict[str, Path | None], gazebo: str) -> int:
-    from linkforge_compile.backends import BACKENDS
-    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+def _require_files(targets: Iterable[Path | None]) -> None:
+    """Refuse a map of what is no file, for want of a place beside it."""
+    for path in targets:
+        if path is None or (path.exists() and not path.is_file()):
+            raise UsageError("--source-map writes its map beside the output, so it takes -o with a folder or a file")
 
+
+def _write(robot: Robot, spec: str, targets: dict[str, Path | None], arguments: argparse.Namespace) -> int:
     if not robot.says_semantic or robot.semantic.is_empty:
         if "urdf" not in targets:
             print(f"{spec}: error: the robot has no `semantic` part, so there is no SRDF to write", file=sys.stderr)
             return FAULTY_SPEC
         targets = {"urdf": targets["urdf"]}
     banner = None if spec == "-" else f"Compiled by linkforge from {Path(spec).name}; edit that file, not this one."
-    render: dict[str, Callable[..., str]] = {**BACKENDS, "urdf": partial(BACKENDS["urdf"], gazebo=gazebo)}
-    texts = {format_: render[format_](robot, banner=banner) for format_ in targets}
-    for format_, path in targets.items():
-        if path is None:
-            write_to_stdout(texts[format_])
-        elif write_if_changed(path, texts[format_]):
-            print(f"wrote {path}", file=sys.stderr)
-        else:
-            print(f"{path} is up to date", file=sys.stderr)
+    for path, text in _texts(robot, banner, targets, arguments):
+        _put(path, text)
     return OK
+
+
+def _texts(
+    robot: Robot, banner: str | None, targets: dict[str, Path | None], arguments: argparse.Namespace
+) -> list[tuple[Path | None, str]]:
+    """Return what goes where, all of it rendered before any of it is written."""
+    options: dict[str, dict[str, str]] = {"urdf": {"gazebo": arguments.gazebo}, "srdf": {}}
+    if arguments.source_map:
+        return list(_with_maps(robot, banner, targets, options))
+    from linkforge_compile.backends import BACKENDS
+
+    return [(path, BACKENDS[format_](robot, banner=banner, **options[format_])) for format_, path in targets.items()]
+
+
+def _with_maps(
+    robot: Robot, banner: str | None, targets: dict[str, Path | None], options: dict[str, dict[str, str]]
+) -> Iterator[tuple[Path, str]]:
+    from linkforge_compile.backends.map_file import ENDING, map_text
+    from linkforge_compile.backends.source_map import WITH_MAP
+
+    for format_, path in targets.items():
+        assert path is not None, "a map lies beside a file"
+        mapped = WITH_MAP[format_](robot, banner=banner, **options[format_])
+        yield path, mapped.text
+        yield path.with_name(path.name + ENDING), map_text(mapped, path.name, path.parent)
+
+
+def _put(path: Path | None, text: str) -> None:
+    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+
+    if path is None:
+        write_to_stdout(text)
+    elif write_if_changed(path, text):
+        print(f"wrote {path}", file=sys.stderr)
+    else:
+        print(f"{path} is up to date", file=sys.stderr)

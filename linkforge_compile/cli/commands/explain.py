@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import compile_spec, one_spec
 from linkforge_compile.cli.options import add_spec_options, split_assignments, tell
+from linkforge_compile.cli.places import told
 
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.source import Span
     from linkforge_compile.writers import Explanation
 
 _EXAMPLES = """\
@@ -92,22 +92,15 @@ def _lines(explanation: Explanation) -> Iterator[str]:
         yield "written in no file"
         return
     if explanation.is_written:
-        yield from _told("written", explanation.place)
+        yield from told("written", explanation.place)
         if explanation.expression:
             yield f"computed: {explanation.expression}"
     else:
         yield "nothing is written for it"
-        yield from _told("what it belongs to is written", explanation.place)
+        yield from told("what it belongs to is written", explanation.place)
     for replaced in explanation.replaced:
-        yield from _told("instead of what is written", replaced)
+        yield from told("instead of what is written", replaced)
     for included in explanation.place.file.includes:
-        yield from _told("included", included)
+        yield from told("included", included)
     for use in explanation.trail:
-        yield from _told("used", use)
-
-
-def _told(what: str, place: Span) -> Iterator[str]:
-    from linkforge_compile.diagnostics.render import snippet
-
-    yield f"{what} at {place}"
-    yield from snippet(place)
+        yield from told("used", use)

@@ -1,0 +1,96 @@
+"""Marks: where a piece of a document was written, riding along in its text while it is rendered for a source map.
+
+A mark is a number between two characters that XML cannot hold, so no text can look like one. To `str.strip` and to
+patterns they are white space: what lays a document out takes a tag with a mark for one with an attribute.
+What leaves no mark anywhere, `recording`, is the only state: every function that makes a piece of a document would
+have to hand it on otherwise, for the sake of the few documents that are rendered with a map.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from linkforge_compile.source import SourceRef, Span
+
+MARK = re.compile("\x1c([0-9]+)\x1d")
+
+
+class Place(NamedTuple):
+    """Where something was written: `trail` lists the `use` that brought its file in, and so on outwards."""
+
+    span: Span
+    trail: tuple[Span, ...] = ()
+
+
+class Marks:
+    """The places that the marks of one document stand for."""
+
+    def __init__(self) -> None:
+        self._numbers: dict[Place, int] = {}
+
+    def mark(self, place: Place) -> str:
+        number = self._numbers.setdefault(place, len(self._numbers))
+        return f"\x1c{number}\x1d"
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """The places in the order of their numbers."""
+        return tuple(self._numbers)
+
+
+_RECORDED: ContextVar[Marks | None] = ContextVar("_RECORDED", default=None)
+
+
+@contextmanager
+def recording() -> Iterator[Marks]:
+    """Have marks left in all that is rendered within."""
+    marks = Marks()
+    token = _RECORDED.set(marks)
+    try:
+        yield marks
+    finally:
+        _RECORDED.reset(token)
+
+
+def is_recording() -> bool:
+    return _RECORDED.get() is not None
+
+
+def mark(source: SourceRef | None, *path: str | int) -> str:
+    """Return the mark of the deepest thing written on the path; nothing where none was, or where no map is made."""
+    marks = _RECORDED.get()
+    if marks is None or source is None:
+        return ""
+    span = source.at(*path)
+    return marks.mark(Place(span, source.trail_to(span)))
+
+
+def mark_of_attribute(source: SourceRef | None, name: str) -> str:
+    """Return the mark of what an attribute says: it has the name of its key, but for those that are listed."""
+    if source is not None and source.node.child(name) is None:
+        name = _KEYS.get(name, name)
+    return mark(source, name)
+
+
+_KEYS = {"filename": "file"}
+
+
+def mark_of_line(source: SourceRef | None, path: tuple[str | int, ...], line: int) -> str:
+    """Return the mark of one line, counted from 1, of a text of several, where the file has it as a line as well."""
+    marks = _RECORDED.get()
+    if marks is None or source is None:
+        return ""
+    whole = source.at(*path)
+    number = whole.line + line
+    written = whole.file.line(number)
+    is_literal = whole.file.line(whole.line)[whole.column - 1 :].startswith("|")
+    if not is_literal or number > whole.end_line or not written.strip():
+        return mark(source, *path)
+    first, last = len(written) - len(written.lstrip()), len(written.rstrip())
+    span = whole._replace(line=number, column=first + 1, end_line=number, end_column=last + 1)
+    return marks.mark(Place(span, source.trail_to(span)))

@@ -1,0 +1,214 @@
+"""`linkforge where`: what in a spec wrote a line of the URDF or SRDF, by the map that lies beside it."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.cli.exits import OK, UsageError
+
+if TYPE_CHECKING:
+    import argparse
+
+    from linkforge_compile.backends.map_file import MapFile, Stretch
+    from linkforge_compile.source import Span
+
+_EXAMPLES = """\
+NAME is a link, a joint, a sensor or whatever else has one in the file. The map is FILE.map.json, which
+`linkforge compile --source-map` writes beside the file.
+
+examples:
+  linkforge compile arm.robot.yaml -o build/ --source-map
+  linkforge where build/arm.urdf:81            what wrote line 81
+  linkforge where build/arm.urdf:81:32         what wrote the attribute at column 32 of it
+  linkforge where build/arm.urdf elbow         where the link or joint `elbow` was written
+"""
+
+_LARGEST = 256 * 1024 * 1024  # bytes
+_BANNER = re.compile(r"<!-- Compiled by linkforge from (?P<spec>.+); edit that file, not this one\. -->")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.usage = "linkforge where FILE:LINE[:COLUMN] | FILE NAME"
+    parser.epilog = _EXAMPLES
+    parser.add_argument("file", metavar="FILE[:LINE[:COLUMN]]", help="a line of a URDF or SRDF file")
+    parser.add_argument("name", metavar="NAME", nargs="?", help="what has this name in the file, instead of a line")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    path, line, column = _place_in(arguments.file)
+    if (line is None) == (arguments.name is None):
+        raise UsageError("takes a line of a file, such as robot.urdf:81, or a file and a name in it")
+    document = _text_of(path)
+    source_map = _map_of(path, document)
+    lines = _named(path, document, arguments.name) if line is None else [_Asked(line, column, "")]
+    from linkforge_compile.cli.output import write_to_stdout
+
+    sources = _Sources(path.parent, source_map)
+    rows = (row for asked in lines for row in _answer(path, document, sources, asked))
+    write_to_stdout("".join(f"{row}\n" for row in rows))
+    for fault in sources.faults:
+        print(f"linkforge where: {fault}", file=sys.stderr)
+    return OK
+
+
+class _Asked(NamedTuple):
+    """A line of the document; `what` stands on it where it was asked for by its name, empty otherwise."""
+
+    line: int
+    column: int
+    what: str
+
+
+def _place_in(word: str) -> tuple[Path, int | None, int]:
+    """Part `FILE:LINE:COLUMN`; of a file with colons in its name as well."""
+    found = re.fullmatch(r"(?P<file>.+?)(?::(?P<line>[0-9]{1,9})(?::(?P<column>[0-9]{1,9}))?)?:?", word)
+    if found is None or Path(word).is_file():
+        return Path(word), None, 1
+    line, column = found["line"], found["column"]
+    return Path(found["file"]), int(line) if line else None, int(column or 1)
+
+
+def _text_of(path: Path) -> str:
+    try:
+        if not path.is_file():
+            raise UsageError(f"there is no file '{path}'")
+        if path.stat().st_size > _LARGEST:
+            raise UsageError(f"'{path}' is larger than {_LARGEST // 1024**2} MiB")
+        return path.read_bytes().decode("utf-8")
+    except UnicodeDecodeError:
+        raise UsageError(f"'{path}' is not UTF-8") from None
+    except OSError as error:
+        raise UsageError(f"cannot read '{path}': {error.strerror}") from error
+
+
+def _map_of(path: Path, document: str) -> MapFile:
+    """Read the map of a document; UsageError for none, with how to get one."""
+    from linkforge_compile.backends.map_file import ENDING, NoMapError, hash_of, read_map
+
+    beside = path.with_name(path.name + ENDING)
+    if not beside.exists():
+        banner = _BANNER.search(document[:10_000])
+        spec = banner["spec"] if banner else "SPEC.robot.yaml"
+        command = f"linkforge compile {spec} -o {path} --source-map"
+        raise UsageError(f"there is no map '{beside}'; `{command}`, with the options of before, writes it")
+    try:
+        source_map = read_map(_text_of(beside))
+    except NoMapError as error:
+        raise UsageError(f"'{beside}' cannot be read: {error}") from None
+    if source_map.sha256 != hash_of(document):
+        print(
+            f"linkforge where: {path} changed since its map was written, so this may be off; compile it again",
+            file=sys.stderr,
+        )
+    return source_map
+
+
+def _named(path: Path, document: str, name: str) -> list[_Asked]:
+    """Return what has a name in a document: what is declared under it, or else whatever refers to it."""
+    elements = list(_elements_of(path, document))
+    found = [element for element in elements if element.name == name]
+    declared = [element for element in found if element.is_declared]
+    if not found:
+        from linkforge_compile.diagnostics.suggest import did_you_mean
+
+        names = [element.name for element in elements]
+        raise UsageError(f"there is no '{name}' in {path}{did_you_mean(name, names)}")
+    return [_Asked(element.line, 1, f"{element.tag} '{name}'") for element in declared or found]
+
+
+class _Element(NamedTuple):
+    """An element with a name; `is_declared` where it is not one inside another that may only refer to it."""
+
+    tag: str
+    name: str
+    line: int
+    is_declared: bool
+
+
+def _elements_of(path: Path, document: str) -> Iterator[_Element]:
+    from xml.parsers import expat
+
+    elements: list[_Element] = []
+    around: list[str] = []
+    parser = expat.ParserCreate()
+
+    def begin(tag: str, attributes: dict[str, str]) -> None:
+        if "name" in attributes:
+            is_declared = len(around) == 1 or (tag == "sensor" and around[-1] == "gazebo")
+            elements.append(_Element(tag, attributes["name"], parser.CurrentLineNumber, is_declared))
+        around.append(tag)
+
+    parser.StartElementHandler = begin
+    parser.EndElementHandler = lambda _: around.pop()
+    try:
+        parser.Parse(document.encode(), True)
+    except expat.ExpatError as error:
+        reason = expat.ErrorString(error.code)
+        raise UsageError(f"'{path}' is not XML: {reason} in line {error.lineno}") from None
+    return iter(elements)
+
+
+class _Sources:
+    """The files that a map refers to, each read once; `faults` tell of those that are not what was mapped."""
+
+    def __init__(self, folder: Path, source_map: MapFile) -> None:
+        self.map = source_map
+        self.faults: list[str] = []
+        self._folder = folder
+        self._read: dict[int, Span] = {}
+
+    def span(self, stretch: Stretch) -> Span:
+        whole = self._read.get(stretch.source) or self._whole(stretch.source)
+        line, column = stretch.line, stretch.column
+        end = column + (stretch.length or max(1, len(whole.file.line(line)) - column + 1))
+        return whole._replace(line=line, column=column, end_line=line, end_column=end)
+
+    def _whole(self, number: int) -> Span:
+        from linkforge_compile.backends.map_file import hash_of
+        from linkforge_compile.source import SourceFile
+
+        source = self.map.sources[number]
+        name = _from_here(self._folder / source.path)
+        try:
+            text = _text_of(Path(name))
+        except UsageError as error:
+            text = ""
+            self.faults.append(str(error))
+        else:
+            if hash_of(text) != source.sha256:
+                self.faults.append(f"{name} changed since it was compiled, so this may be off; compile it again")
+        self._read[number] = SourceFile(name, text).whole
+        return self._read[number]
+
+
+def _from_here(path: Path) -> str:
+    import os
+
+    try:
+        return os.path.relpath(path)
+    except ValueError:  # another drive of Windows
+        return str(path)
+
+
+def _answer(path: Path, document: str, sources: _Sources, asked: _Asked) -> Iterator[str]:
+    from linkforge_compile.cli.places import told
+
+    lines = document.split("\n")
+    if not 0 < asked.line <= len(lines):
+        raise UsageError(f"'{path}' has {len(lines)} lines, found {asked.line}")
+    yield f"{path}:{asked.line}: {asked.what or lines[asked.line - 1].strip()}"
+    found = sources.map.at(asked.line, asked.column)
+    if found is None:
+        yield "nothing is written for it"
+        return
+    stretch, trail = found
+    place = sources.span(stretch)
+    yield from told("written", place)
+    if stretch.length and place.text and "$(" in place.text.replace("$$(", ""):
+        yield f"computed: {place.text}"
+    for how, step in trail:
+        yield from told(how, sources.span(step))

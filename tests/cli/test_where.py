@@ -1,0 +1,122 @@
+"""`linkforge where`, run as a program."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.test_compile import linkforge
+from tests.cli.test_explain import ARM, CELL
+
+
+@pytest.fixture
+def build(tmp_path: Path) -> Path:
+    (tmp_path / "arm.robot.yaml").write_text(ARM)
+    (tmp_path / "cell.robot.yaml").write_text(CELL)
+    run = linkforge("compile", "cell.robot.yaml", "-o", "build/", "--source-map", cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    return tmp_path
+
+
+def line_of(build: Path, text: str) -> int:
+    lines = (build / "build" / "cell.urdf").read_text().split("\n")
+    return next(number for number, line in enumerate(lines, start=1) if text in line)
+
+
+def test_a_line_is_told_with_what_wrote_it_and_the_files_between(build: Path):
+    number = line_of(build, "<limit ")
+    run = linkforge("where", f"build/cell.urdf:{number}:14", cwd=build)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert run.stdout.splitlines() == [
+        f'build/cell.urdf:{number}: <limit effort="20" velocity="1"/>',
+        "written at arm.robot.yaml:7:22",
+        "     7 |     limits: {effort: $(strength), velocity: 1}}",
+        "       |                      ^^^^^^^^^^^",
+        "computed: $(strength)",
+        "used at cell.robot.yaml:5:15",
+        "     5 |   left: {use: arm.robot.yaml, parent: table}",
+        "       |               ^^^^^^^^^^^^^^",
+    ]
+
+
+def test_a_name_is_told_where_it_is_written(build: Path):
+    run = linkforge("where", "build/cell.urdf", "left_elbow", cwd=build)
+    assert run.returncode == 0
+    assert run.stdout.splitlines()[:2] == [
+        f"build/cell.urdf:{line_of(build, 'left_elbow')}: joint 'left_elbow'",
+        "written at arm.robot.yaml:6:3",
+    ]
+
+
+def test_what_nobody_wrote_is_told_as_such(build: Path):
+    run = linkforge("where", "build/cell.urdf:1", cwd=build)
+    assert run.stdout.splitlines()[1:] == ["nothing is written for it"]
+
+
+def test_a_document_and_a_spec_that_changed_are_told(build: Path):
+    urdf = build / "build" / "cell.urdf"
+    urdf.write_text(urdf.read_text() + "\n")
+    (build / "arm.robot.yaml").write_text("# new\n" + ARM)
+    run = linkforge("where", "build/cell.urdf", "left_elbow", cwd=build)
+    assert run.returncode == 0
+    assert "build/cell.urdf changed since its map was written" in run.stderr
+    assert "arm.robot.yaml changed since it was compiled" in run.stderr
+    (build / "arm.robot.yaml").unlink()
+    assert "there is no file 'arm.robot.yaml'" in linkforge("where", "build/cell.urdf", "left_elbow", cwd=build).stderr
+
+
+def test_without_a_map_the_header_tells_how_to_get_one(build: Path):
+    (build / "build" / "cell.urdf.map.json").unlink()
+    run = linkforge("where", "build/cell.urdf:3", cwd=build)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert "`linkforge compile cell.robot.yaml -o build/cell.urdf --source-map`" in run.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("build/cell.urdf",), "takes a line of a file, such as robot.urdf:81, or a file and a name in it"),
+        (("build/cell.urdf:3", "left_elbow"), "takes a line of a file"),
+        (("build/cell.urdf:999",), "lines, found 999"),
+        (("build/cell.urdf", "left_elbwo"), "there is no 'left_elbwo' in build/cell.urdf; did you mean 'left_elbow'?"),
+        (("build/none.urdf:3",), "there is no file 'build/none.urdf'"),
+        (("build/cell.urdf.map.json", "base"), "there is no map 'build/cell.urdf.map.json.map.json'"),
+        (("build:3",), "there is no file 'build'"),
+    ],
+)
+def test_wrong_usage_is_told(build: Path, words: tuple[str, ...], said: str):
+    run = linkforge("where", *words, cwd=build)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert said in run.stderr
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"version": 9}', "[" * 100_000])
+def test_a_broken_map_is_told(build: Path, text: str):
+    (build / "build" / "cell.urdf.map.json").write_text(text)
+    run = linkforge("where", "build/cell.urdf:3", cwd=build)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert "cell.urdf.map.json' cannot be read: it is" in run.stderr
+
+
+def test_a_file_that_is_no_xml_is_told(build: Path):
+    (build / "build" / "cell.urdf").write_text("links:\n")
+    run = linkforge("where", "build/cell.urdf", "left_elbow", cwd=build)
+    assert run.returncode == 2
+    assert "'build/cell.urdf' is not XML" in run.stderr
+
+
+def test_a_map_lies_beside_each_output_and_says_nothing_of_the_machine(build: Path):
+    plain = linkforge("compile", "cell.robot.yaml", "-o", "plain/", cwd=build)
+    assert plain.returncode == 0
+    assert (build / "plain" / "cell.urdf").read_bytes() == (build / "build" / "cell.urdf").read_bytes()
+    text = (build / "build" / "cell.urdf.map.json").read_text()
+    assert [source["path"] for source in json.loads(text)["sources"]] == ["../cell.robot.yaml", "../arm.robot.yaml"]
+    assert str(build) not in text
+    again = linkforge("compile", "cell.robot.yaml", "-o", "build/", "--source-map", cwd=build)
+    assert "build/cell.urdf.map.json is up to date" in again.stderr
+
+
+def test_a_map_of_standard_output_is_refused(build: Path):
+    run = linkforge("compile", "cell.robot.yaml", "--source-map", cwd=build)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert "takes -o with a folder or a file" in run.stderr
