@@ -5,7 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from linkforge_compile.checks import groups, hardware, inertia, joints, names, srdf, tree
+from linkforge_compile.checks import (
+    groups,
+    hardware,
+    inertia,
+    interfaces,
+    joints,
+    names,
+    plugins,
+    sensors,
+    srdf,
+    states,
+    tree,
+)
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
 
@@ -14,6 +26,9 @@ Check: TypeAlias = Callable[[Robot, Gaps], Iterator[Diagnostic]]
 
 ROBOT_CHECKS: tuple[Check, ...] = (
     names.check_duplicates,
+    names.check_link_and_joint_names,
+    names.check_reserved_names,
+    names.check_frame_names,
     tree.check_links,
     tree.check_joint_ends,
     tree.check_second_parents,
@@ -25,12 +40,21 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     joints.check_mimic_freedom,
     inertia.check_inertia,
     inertia.check_massless_bodies,
-    hardware.check_sensor_links,
+    sensors.check_sensor_links,
+    sensors.check_sensor_frames,
+    sensors.check_topics,
+    sensors.check_shared_topics,
     hardware.check_transmission_joints,
     hardware.check_ros2_control_joints,
     hardware.check_fixed_joints_driven,
     hardware.check_interface_claims,
+    interfaces.check_interface_names,
+    interfaces.check_interface_parameters,
+    interfaces.check_mimics_in_hardware,
+    interfaces.check_hardware_is_used,
     hardware.check_gazebo_references,
+    plugins.check_plugin_joints,
+    plugins.check_simulated_hardware,
 )
 
 SEMANTIC_CHECKS: tuple[Check, ...] = (
@@ -39,12 +63,18 @@ SEMANTIC_CHECKS: tuple[Check, ...] = (
     srdf.check_semantic_joints,
     srdf.check_semantic_groups,
     srdf.check_virtual_joints,
+    srdf.check_virtual_joint_names,
     srdf.check_collision_pairs,
+    srdf.check_enabled_pairs,
     srdf.check_passive_joints,
     groups.check_group_circles,
     groups.check_chains,
-    groups.check_group_states,
+    groups.check_empty_groups,
     groups.check_end_effectors,
+    groups.check_arms_of_end_effectors,
+    states.check_group_states,
+    states.check_states_of_mimics,
+    states.check_states_are_whole,
 )
 
 CHECKS = (*ROBOT_CHECKS, *SEMANTIC_CHECKS)

@@ -1,4 +1,4 @@
-"""Planning groups: their chains lead somewhere, and states and end effectors fit them as MoveIt sees it."""
+"""Planning groups: their chains lead somewhere, and end effectors fit them as MoveIt sees it."""
 
 from __future__ import annotations
 
@@ -6,40 +6,23 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.circles import told_circles
-from linkforge_compile.checks.references import Use, own_positions
+from linkforge_compile.checks.references import Use
 from linkforge_compile.checks.tree import parent_joints, way_up
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
 from linkforge_compile.diagnostics.codes.model import (
     CHAIN_ACROSS,
     CHAIN_UPWARD,
     GROUP_CIRCLE,
+    GROUP_WITHOUT_JOINT,
+    NO_ARM,
     OWN_PARENT_GROUP,
     PARENT_LINK_OUTSIDE_GROUP,
-    STATE_OUTSIDE_GROUP,
-    STATE_OUTSIDE_LIMITS,
-    STATE_VALUE_COUNT,
 )
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.srdf import Chain, PlanningGroup, VirtualJoint
-
-VALUES_IN_A_STATE: dict[str, tuple[int, str]] = {
-    JointType.FIXED: (0, "no value"),
-    JointType.REVOLUTE: (1, "1 value"),
-    JointType.CONTINUOUS: (1, "1 value"),
-    JointType.PRISMATIC: (1, "1 value"),
-    JointType.PLANAR: (3, "3 values: x, y and angle"),
-    JointType.FLOATING: (7, "7 values: x, y, z and a quaternion"),
-}
-"""What MoveIt takes for a joint in a state; it counts more than the degrees of freedom."""
-
-WITHIN_LIMITS: dict[str, str] = {JointType.REVOLUTE: "rad", JointType.PRISMATIC: "m"}
-"""The joints whose limits bound their position, and its unit."""
-
-ROUNDING = 1e-4
-"""How far a state may pass a limit [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
+    from linkforge_compile.core.models.srdf import Chain, PlanningGroup
 
 
 def check_group_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
@@ -76,43 +59,16 @@ def check_chains(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield use.told(code, base=chain.base_link, tip=chain.tip_link, meeting=meeting)
 
 
-def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """A state gives positions to joints of its group, within their limits.
+def check_empty_groups(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A planning group has a joint.
 
-    MoveIt ignores the value of a joint that is not in the group, and one with the wrong count of numbers; to a
-    pose outside the limits it never plans. Correct the value, or the group.
+    MoveIt leaves out a group without one, with its states and end effectors: a chain from a link to itself, or
+    subgroups that have none either. Add a joint, or a link, which stands for the joint that it hangs on.
     """
-    semantic = robot.semantic
     links = group_links(robot)
-    virtual = {joint.name: joint for joint in semantic.virtual_joints}
-    for state in semantic.group_states:
-        for name, key in own_positions(state).items():
-            values = state.joint_values[name]
-            joint = robot.joints.get(name) or virtual.get(name)
-            if joint is None:
-                continue
-            use = Use(name, f"state '{state.name}' of group '{state.group}'", state.source, (str(key),))
-            members = links.get(state.group)
-            if members is not None and _moved_link(joint) not in members:
-                yield use._replace(path=(key,)).told(
-                    STATE_OUTSIDE_GROUP, joint=name, group=state.group, state=state.name
-                )
-            elif isinstance(values, tuple):
-                yield from _faults_of_values(use, joint, values)
-
-
-def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[object, ...]) -> Iterator[Diagnostic]:
-    count, expected = VALUES_IN_A_STATE.get(joint.type, (len(values), ""))
-    if len(values) != count:
-        yield use.told(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=len(values))
-    elif isinstance(joint, Joint) and joint.limits and joint.type in WITHIN_LIMITS:
-        lower, upper, position = joint.limits.lower, joint.limits.upper, values[0]
-        if not isinstance(position, int | float):
-            return
-        if (lower is not None and position < lower - ROUNDING) or (upper is not None and position > upper + ROUNDING):
-            bounds = [f"{way} {bound:.6g}" for way, bound in (("from", lower), ("to", upper)) if bound is not None]
-            span = " ".join((*bounds, WITHIN_LIMITS[joint.type]))
-            yield use.told(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=f"{position:.6g}")
+    for group in robot.semantic.groups:
+        if links.get(group.name) == frozenset():
+            yield Use(group.name, "", group.source).told(GROUP_WITHOUT_JOINT, group=group.name)
 
 
 def check_end_effectors(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
@@ -129,9 +85,26 @@ def check_end_effectors(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         if effector.parent_group == effector.group:
             use = Use(effector.group, f"end effector '{effector.name}'", effector.source, ("parent_group",))
             yield use.told(OWN_PARENT_GROUP, group=effector.group)
-        elif members is not None and effector.parent_link not in members and robot.has_link(effector.parent_link):
+        elif members and effector.parent_link not in members and robot.has_link(effector.parent_link):
             use = Use(effector.parent_link, f"end effector '{effector.name}'", effector.source, ("parent_link",))
             yield use.told(PARENT_LINK_OUTSIDE_GROUP, link=effector.parent_link, group=effector.parent_group)
+
+
+def check_arms_of_end_effectors(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """The parent link of an end effector is in a planning group: that of the arm which carries it.
+
+    Otherwise MoveIt finds no parent group, says so in its log, and does not know which arm to move for this hand.
+    Nothing is wrong with a hand on a robot without an arm. Silent while a group could not be read.
+    """
+    links = group_links(robot)
+    if gaps or len(links) < len(robot.semantic.groups):
+        return
+    for effector in robot.semantic.end_effectors:
+        others = (members for group, members in links.items() if group != effector.group)
+        is_held = any(effector.parent_link in members for members in others)
+        if not effector.parent_group and not is_held and robot.has_link(effector.parent_link):
+            use = Use(effector.parent_link, f"end effector '{effector.name}'", effector.source, ("parent_link",))
+            yield use.told(NO_ARM, link=effector.parent_link)
 
 
 def group_links(robot: Robot) -> Mapping[str, frozenset[str]]:
@@ -180,7 +153,3 @@ def _meeting_link(chain: Chain, robot: Robot, above: Mapping[str, Joint]) -> str
         return None
     above_base = frozenset(way_up(chain.base_link, above))
     return next((link for link in way_up(chain.tip_link, above) if link in above_base), None)
-
-
-def _moved_link(joint: Joint | VirtualJoint) -> str:
-    return joint.child if isinstance(joint, Joint) else joint.child_link

@@ -1,30 +1,16 @@
-"""What drives, senses and simulates the robot names links and joints that are there, and claims each once."""
+"""What drives and simulates the robot names links and joints that are there, and claims each once."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
+from linkforge_compile.checks.interfaces import COMMANDS, STATES, interfaces_of
 from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Code, Diagnostic, Gaps
-from linkforge_compile.diagnostics.codes.names import UNKNOWN_GAZEBO_REFERENCE, UNKNOWN_JOINT, UNKNOWN_LINK
+from linkforge_compile.diagnostics.codes.names import UNKNOWN_GAZEBO_REFERENCE, UNKNOWN_JOINT
 from linkforge_compile.diagnostics.codes.physics import COMMANDED_TWICE, FIXED_JOINT_CONTROLLED, READ_TWICE
-from linkforge_compile.source import SourceRef
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.ros2_control import Ros2Control
-
-
-def check_sensor_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
-    """A sensor sits on a link of this robot.
-
-    A simulator never makes a sensor whose link it does not know, and mostly says nothing. Correct the `link`.
-    """
-    links = (Use(sensor.link_name, f"sensor '{sensor.name}'", sensor.source, ("link",)) for sensor in robot.sensors)
-    yield from unknown(links, UNKNOWN_LINK, robot.links.names, gaps)
 
 
 def check_transmission_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
@@ -68,8 +54,8 @@ def check_interface_claims(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     interface the second is refused or never read. Take the joint's interface out of one of them; different
     interfaces of one joint may belong to different systems.
     """
-    yield from _claimed_twice(map(_commands, robot.ros2_controls), COMMANDED_TWICE)
-    yield from _claimed_twice(map(_states, robot.ros2_controls), READ_TWICE)
+    yield from _claimed_twice(robot, COMMANDS, COMMANDED_TWICE)
+    yield from _claimed_twice(robot, STATES, READ_TWICE)
 
 
 def check_gazebo_references(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
@@ -93,31 +79,12 @@ def _driven_joints(robot: Robot) -> Iterator[Use]:
             yield Use(joint.name, f"ros2_control '{control.name}'", joint.source or control.source)
 
 
-def _commands(control: Ros2Control) -> Iterator[Use]:
-    for part in (*control.joints, *control.gpios):
-        yield from _claims(control, part.name, part.command_interfaces, part.source, "command_interfaces")
-
-
-def _states(control: Ros2Control) -> Iterator[Use]:
-    for part in (*control.joints, *control.gpios):
-        yield from _claims(control, part.name, part.state_interfaces, part.source, "state_interfaces")
-    for sensor in control.sensors:
-        yield from _claims(control, sensor.name, sensor.state_interfaces, sensor.source, "state_interfaces")
-
-
-def _claims(
-    control: Ros2Control, part: str, interfaces: Sequence[str], source: SourceRef | None, key: str
-) -> Iterator[Use]:
-    for interface in interfaces:
-        written: SourceRef | None = getattr(interface, "source", None)  # a plain string has none
-        user = f"ros2_control '{control.name}'"
-        yield Use(f"{part}/{interface}", user, written or source, () if written else (key,))
-
-
-def _claimed_twice(claims_of_systems: Iterable[Iterator[Use]], code: Code) -> Iterator[Diagnostic]:
+def _claimed_twice(robot: Robot, key: str, code: Code) -> Iterator[Diagnostic]:
     first: dict[str, Use] = {}
-    for use in chain.from_iterable(claims_of_systems):
-        earlier = first.setdefault(use.name, use)
-        if earlier.user != use.user:
-            notes = [earlier.note(f"{earlier.user} has it here")]
-            yield use.told(code, interface=use.name, first=earlier.user, notes=notes)
+    for control in robot.ros2_controls:
+        for interface in interfaces_of(control, key):
+            use = interface.use
+            earlier = first.setdefault(use.name, use)
+            if earlier.user != use.user:
+                notes = earlier.notes(f"{earlier.user} has it here")
+                yield use.told(code, interface=use.name, first=earlier.user, notes=notes)

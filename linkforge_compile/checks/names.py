@@ -1,4 +1,4 @@
-"""No two things of one kind bear one name."""
+"""No two things of one kind bear one name, and none bears one that ROS or Gazebo refuses."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from linkforge_compile.checks.references import Use
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
-from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME
+from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME, FRAME_WITH_SLASH, LINK_AND_JOINT, RESERVED_NAME
 
 
 def check_duplicates(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
@@ -38,10 +38,52 @@ def check_semantic_duplicates(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         yield from _borne_twice("group state", uses)
 
 
+def check_link_and_joint_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """No joint bears the name of a link.
+
+    URDF and ROS keep links and joints apart. In Gazebo both are frames of one model: it refuses the second, and
+    with it all that hangs below. Rename the joint: `wrist_joint` beside the link `wrist`.
+    """
+    for joint in robot.joints:
+        if link := robot.links.get(joint.name):
+            notes = Use(link.name, "", link.source).notes("the link stands here") if link.source else ()
+            yield Use(joint.name, "", joint.source).told(LINK_AND_JOINT, name=joint.name, notes=notes)
+
+
+def check_reserved_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """No link or joint bears a name that Gazebo keeps for itself.
+
+    Those are `world`, unless it is the root link, which Gazebo takes for the world itself, and all that begin and
+    end with two underscores, such as `__model__`.
+    """
+    hanging = {joint.child for joint in robot.joints}
+    named = (
+        *(Use(link.name, "link", link.source) for link in robot.links if link.name != "world" or "world" in hanging),
+        *(Use(joint.name, "joint", joint.source) for joint in robot.joints),
+    )
+    for use in named:
+        name = use.name
+        if name == "world" or (len(name) >= len("____") and name.startswith("__") and name.endswith("__")):
+            yield use._replace(user="").told(RESERVED_NAME, kind=use.user, name=name)
+
+
+def check_frame_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """No link and no frame of a sensor begins with a slash.
+
+    Each is a frame to tf2, which strips the slash where a transform is published and refuses it where one is
+    asked for. Leave it out.
+    """
+    frames = [Use(link.name, "", link.source) for link in robot.links]
+    frames += [Use(sensor.frame, "", sensor.source, ("frame",)) for sensor in robot.sensors if sensor.frame]
+    for use in frames:
+        if use.name.startswith("/"):
+            yield use.told(FRAME_WITH_SLASH, name=use.name)
+
+
 def _borne_twice(kind: str, bearers: Iterable[Use]) -> Iterator[Diagnostic]:
     first: dict[str, Use] = {}
     for bearer in bearers:
         earlier = first.setdefault(bearer.name, bearer)
         if earlier is not bearer:
-            notes = [earlier.note(f"the first {kind} '{bearer.name}'")] if earlier.source else []
+            notes = earlier.notes(f"the first {kind} '{bearer.name}'") if earlier.source else []
             yield bearer.told(DUPLICATE_NAME, kind=kind, name=bearer.name, notes=notes)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Gaps, Note
-from linkforge_compile.source import Key, SourceRef
+from linkforge_compile.source import Key, SourceRef, Span
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import GroupState
@@ -48,8 +48,18 @@ class Use(NamedTuple):
         """Return the key by which this thing's file writes a name in it: without the prefix that both have got."""
         return Key(name.removeprefix(self.prefix))
 
+    @property
+    def place(self) -> Span | None:
+        """Where the name stands; one place for all uses of its file. None if it was never written."""
+        return self.source.at(*self.path) if self.source else None
+
     def note(self, message: str) -> Note:
-        return Note(message, self.source.at(*self.path) if self.source else None)
+        return Note(message, self.place)
+
+    def notes(self, message: str) -> list[Note]:
+        """Return the note with those on how its file came in: a file used twice writes two things in one place."""
+        uses = self.source.trail if self.source else ()
+        return [self.note(message), *(Note("used here", use) for use in uses)]
 
 
 def own_positions(state: GroupState) -> dict[str, Key]:
@@ -68,7 +78,7 @@ MOST_OFFERED = 100
 """So many wrong names are one bad rename: nobody reads more offers, and each costs a look at every name there is."""
 
 
-def unknown(uses: Iterable[Use], code: Code, known: Iterable[str], gaps: Gaps) -> Iterator[Diagnostic]:
+def unknown(uses: Iterable[Use], code: Code, known: Iterable[str], gaps: Gaps, **facts: object) -> Iterator[Diagnostic]:
     """Tell every use of a name that is neither known nor known to be missing, in the words of the file that uses it."""
     told = 0
     names = dict.fromkeys(known)
@@ -78,7 +88,7 @@ def unknown(uses: Iterable[Use], code: Code, known: Iterable[str], gaps: Gaps) -
             why = [gaps.removed[use.name]] if use.name in gaps.removed else []
             is_offered = not why and told < MOST_OFFERED
             near = [name.removeprefix(prefix) for name in names if name.startswith(prefix)] if is_offered else []
-            yield use.told(code, name=use.name.removeprefix(prefix), near=near, notes=why)
+            yield use.told(code, name=use.name.removeprefix(prefix), near=near, notes=why, **facts)
             told += 1
 
 

@@ -7,7 +7,14 @@ from collections.abc import Iterator
 from linkforge_compile.checks.references import Use, own_positions, unknown
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
-from linkforge_compile.diagnostics.codes.model import PAIR_TWICE, PASSIVE_COMMANDED, VIRTUAL_JOINT_NOT_AT_ROOT
+from linkforge_compile.diagnostics.codes.model import (
+    ENABLED_ANYWAY,
+    PAIR_BOTH_WAYS,
+    PAIR_TWICE,
+    PASSIVE_COMMANDED,
+    VIRTUAL_JOINT_NOT_AT_ROOT,
+    VIRTUAL_NAME_TAKEN,
+)
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP, UNKNOWN_JOINT, UNKNOWN_LINK
 
 
@@ -53,6 +60,17 @@ def check_virtual_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
             yield use.told(VIRTUAL_JOINT_NOT_AT_ROOT, link=joint.child_link, root=roots[0])
 
 
+def check_virtual_joint_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A virtual joint bears a name that no joint of the robot has.
+
+    MoveIt keeps both under one name and takes the one for the other, in groups and states too. Rename it.
+    """
+    for virtual in robot.semantic.virtual_joints:
+        if joint := robot.joints.get(virtual.name):
+            notes = Use(joint.name, "", joint.source).notes(f"joint '{joint.name}' stands here") if joint.source else ()
+            yield Use(virtual.name, "", virtual.source).told(VIRTUAL_NAME_TAKEN, name=virtual.name, notes=notes)
+
+
 def check_collision_pairs(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     """A pair of links is listed once, under either of its links.
 
@@ -64,8 +82,28 @@ def check_collision_pairs(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             use = Use(pair.link2, "collision pair", pair.source)
             earlier = first.setdefault(frozenset((pair.link1, pair.link2)), use)
             if earlier is not use:
-                notes = [earlier.note("the first entry")] if earlier.source else []
+                notes = earlier.notes("the first entry") if earlier.source else []
                 yield PAIR_TWICE.at(pair.source, link1=pair.link1, link2=pair.link2, notes=notes)
+
+
+def check_enabled_pairs(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """An enabled pair makes an exception from `no_default_collision_links`, and is not disabled.
+
+    MoveIt looks at every pair of links that nobody disables; an enabled pair brings back one of a link whose
+    collisions are off by default. Of a pair that is enabled and disabled it reads the latter last.
+    """
+    semantic = robot.semantic
+    disabled = {frozenset((pair.link1, pair.link2)): pair for pair in reversed(semantic.disabled_collisions)}
+    off = frozenset(semantic.no_default_collision_links)
+    for pair in semantic.enabled_collisions:
+        ends = frozenset((pair.link1, pair.link2))
+        if not all(map(robot.has_link, ends)):
+            continue
+        if other := disabled.get(ends):
+            notes = Use("", "", other.source).notes("disabled here") if other.source else ()
+            yield PAIR_BOTH_WAYS.at(pair.source, link1=pair.link1, link2=pair.link2, notes=notes)
+        elif not ends & off:
+            yield ENABLED_ANYWAY.at(pair.source, link1=pair.link1, link2=pair.link2)
 
 
 def check_passive_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

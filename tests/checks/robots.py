@@ -2,6 +2,7 @@
 
 from linkforge_compile.checks import check
 from linkforge_compile.core import (
+    Chain,
     Inertial,
     InertiaTensor,
     Joint,
@@ -9,7 +10,9 @@ from linkforge_compile.core import (
     JointMimic,
     JointType,
     Link,
+    PlanningGroup,
     Robot,
+    SemanticRobotDescription,
     Vector3,
 )
 from linkforge_compile.diagnostics import Gaps
@@ -41,3 +44,25 @@ def robot(links: str, *joints: Joint, **parts: object) -> Robot:
 def told(subject: Robot, gaps: Gaps | None = None) -> list[str]:
     """Return what the checks tell, each as "LFnnnn message"."""
     return [f"{one.code.id} {one.message}" for one in check(subject, gaps or Gaps())]
+
+
+def two_arms(**semantic: object) -> Robot:
+    """Return a torso with a left and a right arm; each has a shoulder that turns in [-1, 1] and a fixed hand."""
+    joints = [
+        joint
+        for side in ("left", "right")
+        for joint in (
+            turning(f"{side}_shoulder", "torso", f"{side}_arm"),
+            fixed(f"{side}_wrist", f"{side}_arm", f"{side}_hand"),
+        )
+    ]
+    description = SemanticRobotDescription(**semantic)  # type: ignore[arg-type]
+    return robot("torso left_arm left_hand right_arm right_hand", *joints, semantic=description)
+
+
+def chain(name: str, base: str, tip: str) -> PlanningGroup:
+    """Return a group of one chain."""
+    return PlanningGroup(name, chains=(Chain(base, tip),))
+
+
+LEFT = chain("left", "torso", "left_hand")

@@ -26,12 +26,6 @@ def imu(name: str, link: str) -> Sensor:
     return Sensor(name, SensorType.IMU, link, imu_info=IMUInfo())
 
 
-def test_a_sensor_on_an_unknown_link_is_told():
-    assert told(arm(sensors=[imu("tilt", "arms")])) == [
-        "LF4102 sensor 'tilt': no link named 'arms'; did you mean 'arm'?"
-    ]
-
-
 def test_a_transmission_of_an_unknown_joint_is_told():
     subject = arm(transmissions=[Transmission.create_simple("t", "elbow")])
     assert told(subject) == ["LF4103 transmission 't': no joint named 'elbow'"]

@@ -7,6 +7,7 @@ from linkforge_compile.core import (
     PassiveJoint,
     PlanningGroup,
     Ros2Control,
+    Ros2ControlSensor,
     SemanticRobotDescription,
     Sensor,
     SensorType,
@@ -16,6 +17,9 @@ from linkforge_compile.core import (
 from tests.checks.robots import robot, told, turning
 
 GROUP = PlanningGroup("all", links=("base",))
+ARM = PlanningGroup("arm", links=("arm",))
+
+HARDWARE = Ros2Control("x", hardware_plugin="mock", sensors=(Ros2ControlSensor("imu", ("orientation.x",)),))
 
 
 @pytest.mark.parametrize(
@@ -23,7 +27,7 @@ GROUP = PlanningGroup("all", links=("base",))
     [
         ("sensors", "sensor", Sensor("x", SensorType.IMU, "base", imu_info=IMUInfo())),
         ("transmissions", "transmission", Transmission.create_simple("x", "shoulder")),
-        ("ros2_controls", "ros2_control system", Ros2Control("x", hardware_plugin="mock")),
+        ("ros2_controls", "ros2_control system", HARDWARE),
     ],
 )
 def test_two_parts_of_one_name_are_told(collection: str, kind: str, part: object):
@@ -35,18 +39,46 @@ def test_two_parts_of_one_name_are_told(collection: str, kind: str, part: object
     ("collection", "message", "part"),
     [
         ("groups", "there are two planning groups named 'x'", PlanningGroup("x", links=("arm",))),
-        ("end_effectors", "there are two end effectors named 'x'", EndEffector("x", "all", "arm")),
+        ("end_effectors", "there are two end effectors named 'x'", EndEffector("x", "arm", "base")),
         ("virtual_joints", "there are two virtual joints named 'x'", VirtualJoint("x", "fixed", "world", "base")),
         ("passive_joints", "there are two passive joints named 'shoulder'", PassiveJoint("shoulder")),
         ("group_states", "planning group 'all': there are two group states named 'x'", GroupState("x", "all")),
     ],
 )
 def test_two_semantic_parts_of_one_name_are_told(collection: str, message: str, part: object):
-    semantic = SemanticRobotDescription(**{"groups": (GROUP,), collection: (part, part)})
+    semantic = SemanticRobotDescription(**{"groups": (GROUP, ARM), collection: (part, part)})
     assert told(robot("base arm", turning("shoulder", "base", "arm"), semantic=semantic)) == [f"LF4101 {message}"]
 
 
 def test_states_of_different_groups_may_share_a_name():
-    groups = (GROUP, PlanningGroup("arm", links=("arm",)))
-    semantic = SemanticRobotDescription(groups=groups, group_states=(GroupState("x", "all"), GroupState("x", "arm")))
+    groups = (GROUP, PlanningGroup("base", links=("base",)))
+    semantic = SemanticRobotDescription(groups=groups, group_states=(GroupState("x", "all"), GroupState("x", "base")))
     assert told(robot("base arm", turning("shoulder", "base", "arm"), semantic=semantic)) == []
+
+
+def test_a_joint_may_not_be_named_as_a_link():
+    assert told(robot("base wrist", turning("wrist", "base", "wrist"))) == [
+        "LF4108 a link and a joint are both named 'wrist', which Gazebo refuses; rename one of them"
+    ]
+
+
+def test_names_that_gazebo_keeps_for_itself():
+    subject = robot("base __model__ ____", turning("world", "base", "__model__"), turning("__", "base", "____"))
+    assert told(subject) == [
+        "LF4002 Gazebo refuses a link named '__model__': that is a name of its own; choose another",
+        "LF4002 Gazebo refuses a link named '____': that is a name of its own; choose another",
+        "LF4002 Gazebo refuses a joint named 'world': that is a name of its own; choose another",
+    ]
+
+
+def test_world_is_the_root_and_nothing_else():
+    assert told(robot("world base", turning("stand", "world", "base"))) == []
+    assert told(robot("base world", turning("stand", "base", "world"))) == [
+        "LF4002 Gazebo refuses a link named 'world': that is a name of its own; choose another"
+    ]
+
+
+def test_tf2_refuses_frames_with_a_slash_before_them():
+    assert told(robot("/base a/b", turning("/j", "/base", "a/b"))) == [
+        "LF4003 tf2 refuses frame '/base', which begins with '/'; leave it out"
+    ]

@@ -103,3 +103,24 @@ def test_a_passive_joint_may_be_read():
     joint = Ros2ControlJoint("wrist", (), ("position",))
     subject.ros2_controls = [Ros2Control("hw", hardware_plugin="mock", joints=[joint])]
     assert told(subject) == []
+
+
+def test_a_virtual_joint_has_a_name_of_its_own():
+    assert told(arm(virtual_joints=(VirtualJoint("wrist", "fixed", "world", "base"),))) == [
+        "LF5615 virtual joint 'wrist' bears the name of a joint, and MoveIt takes one for the other; rename it"
+    ]
+
+
+def test_an_enabled_pair_is_an_exception():
+    pair = CollisionPair("base", "hand")
+    assert told(arm(no_default_collision_links=("hand",), enabled_collisions=(pair,))) == []
+    assert told(arm(enabled_collisions=(pair,))) == [
+        "LF5618 the pair of 'base' and 'hand' is looked at anyway: neither is in 'no_default_collision_links'"
+    ]
+
+
+def test_a_pair_is_not_enabled_and_disabled():
+    pair, other = CollisionPair("base", "hand"), CollisionPair("hand", "base", "Never")
+    assert told(arm(enabled_collisions=(pair,), disabled_collisions=(other,))) == [
+        "LF5612 the pair of 'base' and 'hand' is disabled as well, and MoveIt leaves it so; remove one"
+    ]

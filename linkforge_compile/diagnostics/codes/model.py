@@ -91,6 +91,21 @@ VIRTUAL_JOINT_NOT_AT_ROOT = Code(
 )
 PAIR_TWICE = Code("LF5610", _W, "the pair of '{link1}' and '{link2}' is listed twice")
 PASSIVE_COMMANDED = Code("LF5611", _W, "passive joint '{joint}' is commanded by ros2_control '{control}'")
+PAIR_BOTH_WAYS = Code(
+    "LF5612", _W, "the pair of '{link1}' and '{link2}' is disabled as well, and MoveIt leaves it so; remove one"
+)
+STATE_INCOMPLETE = Code("LF5613", _N, "state '{state}' of group '{group}' does not place {joints}")
+STATE_AGAINST_MIMIC = Code(
+    "LF5614", _W, "joint '{joint}' mimics '{leader}', which puts it at {expected} in this state, found {found}"
+)
+VIRTUAL_NAME_TAKEN = Code(
+    "LF5615", _W, "virtual joint '{name}' bears the name of a joint, and MoveIt takes one for the other; rename it"
+)
+NO_ARM = Code("LF5616", _N, "no planning group holds parent link '{link}', so MoveIt knows no arm for it")
+GROUP_WITHOUT_JOINT = Code("LF5617", _W, "planning group '{group}' has no joint, so MoveIt leaves it out")
+ENABLED_ANYWAY = Code(
+    "LF5618", _N, "the pair of '{link1}' and '{link2}' is looked at anyway: neither is in 'no_default_collision_links'"
+)
 
 # LF57xx: sensors, hardware, simulators and raw XML
 ATTRIBUTE_OF_OWNER = Code(

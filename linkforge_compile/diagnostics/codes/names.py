@@ -3,6 +3,12 @@
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
 
 INVALID_NAME = Code("LF4001", Severity.ERROR, "'{name}' is no name for a {kind}: {reason}")
+RESERVED_NAME = Code(
+    "LF4002", Severity.WARNING, "Gazebo refuses a {kind} named '{name}': that is a name of its own; choose another"
+)
+FRAME_WITH_SLASH = Code("LF4003", Severity.WARNING, "tf2 refuses frame '{name}', which begins with '/'; leave it out")
+REFUSED_TOPIC = Code("LF4004", Severity.WARNING, "ROS 2 refuses topic '{topic}': {reason}")
+
 DUPLICATE_NAME = Code("LF4101", Severity.ERROR, "there are two {kind}s named '{name}'")
 UNKNOWN_LINK = Code("LF4102", Severity.ERROR, "no link named '{name}'")
 UNKNOWN_JOINT = Code("LF4103", Severity.ERROR, "no joint named '{name}'")
@@ -14,6 +20,12 @@ MODULES_SHARE_NAMES = Code(
 NAMES_OF_THIS_FILE = Code(
     "LF4107", Severity.ERROR, "module '{module}' and this file both have {parts}; give the module another prefix"
 )
+LINK_AND_JOINT = Code(
+    "LF4108", Severity.WARNING, "a link and a joint are both named '{name}', which Gazebo refuses; rename one of them"
+)
+SHARED_TOPIC = Code("LF4109", Severity.WARNING, "sensors '{first}' and '{second}' both publish on topic '{topic}'")
 
 # LF42xx: references across the layers
 UNKNOWN_GAZEBO_REFERENCE = Code("LF4201", Severity.WARNING, "no link or joint named '{name}'")
+UNKNOWN_FRAME = Code("LF4202", Severity.WARNING, "no link named '{name}', so tf2 cannot tell where this frame is")
+UNKNOWN_PLUGIN_JOINT = Code("LF4203", Severity.NOTE, "no joint named '{name}' for plugin '{plugin}'")

@@ -40,3 +40,19 @@ WIDE_MESH = Code("LF6020", _W, "mesh '{path}' is {size} metres wide; write 'scal
 COMMANDED_TWICE = Code("LF6101", _E, "interface '{interface}' is commanded by {first} already")
 READ_TWICE = Code("LF6102", _W, "interface '{interface}' is read by {first} already")
 FIXED_JOINT_CONTROLLED = Code("LF6103", _W, "joint '{joint}' is fixed, so ros2_control has nothing to read or command")
+MIMIC_COMMANDED = Code(
+    "LF6104", _W, "joint '{joint}' mimics '{leader}', so ros2_control refuses to command it; leave its state interfaces"
+)
+MIMIC_APART = Code(
+    "LF6105", _W, "joint '{joint}' mimics '{leader}', which ros2_control misses in this system; list both in one"
+)
+NO_MIMIC = Code("LF6106", _W, "joint '{joint}' is to mimic another in ros2_control, but has no 'mimic' of its own")
+UNKNOWN_INTERFACE = Code("LF6107", _W, "ros2_control has no interface '{name}' of its own")
+PARAMETER_NO_NUMBER = Code("LF6108", _W, "{parameter} is a number in SI units to ros2_control, found '{found}'")
+RANGE_CROSSED = Code("LF6109", _W, "min must not be above max, found {min} and {max}")
+RANGE_OUTSIDE_LIMITS = Code("LF6110", _W, "joint '{joint}' goes {range}, which leaves nothing from {min} to {max}")
+STARTS_OUTSIDE_LIMITS = Code("LF6111", _W, "joint '{joint}' goes {range}, but starts at {found}")
+NO_INTERFACE = Code("LF6112", _N, "{owner} has no interface, so no controller can use it")
+NO_SIMULATOR_PLUGIN = Code(
+    "LF6113", _N, "'{plugin}' runs in Gazebo's plugin '{needed}', which this robot does not load; add it to 'gazebo'"
+)

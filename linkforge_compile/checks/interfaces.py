@@ -1,0 +1,193 @@
+"""What ros2_control is told of each joint, sensor and gpio: interfaces, their ranges, and joints that mimic others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sized
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from linkforge_compile.checks.ranges import missed_range
+from linkforge_compile.checks.references import Use
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics.codes.physics import (
+    MIMIC_APART,
+    MIMIC_COMMANDED,
+    NO_INTERFACE,
+    NO_MIMIC,
+    PARAMETER_NO_NUMBER,
+    RANGE_CROSSED,
+    RANGE_OUTSIDE_LIMITS,
+    STARTS_OUTSIDE_LIMITS,
+    UNKNOWN_INTERFACE,
+)
+from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.source import SourceRef
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.joint import Joint
+    from linkforge_compile.core.models.ros2_control import (
+        Ros2Control,
+        Ros2ControlGpio,
+        Ros2ControlJoint,
+        Ros2ControlSensor,
+    )
+
+    Exporter: TypeAlias = Ros2ControlJoint | Ros2ControlGpio | Ros2ControlSensor
+
+MOTIONS = ("position", "velocity", "acceleration", "effort")
+"""The interfaces of joints that controllers ask for by these names."""
+
+KNOWN_INTERFACES = (*MOTIONS, "jerk", "torque", "force", "current", "temperature")
+"""All that ros2_control has a name for."""
+
+BOUNDED_BOTH_WAYS = ("position", "velocity", "effort")
+"""The interfaces whose `min` and `max` are the ends of one range; of an acceleration they are two amounts."""
+
+COMMANDS, STATES = "command_interfaces", "state_interfaces"
+
+
+class Exported(NamedTuple):
+    """An interface of a joint, a sensor or a gpio, with its place and its parameters, texts by name."""
+
+    name: str
+    use: Use
+    parameters: Mapping[str, str]
+
+
+def interfaces_of(control: Ros2Control, key: str) -> Iterator[Exported]:
+    """Yield the command or the state interfaces of a system, as `key` says: joints, gpios, sensors."""
+    for joint in control.joints:
+        yield from exported(control, joint, key)
+    for gpio in control.gpios:
+        yield from exported(control, gpio, key)
+    for sensor in control.sensors:
+        yield from exported(control, sensor, key)
+
+
+def exported(control: Ros2Control, part: Exporter, key: str) -> Iterator[Exported]:
+    """Yield the command or the state interfaces of a part; each use has its full name: `shoulder/position`."""
+    for interface in getattr(part, key, ()):
+        written: SourceRef | None = getattr(interface, "source", None)  # a plain string has neither
+        parameters: Mapping[str, str] = getattr(interface, "parameters", {})
+        full = f"{part.name}/{interface}"
+        use = Use(full, f"ros2_control '{control.name}'", written or part.source, () if written else (key,))
+        yield Exported(str(interface), use, parameters)
+
+
+def check_interface_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """An interface of a joint that is nearly called as one of ros2_control's is called so.
+
+    Controllers ask for `position`, `velocity`, `acceleration` or `effort`, and refuse to start where hardware
+    offers a `postion`. Correct the name. What is like none of these is an interface of the hardware's own, and
+    nothing is said of it.
+    """
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            for key in (COMMANDS, STATES):
+                for name, use, _parameters in exported(control, joint, key):
+                    if name.isalpha() and name not in KNOWN_INTERFACES and nearest(name, MOTIONS):
+                        yield use.told(UNKNOWN_INTERFACE, name=name, near=MOTIONS)
+
+
+def check_interface_parameters(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """`min`, `max` and `initial_value` of an interface are numbers that go with one another and with the joint.
+
+    ros2_control reads plain numbers in SI units, [rad] or [m] and their rates: the parameters of hardware are
+    passed on as they are written, so `-90 deg` stays text, which it skips. Write `$(radians(-90))`. Of the
+    range here and the limits of the joint it takes the narrower one, so that a range beyond the limits leaves no
+    position; and mock hardware starts at the initial value, from where MoveIt plans nothing if that is outside.
+    """
+    for control in robot.ros2_controls:
+        for driven in control.joints:
+            joint = robot.joints.get(driven.name)
+            for key in (COMMANDS, STATES):
+                for interface in exported(control, driven, key):
+                    if interface.parameters and interface.name in MOTIONS:
+                        yield from _faults_of_parameters(interface, joint)
+
+
+def _faults_of_parameters(interface: Exported, joint: Joint | None) -> Iterator[Diagnostic]:
+    numbers: dict[str, float] = {}
+    for parameter in ("min", "max", "initial_value"):
+        text = interface.parameters.get(parameter, "").strip()
+        number = _number(text) if text else None
+        if number is not None:
+            numbers[parameter] = number
+        elif text:
+            yield _at(interface, parameter).told(PARAMETER_NO_NUMBER, parameter=parameter, found=text)
+    lowest, highest, start = (numbers.get(parameter) for parameter in ("min", "max", "initial_value"))
+    if lowest is not None and highest is not None and interface.name in BOUNDED_BOTH_WAYS:
+        place, low, high = _at(interface, "min"), f"{lowest:.6g}", f"{highest:.6g}"
+        if lowest > highest:
+            yield place.told(RANGE_CROSSED, min=low, max=high)
+        elif joint and interface.name == "position" and (span := missed_range(joint, lowest, highest)):
+            yield place.told(RANGE_OUTSIDE_LIMITS, joint=joint.name, range=span, min=low, max=high)
+    if joint and start is not None and interface.name == "position" and (span := missed_range(joint, start, start)):
+        place = _at(interface, "initial_value")
+        yield place.told(STARTS_OUTSIDE_LIMITS, joint=joint.name, range=span, found=f"{start:.6g}")
+
+
+def _at(interface: Exported, parameter: str) -> Use:
+    return interface.use._replace(path=(*interface.use.path, parameter))
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def check_mimics_in_hardware(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A joint that mimics another is read by ros2_control, beside its leader, and not commanded.
+
+    Since ROS 2 Jazzy the controller manager takes the mimic from the robot's description, and refuses the robot
+    if such a joint has a command interface, or if its leader is not in the same system. Where the hardware drives
+    both joints by itself, say so: `extra_attributes: {mimic: "false"}` on the joint in `ros2_control`. In turn
+    `mimic: "true"` wants a joint with `mimic`. Silent about a leader while a joint of the system is lost.
+    """
+    for control in robot.ros2_controls:
+        listed = {joint.name for joint in control.joints}
+        for driven in control.joints:
+            joint = robot.joints.get(driven.name)
+            said = dict(driven.extra_attributes).get("mimic")
+            is_said, use = said in {"true", "True"}, Use(driven.name, f"ros2_control '{control.name}'", driven.source)
+            if joint is None or (said is not None and not is_said):
+                continue
+            if joint.mimic is None:
+                if is_said:
+                    yield use._replace(path=("extra_attributes", "mimic")).told(NO_MIMIC, joint=joint.name)
+            elif driven.command_interfaces:
+                use = use._replace(path=(COMMANDS,))
+                yield use.told(MIMIC_COMMANDED, joint=joint.name, leader=joint.mimic.joint)
+            elif joint.mimic.joint not in listed and robot.has_joint(joint.mimic.joint) and not _lost(control):
+                yield use.told(MIMIC_APART, joint=joint.name, leader=joint.mimic.joint)
+
+
+def _lost(control: Ros2Control) -> bool:
+    """Tell whether a joint was written in a system that did not come to be, which has been told."""
+    written = control.source.node.child("joints") if control.source else None
+    return isinstance(written, Sized) and len(written) > len(control.joints)
+
+
+def check_hardware_is_used(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A sensor, a gpio or a whole system in ros2_control has an interface.
+
+    Controllers reach hardware by its interfaces alone. Add `state_interfaces` or `command_interfaces`; nothing
+    is wrong if the hardware's plugin makes its interfaces by itself.
+    """
+    for control in robot.ros2_controls:
+        parts = ("joints", "gpios", "sensors")
+        idle = [
+            *((f"ros2_control '{control.name}'", each.source) for each in (control,) if _lacks(each, *parts)),
+            *((f"gpio '{each.name}'", each.source) for each in control.gpios if _lacks(each, COMMANDS, STATES)),
+            *((f"sensor '{each.name}'", each.source) for each in control.sensors if _lacks(each, STATES)),
+        ]
+        for owner, source in idle:
+            yield Use("", f"ros2_control '{control.name}'", source).told(NO_INTERFACE, owner=owner)
+
+
+def _lacks(part: Ros2Control | Ros2ControlGpio | Ros2ControlSensor, *keys: str) -> bool:
+    """Tell whether nothing is said under the keys: what was written there and is lost has been told."""
+    node = part.source.node if part.source else None
+    return not any(getattr(part, key) or (node and node.child(key)) for key in keys)

@@ -1,0 +1,138 @@
+"""Named poses of planning groups: within their group, within the limits, and leaving nothing open."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from linkforge_compile.checks.groups import group_links
+from linkforge_compile.checks.ranges import ROUNDING, missed_range
+from linkforge_compile.checks.references import Use, listed, own_positions
+from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics.codes.model import (
+    STATE_AGAINST_MIMIC,
+    STATE_INCOMPLETE,
+    STATE_OUTSIDE_GROUP,
+    STATE_OUTSIDE_LIMITS,
+    STATE_VALUE_COUNT,
+)
+from linkforge_compile.source import Key
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.srdf import GroupState, VirtualJoint
+
+VALUES_IN_A_STATE: dict[str, tuple[int, str]] = {
+    JointType.FIXED: (0, "no value"),
+    JointType.REVOLUTE: (1, "1 value"),
+    JointType.CONTINUOUS: (1, "1 value"),
+    JointType.PRISMATIC: (1, "1 value"),
+    JointType.PLANAR: (3, "3 values: x, y and angle"),
+    JointType.FLOATING: (7, "7 values: x, y, z and a quaternion"),
+}
+"""What MoveIt takes for a joint in a state; it counts more than the degrees of freedom."""
+
+MIMIC_ROUNDING = 1e-3
+"""How far a follower may be from where its leader puts it [rad] or [m]: states are written with few digits."""
+
+
+def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A state gives positions to joints of its group, within their limits.
+
+    MoveIt ignores the value of a joint that is not in the group, and one with the wrong count of numbers; to a
+    pose outside the limits it never plans. Correct the value, or the group.
+    """
+    semantic = robot.semantic
+    links = group_links(robot)
+    virtual = {joint.name: joint for joint in semantic.virtual_joints}
+    for state in semantic.group_states:
+        for name, key in own_positions(state).items():
+            values = state.joint_values[name]
+            joint = robot.joints.get(name) or virtual.get(name)
+            if joint is None:
+                continue
+            use = _at_value(state, name, key)
+            members = links.get(state.group)
+            if members and _moved_link(joint) not in members:
+                yield use._replace(path=(key,)).told(
+                    STATE_OUTSIDE_GROUP, joint=name, group=state.group, state=state.name
+                )
+            elif isinstance(values, tuple):
+                yield from _faults_of_values(use, joint, values)
+
+
+def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[object, ...]) -> Iterator[Diagnostic]:
+    count, expected = VALUES_IN_A_STATE.get(joint.type, (len(values), ""))
+    if len(values) != count:
+        yield use.told(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=len(values))
+    elif isinstance(joint, Joint) and values and isinstance(position := values[0], int | float):
+        span = missed_range(joint, position, position)
+        if span:
+            yield use.told(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=f"{position:.6g}")
+
+
+def check_states_of_mimics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A state puts a joint that mimics another where the other puts it.
+
+    MoveIt takes the one or the other value, as their names are sorted, and a robot can take only one of the two
+    poses. Leave the follower out of the state: its position follows from that of its leader, times `multiplier`
+    plus `offset`.
+    """
+    for state in robot.semantic.group_states:
+        for name, key in own_positions(state).items():
+            joint = robot.joints.get(name)
+            if joint is None or joint.mimic is None:
+                continue
+            found, led = _position(state.joint_values, name), _position(state.joint_values, joint.mimic.joint)
+            if found is None or led is None:
+                continue
+            expected = joint.mimic.multiplier * led + joint.mimic.offset
+            if not math.isclose(found, expected, rel_tol=ROUNDING, abs_tol=MIMIC_ROUNDING):
+                use, leader = _at_value(state, name, key), joint.mimic.joint
+                shown, written = f"{expected:.6g}", f"{found:.6g}"
+                yield use.told(STATE_AGAINST_MIMIC, joint=name, leader=leader, expected=shown, found=written)
+
+
+def check_states_are_whole(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """A state says where every joint of its group goes.
+
+    MoveIt warns of a joint that a state leaves out, and leaves it where it happens to be, so that one name stands
+    for many poses. That may be what you want: open fingers whatever the wrist does. Fixed and passive joints and
+    those that mimic others need no value. Silent while part of the robot could not be read, and about a state
+    with a joint that is not in its group, which may be the one that is missed.
+    """
+    semantic = robot.semantic
+    if gaps or not semantic.group_states:
+        return
+    links = group_links(robot)
+    moved = {joint.name: joint.child_link for joint in semantic.virtual_joints}
+    moved.update((joint.name, joint.child) for joint in robot.joints)
+    passive = {joint.name for joint in semantic.passive_joints}
+    free = [
+        joint
+        for joint in robot.joints
+        if joint.type != JointType.FIXED and joint.mimic is None and joint.name not in passive
+    ]
+    for state in semantic.group_states:
+        members = links.get(state.group, frozenset())
+        left = [joint.name for joint in free if joint.child in members and joint.name not in state.joint_values]
+        if left and all(moved.get(name) in members for name in state.joint_values):
+            use = Use(state.name, "", state.source)
+            yield use.told(STATE_INCOMPLETE, state=state.name, group=state.group, joints=listed(left))
+
+
+def _at_value(state: GroupState, joint: str, key: Key) -> Use:
+    return Use(joint, f"state '{state.name}' of group '{state.group}'", state.source, (str(key),))
+
+
+def _position(positions: Mapping[str, object], joint: str) -> float | None:
+    match positions.get(joint):
+        case (int() | float() as position,):
+            return position
+    return None
+
+
+def _moved_link(joint: Joint | VirtualJoint) -> str:
+    return joint.child if isinstance(joint, Joint) else joint.child_link
