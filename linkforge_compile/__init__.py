@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from linkforge_compile.backends.source_map import SourceMap, render_srdf_with_map, render_urdf_with_map
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
-    from linkforge_compile.pipeline import Compilation, CompileError, check_file, compile_file, compile_text
+    from linkforge_compile.pipeline import Compilation, CompileError, check_file, check_text, compile_file, compile_text
     from linkforge_compile.source import Span
     from linkforge_compile.writers import write_spec
 
@@ -36,6 +36,7 @@ __all__ = [
     "Span",
     "__version__",
     "check_file",
+    "check_text",
     "compile_file",
     "compile_text",
     "render_srdf",
@@ -55,6 +56,7 @@ _HOMES = {
     "SourceMap": "backends.source_map",
     "Span": "source",
     "check_file": "pipeline",
+    "check_text": "pipeline",
     "compile_file": "pipeline",
     "compile_text": "pipeline",
     "render_srdf": "backends",

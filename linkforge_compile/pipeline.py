@@ -44,6 +44,7 @@ __all__ = [
     "Parameters",
     "Plain",
     "check_file",
+    "check_text",
     "check_variants",
     "compile_file",
     "compile_text",
@@ -118,9 +119,7 @@ def compile_text(
     gazebo: Gazebo = "gz",
 ) -> Compilation:
     """Compile a spec given as text; `name` stands in its diagnostics, `folder` is where relative paths start."""
-    place = Path(folder) if folder is not None else None
-    settings = _Settings(parameters, packages, variant, gazebo)
-    return _compile(lambda loader, sink: loader.parse(text, name, place, sink), settings)
+    return _compile(_text(text, name, folder), _Settings(parameters, packages, variant, gazebo))
 
 
 def check_file(
@@ -133,6 +132,20 @@ def check_file(
 ) -> Compilation:
     """Tell all that is wrong with a spec file; what depends on a required parameter without a value is not judged."""
     return _compile(_file(path), _Settings(parameters, packages, variant, gazebo, Unset.NOTE))
+
+
+def check_text(
+    text: str,
+    *,
+    name: str = "<text>",
+    folder: str | Path | None = None,
+    parameters: Parameters = (),
+    packages: Packages | None = None,
+    variant: str | None = None,
+    gazebo: Gazebo = "gz",
+) -> Compilation:
+    """Tell all that is wrong with a spec given as text, as `check_file` does."""
+    return _compile(_text(text, name, folder), _Settings(parameters, packages, variant, gazebo, Unset.NOTE))
 
 
 def check_variants(
@@ -175,6 +188,11 @@ class _Settings(NamedTuple):
 
 def _file(path: str | Path) -> _Read:
     return lambda loader, sink: loader.open(Path(path), sink)
+
+
+def _text(text: str, name: str, folder: str | Path | None) -> _Read:
+    place = Path(folder) if folder is not None else None
+    return lambda loader, sink: loader.parse(text, name, place, sink)
 
 
 def _compile(read: _Read, settings: _Settings) -> Compilation:

@@ -25,5 +25,11 @@ def manual_folder() -> Path:
     return _packed() / "diagnostics" if _packed().is_dir() else data_folder() / "docs" / "diagnostics"
 
 
+def matcher_file() -> Path:
+    """Return the problem matcher, which GitHub's own tools expect under `.github` in a repository."""
+    name = "linkforge-matcher.json"
+    return _packed() / name if _packed().is_dir() else data_folder() / ".github" / name
+
+
 def _packed() -> Path:
     return Path(__file__).parent / "_data"

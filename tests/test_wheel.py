@@ -31,6 +31,7 @@ def test_every_schema_template_and_page_of_the_manual_is_in_the_wheel(wheel: Pat
     manual = {f"linkforge_compile/_data/diagnostics/{path.name}" for path in (ROOT / "docs/diagnostics").glob("LF*.md")}
     assert manual
     assert manual <= packed
+    assert "linkforge_compile/_data/linkforge-matcher.json" in packed
     assert not any(name.startswith(("tests/", "examples/", "schemas/")) for name in packed)
 
 

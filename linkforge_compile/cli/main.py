@@ -20,6 +20,7 @@ _COMMANDS = {
     "explain": "tell where a value of the finished robot comes from, or what a code means",
     "where": "tell what in a spec wrote a line of the URDF or SRDF",
     "schema": "print the JSON Schema of specs, for editors",
+    "matcher": "print the problem matcher for GitHub Actions",
 }
 
 

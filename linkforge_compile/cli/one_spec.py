@@ -1,10 +1,10 @@
-"""The commands that take one spec: its name among the words of the command line, and what compiling it gives."""
+"""From the words of the command line to a compiled or checked spec: a file, or `-` for standard input."""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypedDict
 
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.options import packages_of
@@ -12,7 +12,11 @@ from linkforge_compile.cli.options import packages_of
 if TYPE_CHECKING:
     import argparse
 
+    from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.pipeline import Compilation
+
+STDIN = "<stdin>"
+"""What standard input is called in diagnostics."""
 
 
 def one_spec(specs: list[str]) -> str:
@@ -30,20 +34,42 @@ def compile_spec(spec: str, assignments: list[str], arguments: argparse.Namespac
     """Compile a spec, `-` for standard input, with the options that every command on a spec has."""
     from linkforge_compile.pipeline import compile_file, compile_text
 
-    parameters, packages = [*arguments.parameters, *assignments], packages_of(arguments)
-    variant, gazebo = arguments.variant, arguments.gazebo
-    if spec != "-":
-        return compile_file(spec, parameters=parameters, packages=packages, variant=variant, gazebo=gazebo)
+    if spec == "-":
+        text = _standard_input()
+        return compile_text(text, name=STDIN, folder=Path.cwd(), **_settings(assignments, arguments))
+    return compile_file(spec, **_settings(assignments, arguments))
+
+
+def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Compilation:
+    """Check a spec, `-` for standard input, with the same options."""
+    from linkforge_compile.pipeline import check_file, check_text
+
+    if spec == "-":
+        text = _standard_input()
+        return check_text(text, name=STDIN, folder=Path.cwd(), **_settings(assignments, arguments))
+    return check_file(spec, **_settings(assignments, arguments))
+
+
+class _Settings(TypedDict):
+    parameters: list[str]
+    packages: dict[str, str]
+    variant: str | None
+    gazebo: Gazebo
+
+
+def _settings(assignments: list[str], arguments: argparse.Namespace) -> _Settings:
+    return {
+        "parameters": [*arguments.parameters, *assignments],
+        "packages": packages_of(arguments),
+        "variant": arguments.variant,
+        "gazebo": arguments.gazebo,
+    }
+
+
+def _standard_input() -> str:
+    if sys.stdin is None:
+        raise UsageError("cannot read standard input: it is closed")
     try:
-        text = sys.stdin.buffer.read().decode("utf-8")
+        return sys.stdin.buffer.read().decode("utf-8")
     except UnicodeDecodeError as error:
         raise UsageError(f"standard input is not UTF-8: {error.reason} at byte {error.start}") from None
-    return compile_text(
-        text,
-        name="<stdin>",
-        folder=Path.cwd(),
-        parameters=parameters,
-        packages=packages,
-        variant=variant,
-        gazebo=gazebo,
-    )

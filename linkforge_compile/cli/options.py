@@ -1,16 +1,12 @@
-"""The options that every command on a spec has, and how it tells what it found."""
+"""The options that every command on a spec has."""
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.colour import is_coloured
 from linkforge_compile.cli.exits import UsageError
-from linkforge_compile.diagnostics import Diagnostic
-from linkforge_compile.diagnostics.render import render_text
 
 if TYPE_CHECKING:
     import argparse
@@ -65,8 +61,3 @@ def split_assignments(words: Iterable[str]) -> tuple[list[str], list[str]]:
     for word in words:
         (assignments if ":=" in word else specs).append(word)
     return specs, assignments
-
-
-def tell(diagnostics: Iterable[Diagnostic]) -> None:
-    """Write diagnostics to standard error."""
-    sys.stderr.write(render_text(diagnostics, colour=is_coloured(sys.stderr)))

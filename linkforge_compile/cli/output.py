@@ -24,6 +24,18 @@ def write_to_stdout(text: str) -> None:
         raise UsageError(f"cannot write to standard output: {error.strerror}") from error
 
 
+def put_json(text: str, output: str | None) -> None:
+    """Write JSON to the file of `-o`, None for standard output; UsageError for a file of another kind."""
+    if output is None:
+        write_to_stdout(text)
+    elif not output.endswith(".json"):
+        raise UsageError(f"-o takes a file that ends in .json, found '{output}'")
+    elif write_if_changed(Path(output), text):
+        print(f"wrote {output}", file=sys.stderr)
+    else:
+        print(f"{output} is up to date", file=sys.stderr)
+
+
 def write_if_changed(path: Path, text: str) -> bool:
     """Put `text` into the file and return whether it had to be written; UsageError where that cannot be done.
 

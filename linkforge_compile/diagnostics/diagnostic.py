@@ -38,10 +38,12 @@ class Diagnostic:
     message: str
     span: Span | None
     notes: tuple[Note, ...] = ()
+    taken_for: Severity | None = None
+    """What the user counts it for, None for what its code is."""
 
     @property
     def severity(self) -> Severity:
-        return self.code.severity
+        return self.taken_for or self.code.severity
 
     @property
     def order(self) -> tuple[int, str, int, int]:
@@ -70,6 +72,11 @@ class Code:
         from string import Formatter
 
         return "".join(text + "…" * (field is not None) for text, field, *_ in Formatter().parse(self.message))
+
+    @property
+    def help(self) -> str:
+        """Where the way out is told at length."""
+        return f"run 'linkforge explain {self.id}'"
 
     def at(
         self,

@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments, tell
+from linkforge_compile.cli.one_spec import check_spec
+from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments
+from linkforge_compile.cli.telling import add_telling_options, has_errors, selected, written
 
 if TYPE_CHECKING:
     import argparse
@@ -22,50 +24,68 @@ examples:
   linkforge check robots/*.robot.yaml
   linkforge check arm.robot.yaml hardware:=mock
   linkforge check --all-variants arm.robot.yaml     with the defaults and with each of its variants
+  linkforge check --format github *.robot.yaml      as annotations of a pull request, on standard output
+  linkforge check --ignore LF5003 arm.robot.yaml    without these warnings; --select LF5 for those alone
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
-    parser.add_argument("words", metavar="SPEC", nargs="+", help="specs, NAME.robot.yaml")
+    parser.add_argument("words", metavar="SPEC", nargs="+", help="specs, NAME.robot.yaml; - for standard input")
     parser.add_argument(
         "--all-variants", action="store_true", help="check the defaults and every variant of each spec, in one report"
     )
     add_spec_options(parser)
+    add_telling_options(parser, is_product=True)
 
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.diagnostics.render import summary
-    from linkforge_compile.pipeline import check_file, check_variants
 
     specs, assignments = split_assignments(arguments.words)
     if not specs:
         raise UsageError("takes at least one spec")
     if arguments.all_variants and arguments.variant is not None:
         raise UsageError("takes --variant or --all-variants, not both")
-    parameters, packages = [*arguments.parameters, *assignments], packages_of(arguments)
+    if arguments.all_variants and "-" in specs:
+        raise UsageError("--all-variants takes files, not standard input")
     # Specs that use one module share its faults: each is told and counted once.
-    told: dict[str, Diagnostic] = {}
-    faulty, variants = False, 0
+    found: dict[str, Diagnostic] = {}
+    variants = 0
     for spec in specs:
-        if arguments.all_variants:
-            compilations = check_variants(spec, parameters=parameters, packages=packages, gazebo=arguments.gazebo)
-            variants += len(compilations) - 1
-        else:
-            one = check_file(
-                spec, parameters=parameters, packages=packages, variant=arguments.variant, gazebo=arguments.gazebo
-            )
-            compilations = {arguments.variant: one}
-        report = _one_report(compilations)
-        new = {str(diagnostic): diagnostic for diagnostic in report if str(diagnostic) not in told}
-        tell(new.values())
-        told |= new
-        faulty |= any(compilation.has_errors for compilation in compilations.values())
+        compilations = _checked(spec, assignments, arguments)
+        variants += len(compilations) - 1
+        for diagnostic in _one_report(compilations):
+            found.setdefault(str(diagnostic), diagnostic)
+    told = selected(found.values(), arguments)
+    _write(told, arguments)
     checked = f"checked {_counted(len(specs), 'spec')}"
     if arguments.all_variants:
         checked += f" with the defaults and {_counted(variants, 'variant')}"
-    print(f"{checked}: {summary(told.values())}", file=sys.stderr)
-    return FAULTY_SPEC if faulty else OK
+    if not arguments.quiet:
+        print(f"{checked}: {summary(told)}", file=sys.stderr)
+    return FAULTY_SPEC if has_errors(told) else OK
+
+
+def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Mapping[str | None, Compilation]:
+    """Check a spec with the variant that was asked for, or with the defaults, None, and every variant."""
+    if not arguments.all_variants:
+        return {arguments.variant: check_spec(spec, assignments, arguments)}
+    from linkforge_compile.pipeline import check_variants
+
+    parameters, packages = [*arguments.parameters, *assignments], packages_of(arguments)
+    return check_variants(spec, parameters=parameters, packages=packages, gazebo=arguments.gazebo)
+
+
+def _write(told: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
+    """Write text to standard error, where people read, and every form for programs to standard output."""
+    text = written(told, arguments)
+    if arguments.diagnostics == "text":
+        sys.stderr.write(text)
+    else:
+        from linkforge_compile.cli.output import write_to_stdout
+
+        write_to_stdout(text)
 
 
 def _one_report(compilations: Mapping[str | None, Compilation]) -> tuple[Diagnostic, ...]:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import compile_spec, one_spec
-from linkforge_compile.cli.options import add_spec_options, split_assignments, tell
+from linkforge_compile.cli.options import add_spec_options, split_assignments
+from linkforge_compile.cli.telling import add_telling_options, say, tell
 
 if TYPE_CHECKING:
     import argparse
@@ -49,6 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="write FILE.map.json beside each file, for `linkforge where FILE:LINE` to tell what wrote the line",
     )
     add_spec_options(parser)
+    add_telling_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -58,8 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.source_map:
         _require_files(targets.values())
     compilation = compile_spec(spec, assignments, arguments)
-    tell(compilation.diagnostics)
-    if compilation.robot is None:
+    if tell(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     return _write(compilation.robot, spec, targets, arguments)
 
@@ -108,7 +109,7 @@ def _write(robot: Robot, spec: str, targets: dict[str, Path | None], arguments: 
         targets = {"urdf": targets["urdf"]}
     banner = None if spec == "-" else f"Compiled by linkforge from {Path(spec).name}; edit that file, not this one."
     for path, text in _texts(robot, banner, targets, arguments):
-        _put(path, text)
+        _put(path, text, arguments)
     return OK
 
 
@@ -137,12 +138,12 @@ def _with_maps(
         yield path.with_name(path.name + ENDING), map_text(mapped, path.name, path.parent)
 
 
-def _put(path: Path | None, text: str) -> None:
+def _put(path: Path | None, text: str, arguments: argparse.Namespace) -> None:
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
 
     if path is None:
         write_to_stdout(text)
     elif write_if_changed(path, text):
-        print(f"wrote {path}", file=sys.stderr)
+        say(f"wrote {path}", arguments)
     else:
-        print(f"{path} is up to date", file=sys.stderr)
+        say(f"{path} is up to date", arguments)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import compile_spec, one_spec
-from linkforge_compile.cli.options import add_spec_options, split_assignments, tell
+from linkforge_compile.cli.options import add_spec_options, split_assignments
+from linkforge_compile.cli.telling import add_telling_options, say, tell
 
 if TYPE_CHECKING:
     import argparse
@@ -30,14 +30,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
     add_spec_options(parser)
+    add_telling_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     specs, assignments = split_assignments(arguments.words)
     spec = one_spec(specs)
     compilation = compile_spec(spec, assignments, arguments)
-    tell(compilation.diagnostics)
-    if compilation.robot is None:
+    if tell(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     if arguments.output is not None and Path(arguments.output).resolve() in {
         one.resolve() for one in compilation.files
@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output is None:
         write_to_stdout(text)
     elif write_if_changed(Path(arguments.output), text):
-        print(f"wrote {arguments.output}", file=sys.stderr)
+        say(f"wrote {arguments.output}", arguments)
     else:
-        print(f"{arguments.output} is up to date", file=sys.stderr)
+        say(f"{arguments.output} is up to date", arguments)
     return OK

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import compile_spec, one_spec
-from linkforge_compile.cli.options import add_spec_options, split_assignments, tell
+from linkforge_compile.cli.options import add_spec_options, split_assignments
 from linkforge_compile.cli.places import told
+from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
     import argparse
@@ -40,25 +41,28 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--codes", action="store_true", help="list the code of every diagnostic")
     add_spec_options(parser)
+    add_telling_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.manual import is_code
 
     if arguments.codes or (len(arguments.words) == 1 and is_code(arguments.words[0])):
-        return _print_manual(arguments.words, list_codes=arguments.codes)
+        return _print_manual(arguments)
     return _explain_value(arguments)
 
 
-def _print_manual(words: list[str], *, list_codes: bool) -> int:
+def _print_manual(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.colour import is_coloured
     from linkforge_compile.cli.manual import UnknownCodeError, page, register_table
     from linkforge_compile.cli.output import write_to_stdout
 
-    if list_codes and words:
+    words: list[str] = arguments.words
+    if arguments.codes and words:
         raise UsageError(f"--codes lists all codes and takes no words, found '{words[0]}'")
+    is_styled = is_coloured(sys.stdout, arguments.color)
     try:
-        write_to_stdout(register_table() if list_codes else page(words[0], styled=is_coloured(sys.stdout)))
+        write_to_stdout(register_table() if arguments.codes else page(words[0], styled=is_styled))
     except UnknownCodeError as error:
         raise UsageError(f"{error} (--codes lists all)") from None
     return OK
@@ -70,8 +74,7 @@ def _explain_value(arguments: argparse.Namespace) -> int:
         raise UsageError("takes a spec and a path, such as joints/elbow/limits/effort, or a code, such as LF4102")
     *specs, path = words
     compilation = compile_spec(one_spec(specs), assignments, arguments)
-    tell(compilation.diagnostics)
-    if compilation.robot is None:
+    if tell(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.writers import UnknownPathError, explain

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
-from linkforge_compile.cli.options import tell
+from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
     import argparse
@@ -24,18 +24,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("spec", metavar="SPEC", help="the spec, NAME.robot.yaml")
     parser.add_argument("--json", action="store_true", help="as JSON, for tools")
+    add_telling_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
-    from linkforge_compile.diagnostics import Severity
     from linkforge_compile.pipeline import parameters_of
 
     listing, diagnostics = parameters_of(arguments.spec)
-    tell(diagnostics)
+    is_faulty = tell(diagnostics, arguments)
     if listing:
         write_to_stdout(_json_text(listing) if arguments.json else "".join(f"{line}\n" for line in _table(listing)))
-    is_faulty = any(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)
     return FAULTY_SPEC if is_faulty else OK
 
 

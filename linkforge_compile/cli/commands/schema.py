@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import OK, UsageError
+from linkforge_compile.cli.exits import OK
 
 if TYPE_CHECKING:
     import argparse
@@ -25,16 +23,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+    from linkforge_compile.cli.output import put_json
     from linkforge_compile.schema import bundle_text
 
-    text = bundle_text()
-    if arguments.output is None:
-        write_to_stdout(text)
-    elif not arguments.output.endswith(".json"):
-        raise UsageError(f"-o takes a file that ends in .json, found '{arguments.output}'")
-    elif write_if_changed(Path(arguments.output), text):
-        print(f"wrote {arguments.output}", file=sys.stderr)
-    else:
-        print(f"{arguments.output} is up to date", file=sys.stderr)
+    put_json(bundle_text(), arguments.output)
     return OK

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from unicodedata import east_asian_width
+from unicodedata import combining, east_asian_width
 
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
 from linkforge_compile.source import Span
@@ -65,7 +65,9 @@ def snippet(span: Span | None, colour: str = "") -> Iterator[str]:
 
 
 def _cells(char: str) -> int:
-    """Return how many columns of a terminal a character takes."""
+    """Return how many columns of a terminal a character takes; an accent that stands alone goes onto the one before."""
+    if combining(char):
+        return 0
     return 2 if east_asian_width(char) in "WF" else 1
 
 
