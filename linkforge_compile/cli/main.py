@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile._version import __version__
-from linkforge_compile.cli.exits import INTERNAL_FAULT, INTERRUPTED, OK, WRONG_USAGE, UsageError
+from linkforge_compile.cli.exits import INTERRUPTED, OK, WRONG_USAGE, UsageError
 
 if TYPE_CHECKING:
     import argparse
@@ -41,7 +41,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return OK
     except Exception as fault:
         # The last stand: whatever gets here is our fault, not the user's, and is told as such.
-        return _confess(fault)
+        from linkforge_compile.cli.internal_fault import confess
+
+        return confess(fault, words)
 
 
 def _run(words: list[str]) -> int:
@@ -102,23 +104,3 @@ def _silence_stdout() -> None:
     import os
 
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-def _confess(fault: Exception) -> int:
-    """Say that this is our fault and what to report; the traceback only where LINKFORGE_DEBUG asks for it."""
-    import os
-    import traceback
-
-    if os.environ.get("LINKFORGE_DEBUG"):
-        traceback.print_exception(fault)
-    frames = traceback.extract_tb(fault.__traceback__)
-    place = (
-        f"{frames[-1].filename.rpartition('linkforge_compile')[2].lstrip('/')}:{frames[-1].lineno}" if frames else "?"
-    )
-    print(
-        f"linkforge: internal fault: {type(fault).__name__} at {place}: {fault}\n"
-        f"This is a bug in linkforge {__version__} (Python {sys.version.split()[0]}), not in your spec. Please report\n"
-        "it with the spec and the command; LINKFORGE_DEBUG=1 prints the full traceback to go with it.",
-        file=sys.stderr,
-    )
-    return INTERNAL_FAULT

@@ -225,20 +225,3 @@ def test_wrong_usage_is_told(pendulum: Path, words: tuple[str, ...], said: str):
     run = linkforge(*words, cwd=pendulum)
     assert run.returncode == 2
     assert said in run.stderr
-
-
-def test_a_fault_of_ours_says_so_without_a_traceback(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-):
-    from linkforge_compile import pipeline
-    from linkforge_compile.cli.main import main
-
-    def fail(*_: object, **__: object) -> None:
-        raise ZeroDivisionError("by zero")
-
-    monkeypatch.delenv("LINKFORGE_DEBUG", raising=False)
-    monkeypatch.setattr(pipeline, "compile_file", fail)
-    assert main(["compile", "any.robot.yaml"]) == 70
-    said = capsys.readouterr().err
-    assert "internal fault: ZeroDivisionError" in said
-    assert "Traceback" not in said

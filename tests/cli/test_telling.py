@@ -1,6 +1,9 @@
 """In which form diagnostics come out of the commands, which of them, and where."""
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -124,6 +127,19 @@ def test_colours_are_written_where_they_are_asked_for(specs: Path):
     assert "\033[1;31merror:" in always.stderr
     never = linkforge("check", "faulty.robot.yaml", "--color", "never", cwd=specs, FORCE_COLOR="1")
     assert "\033" not in never.stderr
+
+
+@pytest.mark.skipif(os.name == "nt", reason="POSIX's pseudo-terminals")
+def test_on_a_terminal_text_is_coloured_and_says_where_there_is_more(specs: Path):
+    ours, theirs = os.openpty()
+    command = (sys.executable, "-m", "linkforge_compile", "compile", "faulty.robot.yaml")
+    plain = {name: value for name, value in os.environ.items() if name not in {"NO_COLOR", "FORCE_COLOR"}}
+    subprocess.run(command, cwd=specs, stderr=theirs, check=False, timeout=60, env={**plain, "TERM": "xterm"})
+    os.close(theirs)
+    said = os.read(ours, 10_000).decode()
+    os.close(ours)
+    assert "\033[1;31merror:" in said
+    assert said.endswith("run 'linkforge explain LF4105' for more\r\n")
 
 
 def test_the_problem_matcher_is_written(specs: Path):

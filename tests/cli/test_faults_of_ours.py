@@ -1,0 +1,68 @@
+"""How the command ends when linkforge is at fault, or is interrupted."""
+
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile import pipeline
+from linkforge_compile.cli.main import main
+
+COMMAND = ["compile", "my robots/../any.robot.yaml"]
+
+
+def plant(monkeypatch: pytest.MonkeyPatch, fault: BaseException) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise fault
+
+    monkeypatch.delenv("LINKFORGE_DEBUG", raising=False)
+    monkeypatch.setattr(pipeline, "compile_file", fail)
+
+
+@pytest.fixture
+def reports(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    return tmp_path
+
+
+def test_a_fault_of_ours_says_what_to_report(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], reports: Path
+):
+    plant(monkeypatch, ZeroDivisionError("by zero"))
+    assert main(COMMAND) == 70
+    said = capsys.readouterr().err
+    assert "internal fault: ZeroDivisionError" in said
+    assert "not in your spec" in said
+    assert "command: linkforge compile 'my robots/../any.robot.yaml'" in said
+    assert "Traceback" not in said
+    (report,) = reports.iterdir()
+    assert str(report) in said
+    written = report.read_text("utf-8")
+    assert said.endswith(written.partition("Traceback")[0])
+    assert written.rstrip().endswith("ZeroDivisionError: by zero")
+
+
+def test_the_traceback_is_shown_where_it_is_asked_for(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], reports: Path
+):
+    plant(monkeypatch, ZeroDivisionError("by zero"))
+    monkeypatch.setenv("LINKFORGE_DEBUG", "1")
+    assert main(COMMAND) == 70
+    assert capsys.readouterr().err.startswith("Traceback (most recent call last):")
+
+
+def test_a_report_that_cannot_be_saved_is_offered_otherwise(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+):
+    plant(monkeypatch, ZeroDivisionError("by zero"))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "nowhere"))
+    assert main(COMMAND) == 70
+    said = capsys.readouterr().err
+    assert "what LINKFORGE_DEBUG=1 prints" in said
+    assert "Traceback" not in said
+
+
+def test_an_interruption_is_quiet(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
+    plant(monkeypatch, KeyboardInterrupt())
+    assert main(COMMAND) == 130
+    assert capsys.readouterr() == ("", "")
