@@ -14,6 +14,7 @@ from linkforge_compile.backends import srdf_limits, urdf_limits
 from linkforge_compile.checks import check
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Severity
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
+from linkforge_compile.diagnostics.ignores import heed
 from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
     Arguments,
@@ -30,6 +31,7 @@ from linkforge_compile.modules import (
     variants_of,
 )
 from linkforge_compile.stack import with_room
+from linkforge_compile.syntax import ignore_comments
 
 if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
@@ -208,7 +210,9 @@ def _compiled(read: _Read, settings: _Settings) -> Compilation:
     is_whole = not any(diagnostic.code is NOT_JUDGED for diagnostic in sink)
     if sink.has_errors or not is_whole:
         robot = None
-    return Compilation(robot, sink.sorted(), (*loader.files, *meshes.files))
+    ignores = tuple(ignore for file in loader.sources for ignore in ignore_comments(file))
+    report = heed(sink.sorted(), ignores, is_whole=robot is not None)
+    return Compilation(robot, report, (*loader.files, *meshes.files))
 
 
 def _robot(spec: SpecFile, settings: _Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:

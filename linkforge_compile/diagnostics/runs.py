@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
+from linkforge_compile.diagnostics.codes.ignoring import NOTHING_TO_IGNORE
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note
 
 
@@ -21,7 +22,11 @@ def told_once(runs: Mapping[str, Iterable[Diagnostic]], *, every: str) -> tuple[
             key = (diagnostic.code.id, str(diagnostic.span), diagnostic.message)
             first.setdefault(key, diagnostic)
             told_in.setdefault(key, []).append(run)
-    noted = (_with_note(diagnostic, told_in[key], len(runs), every) for key, diagnostic in first.items())
+    # A comment that ignores something in one of the runs has its use.
+    told = {
+        key: one for key, one in first.items() if one.code is not NOTHING_TO_IGNORE or len(told_in[key]) == len(runs)
+    }
+    noted = (_with_note(diagnostic, told_in[key], len(runs), every) for key, diagnostic in told.items())
     return tuple(sorted(noted, key=lambda diagnostic: diagnostic.order))
 
 

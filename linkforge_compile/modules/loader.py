@@ -64,6 +64,11 @@ class Loader:
         self._data_bytes = 0
 
     @property
+    def sources(self) -> tuple[SourceFile, ...]:
+        """The text of everything that was read, in that order; a file that is included twice is there twice."""
+        return tuple(self._sources)
+
+    @property
     def files(self) -> tuple[Path, ...]:
         """Every file that was read, in that order, as its user would type it."""
         return tuple(dict.fromkeys(source.path for source in self._sources if source.path))

@@ -1,5 +1,6 @@
 """Text to positioned tree and back: YAML as the language reads it, every key and value with its place."""
 
+from linkforge_compile.syntax.ignore_comments import ignore_comments
 from linkforge_compile.syntax.nodes import (
     ScalarValue,
     YamlEntry,
@@ -24,6 +25,7 @@ __all__ = [
     "YamlMap",
     "YamlNode",
     "YamlScalar",
+    "ignore_comments",
     "is_null",
     "read",
     "read_data",

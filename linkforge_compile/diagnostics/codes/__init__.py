@@ -8,6 +8,7 @@ from linkforge_compile.diagnostics.codes import (
     backends,
     expressions,
     files,
+    ignoring,
     model,
     modules,
     names,
@@ -20,7 +21,7 @@ from linkforge_compile.diagnostics.diagnostic import Code
 
 REGISTER: dict[str, Code] = {
     code.id: code
-    for family in (syntax, schema, modules, files, repetition, expressions, names, model, physics, backends)
+    for family in (syntax, ignoring, schema, modules, files, repetition, expressions, names, model, physics, backends)
     for code in vars(family).values()
     if isinstance(code, Code)
 }

@@ -1,0 +1,57 @@
+"""Comments of a spec that ask not to be told something: what they take away, and what is wrong with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from linkforge_compile.diagnostics.codes import REGISTER
+from linkforge_compile.diagnostics.codes.ignoring import (
+    IGNORE_OF_ERROR,
+    IGNORE_OF_UNKNOWN_CODE,
+    IGNORE_WITHOUT_CODE,
+    NOTHING_TO_IGNORE,
+)
+from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
+from linkforge_compile.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Ignore:
+    """One comment: on `line` of its file the codes are not to be told; each is with where it is written."""
+
+    span: Span
+    line: int
+    codes: tuple[tuple[str, Span], ...]
+
+
+def heed(diagnostics: tuple[Diagnostic, ...], ignores: tuple[Ignore, ...], *, is_whole: bool) -> tuple[Diagnostic, ...]:
+    """Return a report in reading order without what is ignored, and with what is wrong with the comments.
+
+    Errors stay. `is_whole` says that nothing kept a stage from looking: only then is it known what is not told.
+    """
+    if not ignores:
+        return diagnostics
+    # By the file's name, as one that is included twice is two files with the same comments.
+    asked = {(ignore.span.file.name, ignore.line, code) for ignore in ignores for code, _ in ignore.codes}
+    ignored = {_key(one) for one in diagnostics if one.severity is not Severity.ERROR} & asked
+    kept = [one for one in diagnostics if one.severity is Severity.ERROR or _key(one) not in ignored]
+    faults = {str(fault): fault for ignore in ignores for fault in _faults(ignore, ignored, is_whole)}
+    return tuple(sorted((*kept, *faults.values()), key=lambda one: one.order))
+
+
+def _key(diagnostic: Diagnostic) -> tuple[str, int, str]:
+    span = diagnostic.span
+    return (span.file.name, span.line, diagnostic.code.id) if span else ("", 0, diagnostic.code.id)
+
+
+def _faults(ignore: Ignore, ignored: Iterable[tuple[str, int, str]], is_whole: bool) -> Iterator[Diagnostic]:
+    if not ignore.codes:
+        yield IGNORE_WITHOUT_CODE.at(ignore.span)
+    for code, span in ignore.codes:
+        if code not in REGISTER:
+            yield IGNORE_OF_UNKNOWN_CODE.at(span, name=code, near=REGISTER)
+        elif REGISTER[code].severity is Severity.ERROR:
+            yield IGNORE_OF_ERROR.at(span, code=code)
+        elif is_whole and (span.file.name, ignore.line, code) not in ignored:
+            yield NOTHING_TO_IGNORE.at(span, code=code, line=ignore.line)
