@@ -55,8 +55,7 @@ def selected(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -
 def tell(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> bool:
     """Write what the options leave to standard error, and return whether there are errors among it."""
     told = selected(diagnostics, arguments)
-    if sys.stderr is not None:
-        sys.stderr.write(written(told, arguments))
+    to_stderr(written(told, arguments))
     return has_errors(told)
 
 
@@ -67,7 +66,13 @@ def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
 def say(line: str, arguments: argparse.Namespace) -> None:
     """Write what was done to standard error, unless that is to be quiet or to hold one document for a program."""
     if not arguments.quiet and arguments.diagnostics in {"text", "github"}:
-        print(line, file=sys.stderr)
+        to_stderr(f"{line}\n")
+
+
+def to_stderr(text: str) -> None:
+    """Write to standard error, which whoever started the command may have closed."""
+    if sys.stderr is not None:
+        sys.stderr.write(text)
 
 
 def written(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics.codes import REGISTER
 from linkforge_compile.diagnostics.codes.ignoring import (
@@ -16,8 +16,7 @@ from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
 from linkforge_compile.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class Ignore:
+class Ignore(NamedTuple):
     """One comment: on `line` of its file the codes are not to be told; each is with where it is written."""
 
     span: Span

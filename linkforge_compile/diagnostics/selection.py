@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
 
 
-@dataclass(frozen=True, slots=True)
-class Selection:
+class Selection(NamedTuple):
     """What is left of a report; codes are whole ones or their beginnings, `LF5` for LF5000 to LF5999.
 
     Errors are always told: a spec that has one gives no robot, whoever looks.

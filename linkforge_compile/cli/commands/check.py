@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import check_spec
 from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments
-from linkforge_compile.cli.telling import add_telling_options, has_errors, selected, written
+from linkforge_compile.cli.telling import add_telling_options, has_errors, selected, to_stderr, written
 
 if TYPE_CHECKING:
     import argparse
@@ -42,7 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.diagnostics.render import summary
 
-    specs, assignments = split_assignments(arguments.words)
+    words, assignments = split_assignments(arguments.words)
+    specs = list(dict.fromkeys(words))
     if not specs:
         raise UsageError("takes at least one spec")
     if arguments.all_variants and arguments.variant is not None:
@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.all_variants:
         checked += f" with the defaults and {_counted(variants, 'variant')}"
     if not arguments.quiet:
-        print(f"{checked}: {summary(told)}", file=sys.stderr)
+        to_stderr(f"{checked}: {summary(told)}\n")
     return FAULTY_SPEC if has_errors(told) else OK
 
 
@@ -81,7 +81,7 @@ def _write(told: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
     """Write text to standard error, where people read, and every form for programs to standard output."""
     text = written(told, arguments)
     if arguments.diagnostics == "text":
-        sys.stderr.write(text)
+        to_stderr(text)
     else:
         from linkforge_compile.cli.output import write_to_stdout
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from linkforge_compile.diagnostics.diagnostic import Code, Diagnostic, Note
-from linkforge_compile.diagnostics.render.under_root import name_under
+from linkforge_compile.diagnostics.render.under_root import absolute, name_under
 from linkforge_compile.source import Span
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -81,6 +81,6 @@ def _place(span: Span, root: Path) -> dict[str, object]:
 def _artifact(span: Span, root: Path) -> dict[str, object]:
     if name := name_under(root, span.file):
         return {"uri": quote(name), "uriBaseId": _ROOT}
-    if span.file.path is not None:
-        return {"uri": span.file.path.absolute().as_uri()}
+    if path := absolute(span.file):
+        return {"uri": path.as_uri()}
     return {"uri": quote(span.file.name)}
