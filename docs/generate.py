@@ -31,7 +31,7 @@ PAGE = HERE / "language.md"
 
 BANNER = "<!-- Written by docs/generate.py from docs/language.in.md and schemas/: edit those, not this page. -->\n\n"
 
-EVERYWHERE = ("when", "for", "extra", "extra_attributes")
+EVERYWHERE = ("when", "for", "extra", "extra_attributes", "extra_inside")
 """What stands in most objects, so that it has a table of its own and no line in theirs."""
 
 _LONGEST_CELL = 72

@@ -20,6 +20,15 @@ from linkforge_compile.schema.registry import load_files
 EXTRA = {"extra_elements": "extra"}
 """Of every element."""
 
+NOTHING_INSIDE = frozenset(
+    {geometry.Transform, geometry.Box, geometry.Cylinder, geometry.Sphere, geometry.Capsule, geometry.Mesh}
+    | {material.Color, link.InertiaTensor, joint.JointLimits, joint.JointDynamics, joint.JointMimic}
+    | {joint.JointSafetyController, joint.JointCalibration, planning.VirtualJoint, planning.Chain}
+    | {planning.EndEffector, planning.PassiveJoint, planning.JointProperty, collision_rules.CollisionPair}
+    | {collision_rules.SrdfSphere, collision_rules.LinkSphereApproximation, gz.GazeboElement, gz.GazeboPlugin}
+)
+"""Elements of attributes alone, of parts, or of free parts, which say themselves what is inside: no `extra_inside`."""
+
 TAGS = frozenset(
     {"mu1", "mu2", "fdir1", "kp", "kd", "maxVel", "minDepth", "maxContacts", "selfCollide", "gravity", "turnGravityOff"}
     | {"dampingFactor", "laserRetro", "springStiffness", "springReference", "fudgeFactor", "preserveFixedJoint"}
@@ -59,11 +68,14 @@ LANGUAGE: dict[type, Said] = {
     link.Inertial: Said(("an inertial",), only_in_the_schema=frozenset({"density"})),
     link.InertiaTensor: Said(("an inertia tensor",)),
     link.LinkPhysics: Said(("a link's physics",)),
+    geometry.Vector3: Said((), {}, dict.fromkeys("xyz", "its place in a list of three numbers")),
     geometry.Transform: Said(("an origin",)),
+    geometry.Box: Said(("a box",)),
     geometry.Cylinder: Said(("a cylinder",)),
     geometry.Sphere: Said(("a sphere",)),
     geometry.Capsule: Said(("a capsule",)),
     geometry.Mesh: Said(("a mesh",), {"resource": "file"}),
+    material.Color: Said(("a color",), dict.fromkeys("rgba", "rgba")),
     material.Material: Said(("a material", "a visual's material")),
     joint.Joint: Said(
         ("a joint", "a module's joint"),
@@ -99,24 +111,25 @@ LANGUAGE: dict[type, Said] = {
     planning.PlanningGroup: Said(("a group",), {}, KEY, frozenset({"chain"})),
     planning.Chain: Said(("a chain",)),
     planning.EndEffector: Said(("an end effector",), {}, KEY),
+    planning.GroupState: Said(
+        ("joint values by name",), {}, {**KEY, "group": "the key around it", "joint_values": "all its other keys"}
+    ),
+    planning.PassiveJoint: Said(("a passive joint",), {}, KEY),
+    planning.JointProperty: Said(
+        ("a joint property",), {}, {"joint_name": "the key around it", "property_name": "the key of its entry"}
+    ),
+    collision_rules.CollisionPair: Said(
+        ("a collision pair",), {}, {"link1": "the key around it", "link2": "the key of its entry"}
+    ),
+    collision_rules.LinkSphereApproximation: Said(("a sphere approximation",), {}, {"link": "the key of its entry"}),
     collision_rules.SrdfSphere: Said(
         ("an approximating sphere",), {"center_x": "center", "center_y": "center", "center_z": "center"}
     ),
 }
 
-SHORT: dict[type, str] = {
-    geometry.Vector3: "a list of three numbers",
-    geometry.Box: "`box`, a list of three lengths",
-    material.Color: "`color`, a list of three or four numbers",
-    planning.GroupState: "`group_states`, by group and name: values by joint",
-    planning.PassiveJoint: "an item of `passive_joints`: its name",
-    planning.JointProperty: "`joint_properties`, by joint and name: its value",
-    collision_rules.CollisionPair: "`disabled_collisions` or `enabled_collisions`, by its links: its reason",
-    collision_rules.LinkSphereApproximation: "`link_sphere_approximations`, by link: a list of spheres",
-}
-"""Classes whose fields are all in one short form, which has no place for raw XML."""
-
-NO_PART_OF_THE_ROBOT = frozenset({"a frame", "a module", "a parameter", "defaults", "a data file", "an override"})
+NO_PART_OF_THE_ROBOT = frozenset(
+    {"a frame", "a module", "an element inside", "a parameter", "defaults", "a data file", "an override"}
+)
 """Objects that make parts of the robot and leave nothing of themselves."""
 
 
@@ -145,8 +158,9 @@ OBJECTS = dict(found for schema in load_files().values() for found in objects_in
 
 def fields_of(kind: type) -> set[str]:
     if not is_dataclass(kind):
-        return {"parameters", *EXTRA, "extra_attributes"}
-    return {field.name for field in fields(kind) if not field.name.startswith("_")} - {"source"}
+        return {"parameters", *EXTRA, "extra_attributes", "extra_inside"}
+    unsaid = {"source", "extra_inside"} if kind in NOTHING_INSIDE else {"source"}
+    return {field.name for field in fields(kind) if not field.name.startswith("_")} - unsaid
 
 
 def keys_of(said: Said, field: str) -> frozenset[str]:
@@ -155,7 +169,7 @@ def keys_of(said: Said, field: str) -> frozenset[str]:
 
 
 def test_every_class_is_said_in_the_language():
-    assert {kind.__name__ for kind in CLASSES} == {kind.__name__ for kind in (*LANGUAGE, *SHORT)}
+    assert {kind.__name__ for kind in CLASSES} == {kind.__name__ for kind in LANGUAGE}
 
 
 def test_every_object_of_the_schema_becomes_a_class():

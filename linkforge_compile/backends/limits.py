@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
-from linkforge_compile.backends.markup import RestatedAttributeError, attributes, elements
+from linkforge_compile.backends.element import InsideError, RestatedAttributeError, attributes, elements, inside_of
 from linkforge_compile.backends.srdf import render_srdf
-from linkforge_compile.backends.unwritable import refused, says_extra_attributes, unwritable_texts
+from linkforge_compile.backends.unwritable import extended_parts, refused, unwritable_texts
 from linkforge_compile.backends.urdf import capsules, render_urdf
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.diagnostics import Diagnostic, Note
@@ -60,13 +60,21 @@ def check_attributes(parts: object, robot: Robot, render: Callable[[], str]) -> 
     """An element has each attribute once: what a field of the language says, `extra_attributes` cannot say again.
 
     Which attributes an element has, only its rendering knows; so where there are extra ones at all, it is tried.
+    The same goes for what `extra_inside` speaks of.
     """
-    if not (robot.extra_attributes or says_extra_attributes(parts)):
+    extended = tuple(extended_parts(parts))
+    if not (robot.extra_attributes or extended):
         return
     try:
         render()
     except RestatedAttributeError as error:
         yield UNWRITABLE.at(error.source, "extra_attributes", Key(error.name), reason=error)
+    except InsideError as error:
+        from linkforge_compile.backends.inside import marks_of
+
+        for fault in (error, *error.others):
+            part = next(part for part in extended if fault.mark in list(marks_of(inside_of(part))))
+            yield UNWRITABLE.at(part.source, "extra_inside", Key(fault.key), reason=fault)
     except RobotGeneratorError:
         return  # told by what looks at the texts
 

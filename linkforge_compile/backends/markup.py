@@ -1,4 +1,4 @@
-"""Text as XML: the strings that templates place, and the elements that an author's own data decide.
+"""Text as XML: escaped, and laid out.
 
 Whatever leaves this module is one tag a line, or one element with its text a line: line ends inside of texts
 become character references, so that a document can be indented, or not, without touching what it says.
@@ -7,14 +7,13 @@ become character references, so that a document can be indented, or not, without
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator
 from functools import cache
 from numbers import Real
-from typing import Protocol, TypeAlias
+from typing import TypeAlias
 
-from linkforge_compile.backends.marks import is_recording, mark, mark_of_attribute
+from linkforge_compile.backends.marks import is_recording, mark
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import number_text
 
@@ -34,6 +33,10 @@ _NAME_START = (
 )
 
 
+MARK = "\x00"
+"""Begins a line that is no XML, and that none can be taken for: what `extra_inside` says of the element around it."""
+
+
 class Xml(str):
     """Text that is XML already; templates write it as it stands."""
 
@@ -48,17 +51,6 @@ NOTHING = Xml()
 
 Spellable: TypeAlias = str | float | bool | Iterable[float]
 """What an attribute or a text may be: words, a number, yes or no, or numbers with spaces between them."""
-
-
-class Extended(Protocol):
-    """A part of the robot that may hold attributes and elements that no field says."""
-
-    @property
-    def extra_attributes(self) -> Sequence[tuple[str, str]] | Mapping[str, str]: ...
-    @property
-    def extra_elements(self) -> Sequence[str]: ...
-    @property
-    def source(self) -> SourceRef | None: ...
 
 
 def spelled(value: Spellable) -> str:
@@ -119,109 +111,40 @@ def harmless_in_comment(text: str) -> str:
     return _UNWRITABLE.sub("?", text).replace("--", "- -").replace("--", "- -")
 
 
-def attributes(part: Extended | None = None, /, **stated: Spellable | None) -> Xml:
-    """Return ` name="value"` for each attribute that is stated, then for those that no field of the part says.
-
-    Raises:
-        RobotGeneratorError: for an extra attribute that says a stated one again, or that is no XML name.
-
-    """
-    text = "".join([f' {name}="{_quotable(value)}"' for name, value in stated.items() if value is not None])
-    if part is None or not (part.extra_attributes or is_recording()):
-        return Xml(text)
-    extra = attribute_pairs(part.extra_attributes)
-    _require_attributes(part, stated, extra)
-    if is_recording():
-        return _marked_attributes(part, stated, extra)
-    return Xml(text + "".join([f' {name}="{escaped(value)}"' for name, value in extra]))
-
-
-def attributes_at(source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
-    """Return ` name="value"` for what is no part of its own, but written under a path of one."""
-    return Xml(mark(source, *path) + attributes(**stated))
-
-
-def _marked_attributes(part: Extended, stated: Mapping[str, Spellable | None], extra: Iterable[tuple[str, str]]) -> Xml:
-    own = (
-        f'{mark_of_attribute(part.source, name)} {name}="{_quotable(value)}"'
-        for name, value in stated.items()
-        if value is not None
-    )
-    raw = (f'{mark(part.source, "extra_attributes", name)} {name}="{escaped(value)}"' for name, value in extra)
-    return Xml("".join((mark(part.source), *own, *raw)))
-
-
-def _quotable(value: Spellable) -> str:
-    return escaped(value) if isinstance(value, str) else spelled(value)
-
-
-class RestatedAttributeError(RobotGeneratorError):
-    """An extra attribute, `name`, says again what a field of its part says; `source` is where the part was written."""
-
-    def __init__(self, name: str, source: SourceRef | None) -> None:
-        self.name = name
-        self.source = source
-        super().__init__(f"the attribute '{name}' is stated twice")
-
-
-def _require_attributes(part: Extended, stated: Mapping[str, object], extra: Iterable[tuple[str, str]]) -> None:
-    seen = {name for name, value in stated.items() if value is not None}
-    for name, _ in extra:
-        if not is_xml_name(name):
-            raise RobotGeneratorError(f"'{name}' cannot be the name of an XML attribute")
-        if name in seen:
-            raise RestatedAttributeError(name, part.source)
-        seen.add(name)
-
-
-def elements(part: Extended) -> Xml:
-    """Return the elements that no field of the part says, each well-formed by itself.
-
-    Raises:
-        RobotGeneratorError: for raw XML that is not well-formed.
-
-    """
-    if not part.extra_elements:
-        return NOTHING
-    from linkforge_compile.backends.raw import raw_elements
-
-    raws = enumerate(part.extra_elements)
-    return Xml("\n".join(raw_elements(text, part.source, "extra", number) for number, text in raws))
-
-
-def leaf_at(tag: str, source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
-    """Return an element of attributes that is no part of its own, but written under a path of one."""
-    return Xml(f"<{tag}{attributes_at(source, *path, **stated)}/>")
-
-
-def leaf(tag: str, part: Extended | None, /, **stated: Spellable | None) -> Xml:
-    """Return an element whose fields are all attributes."""
-    start = f"<{tag}{attributes(part, **stated)}"
-    if part is None or not part.extra_elements:
-        return Xml(f"{start}/>")
-    return Xml(f"{start}>\n{elements(part)}\n</{tag}>")
-
-
 def lay_out(text: str, *, pretty: bool) -> str:
     """Indent a rendered document by two spaces a level, or put it on one line.
 
     An element without content closes itself.
     A line is an opening tag, a closing tag, or something whole; blank lines are what a template left out.
     """
+    if MARK in text:
+        from linkforge_compile.backends.inside import with_insides
+
+        text = with_insides(text)
     lines: list[str] = []
     depth = 0
     opened = False
     for line in _lines(text):
-        closes = line.startswith("</")
+        closes = is_closing(line)
         depth -= closes
         if closes and opened:
             lines[-1] = f"{lines[-1][:-1]}/>"
         else:
             whole = _EMPTY.sub(r"<\1/>", line) if "></" in line else line
             lines.append("  " * depth + whole if pretty else whole)
-        opened = not closes and line[1] not in "!?" and line[-2] != "/" and "</" not in line
+        opened = not closes and is_opening(line)
         depth += opened
     return ("\n" if pretty else "").join(lines)
+
+
+def is_closing(line: str) -> bool:
+    """Whether a line ends an element that an earlier one began."""
+    return line.startswith("</")
+
+
+def is_opening(line: str) -> bool:
+    """Whether a line begins an element that a later one ends."""
+    return line[1] not in "!?" and line[-2] != "/" and "</" not in line
 
 
 def _lines(text: str) -> Iterator[str]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from linkforge_compile.backends.element import attributes, elements, leaf
 from linkforge_compile.backends.environment import render
 from linkforge_compile.backends.marks import mark
-from linkforge_compile.backends.markup import Xml, attributes, elements, leaf, placed, spelled
+from linkforge_compile.backends.markup import Xml, placed, spelled
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

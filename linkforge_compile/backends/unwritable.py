@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache, partial
 
-from linkforge_compile.backends.markup import attributes, elements, escaped
+from linkforge_compile.backends.element import Extended, attributes, inside_of, raw
+from linkforge_compile.backends.markup import escaped
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.core.models.interface import Interface
@@ -32,7 +33,8 @@ def unwritable_texts(part: object, where: SourceRef | None = None, *path: str) -
         if part.extra_attributes:
             yield from refused(lambda: attributes(part), where, "extra_attributes")
         if part.extra_elements:
-            yield from refused(lambda: elements(part), where, "extra")
+            yield from refused(lambda: raw(part), where, "extra")
+        yield from unwritable_texts(inside_of(part), where, "extra_inside")
         kind: type = type(part)
         for name in _content(kind):
             if not isinstance(value := getattr(part, name), _NUMBERS):
@@ -76,14 +78,20 @@ def refused(write: Callable[[], object], where: SourceRef | None, *path: str) ->
         yield UNWRITABLE.at(where, *path, reason=error)
 
 
-def says_extra_attributes(part: object) -> bool:
-    """Whether anything in a part of a robot, at any depth, has attributes beside those of its fields."""
+def extended_parts(part: object) -> Iterator[Extended]:
+    """Yield all in a part of a robot, at any depth, that has attributes beside its fields', or says what is inside."""
     if isinstance(part, Element | Link | Interface):
+        if part.extra_attributes or inside_of(part):
+            yield part
         kind: type = type(part)
-        return bool(part.extra_attributes) or any(says_extra_attributes(getattr(part, name)) for name in _content(kind))
-    if isinstance(part, Mapping):
-        return any(map(says_extra_attributes, part.values()))
-    return isinstance(part, Sequence) and not isinstance(part, str) and any(map(says_extra_attributes, part))
+        for name in _content(kind):
+            yield from extended_parts(getattr(part, name))
+    elif isinstance(part, Mapping):
+        for item in part.values():
+            yield from extended_parts(item)
+    elif isinstance(part, Sequence) and not isinstance(part, str):
+        for item in part:
+            yield from extended_parts(item)
 
 
 @cache

@@ -54,14 +54,30 @@ class Element(Part):
     """A part that becomes an XML element.
 
     `extra_attributes` are (name, value) pairs and `extra_elements` the texts of child elements, both for what no
-    field says; they are written as they stand and take no prefix. They are compared, but not shown by `repr`.
+    field says; they are written as they stand and take no prefix. `extra_inside` says the same of the elements
+    inside that are no part of their own. They are compared, but not shown by `repr`.
     """
 
     extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False)
     extra_elements: Sequence[str] = field(default=(), repr=False)
+    extra_inside: Sequence[Inside] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         freeze(self)
+
+
+@dataclass(frozen=True, slots=True)
+class Inside(Element):
+    """What no field says of an element inside of another that only a field of its part makes: `<parent>` of a joint.
+
+    `tag` is its tag. `name` is its attribute `name` or `link`, or its text, where a tag stands several times: the
+    `<joint name>` of a group, a `<param name>`; None for the only one.
+    """
+
+    PREFIXED = ("name",)
+
+    tag: str
+    name: str | None = None
 
 
 def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) -> None:
@@ -77,6 +93,8 @@ def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) ->
         set_field(element, "extra_elements", tuple(element.extra_elements))
     if element.extra_attributes != ():
         set_field(element, "extra_attributes", attribute_pairs(element.extra_attributes))
+    if element.extra_inside != ():
+        set_field(element, "extra_inside", tuple(element.extra_inside))
 
 
 def attribute_pairs(attributes: Sequence[tuple[str, str]] | Mapping[str, str]) -> tuple[tuple[str, str], ...]:

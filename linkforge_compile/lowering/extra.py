@@ -1,14 +1,17 @@
-"""`extra` and `extra_attributes`: raw XML and raw attributes for what no field says."""
+"""`extra`, `extra_attributes` and `extra_inside`: raw XML and raw attributes for what no field says."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, TypedDict
+
+from linkforge_compile.core.part import Inside
 
 if TYPE_CHECKING:
     from linkforge_compile.lowering.fields import Fields
 
 
-EXTRA_KEYS = ("extra", "extra_attributes")
+EXTRA_KEYS = ("extra", "extra_attributes", "extra_inside")
 
 
 class Extras(TypedDict):
@@ -16,21 +19,42 @@ class Extras(TypedDict):
 
     extra_elements: tuple[str, ...]
     extra_attributes: tuple[tuple[str, str], ...]
+    extra_inside: tuple[Inside, ...]
 
 
-NO_EXTRAS = Extras(extra_elements=(), extra_attributes=())
+class OuterExtras(TypedDict):
+    """The same of a link and of a robot, which hold nothing but parts."""
+
+    extra_elements: tuple[str, ...]
+    extra_attributes: tuple[tuple[str, str], ...]
+
+
+NO_EXTRAS = Extras(extra_elements=(), extra_attributes=(), extra_inside=())
 """Of what is written in a short form, which has no place for them."""
 
 
 def extras_of(fields: Fields) -> Extras:
     """Read what an object says raw. Whether it is XML, the backend judges, who knows how it would be written."""
     entries = fields.node.entries
-    if "extra" not in entries and "extra_attributes" not in entries:
+    if not any(key in entries for key in EXTRA_KEYS):
         return NO_EXTRAS
+    return Extras(**outer_extras_of(fields), extra_inside=tuple(_insides(fields)))
+
+
+def outer_extras_of(fields: Fields) -> OuterExtras:
+    """Read what a link or a robot says raw."""
     from linkforge_compile.lowering.free_part import free_texts
 
     texts = (fields.text_at(node, "extra") for node in fields.items("extra"))
-    return Extras(
+    return OuterExtras(
         extra_elements=tuple(text for text in texts if text and text.strip()),
         extra_attributes=tuple(free_texts(fields, "extra_attributes").items()),
     )
+
+
+def _insides(fields: Fields) -> Iterator[Inside]:
+    """Lower what is said of elements inside, by tag, or by tag and name with a space between them."""
+    for key, inside in fields.each("extra_inside", "element", lambda inside, _: inside):
+        tag, _, name = key.partition(" ")
+        if inside:
+            yield Inside(tag, name.strip() or None, source=inside.ref, **extras_of(inside))

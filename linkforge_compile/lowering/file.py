@@ -13,7 +13,7 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics, Gaps
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.lowering.duplicates import tell_duplicate
-from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.extra import outer_extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.frame import Frame, lower_frames
 from linkforge_compile.lowering.joint import lower_joints
@@ -81,7 +81,7 @@ def lower_file(
         gazebo_elements=_gazebo_elements(file),
         semantic=semantic.description if semantic else None,
         source=SourceRef(tree, said.span if said else None, trail),
-        **extras_of(file),
+        **outer_extras_of(file),
     )
     lost = [name for parts in (links, joints) for name, part in parts.items() if part is None]
     gaps = gaps_of([*lost, *(semantic.lost_groups if semantic else ())])

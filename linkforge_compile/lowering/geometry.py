@@ -31,8 +31,15 @@ def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
 
 
 def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
-    size = shape.vector3_at(node, "box", _SIZE)
-    return None if size is None else shape.build(lambda: Box(size, source=_ref(shape, node)))
+    body = shape.map_at(node, "box") if isinstance(node, YamlMap) else None
+    if body:
+        size, extras = (
+            body.vector3("size", Dimension.LENGTH, bound=ABOVE_ZERO, required="[0.1, 0.1, 0.1]"),
+            extras_of(body),
+        )
+    else:
+        size, extras = shape.vector3_at(node, "box", _SIZE), NO_EXTRAS
+    return None if size is None else shape.build(lambda: Box(size, source=_ref(shape, node), **extras))
 
 
 def _cylinder(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:

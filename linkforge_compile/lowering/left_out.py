@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.models.srdf import GroupState, PlanningGroup, SemanticRobotDescription
+from linkforge_compile.core.part import Inside
 
 
 class Remainder(NamedTuple):
@@ -87,11 +88,18 @@ def _empty_groups(groups: Sequence[PlanningGroup], joint: str) -> frozenset[str]
 def _thinned(group: PlanningGroup, joint: str, empty: frozenset[str]) -> PlanningGroup:
     joints = tuple(name for name in group.joints if name != joint)
     subgroups = tuple(name for name in group.subgroups if name not in empty)
-    return replace(group, joints=joints, subgroups=subgroups)
+    gone = {*(("joint", name) for name in group.joints if name not in joints)}
+    gone |= {("group", name) for name in group.subgroups if name not in subgroups}
+    return replace(group, joints=joints, subgroups=subgroups, extra_inside=_inside_without(group, gone))
 
 
 def _without_position(state: GroupState, joint: str) -> GroupState:
     if joint not in state.joint_values:
         return state
     kept = {name: position for name, position in state.joint_values.items() if name != joint}
-    return replace(state, joint_values=FrozenMap(kept))
+    inside = _inside_without(state, {("joint", joint)})
+    return replace(state, joint_values=FrozenMap(kept), extra_inside=inside)
+
+
+def _inside_without(part: PlanningGroup | GroupState, gone: Collection[tuple[str, str]]) -> tuple[Inside, ...]:
+    return tuple(one for one in part.extra_inside if (one.tag, one.name) not in gone)

@@ -18,7 +18,7 @@ from linkforge_compile.diagnostics.codes.model import (
     ORIGIN_WITHOUT_INERTIA,
     WRONG_KIND,
 )
-from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.extra import extras_of, outer_extras_of
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.geometry import lower_geometry
 from linkforge_compile.lowering.material import lower_visual_material
@@ -54,7 +54,7 @@ def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
             [visual for visual in visuals if visual],
             [collision for collision in collisions if collision],
             source=fields.ref,
-            **extras_of(fields),
+            **outer_extras_of(fields),
         )
     )
 

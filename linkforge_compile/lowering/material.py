@@ -5,7 +5,7 @@ from __future__ import annotations
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
-from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.extra import NO_EXTRAS, extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import ZERO_TO_ONE, Measure
 from linkforge_compile.lowering.scope import FileScope
@@ -49,7 +49,10 @@ def _material(fields: Fields, name: str, scope: FileScope) -> Material | None:
 def _color(fields: Fields) -> Color | None:
     """Read `color`: red, green, blue and, unless it is 1, opacity, each from 0 to 1."""
     node = fields.node.get("color")
-    if node is None:
+    long = fields.map_at(node, "color") if isinstance(node, YamlMap) else None
+    numbers = node if long is None else long.said("rgba", "[0.6, 0.6, 0.65]")
+    rgba = None if numbers is None else fields.numbers_at(numbers, "color", Measure((), ZERO_TO_ONE), 3, 4)
+    if node is None or rgba is None:
         return None
-    rgba = fields.numbers_at(node, "color", Measure((), ZERO_TO_ONE), 3, 4)
-    return None if rgba is None else fields.build(lambda: Color(*rgba, source=SourceRef(node, None, fields.trail)))
+    extras = extras_of(long) if long else NO_EXTRAS
+    return fields.build(lambda: Color(*rgba, source=SourceRef(node, None, fields.trail), **extras))

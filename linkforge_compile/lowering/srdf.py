@@ -23,10 +23,11 @@ from linkforge_compile.diagnostics.codes.model import EMPTY_GROUP, PAIR_WITH_ITS
 from linkforge_compile.lowering.duplicates import tell_duplicate
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
+from linkforge_compile.lowering.free_part import is_unsaid
 from linkforge_compile.lowering.quantities import NOT_NEGATIVE
 from linkforge_compile.lowering.srdf_states import WrittenState, written_states
 from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlNode
+from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 
 
@@ -116,6 +117,10 @@ def _end_effector(fields: Fields, name: str) -> EndEffector | None:
 
 def _passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
     first: dict[str, SourceRef] = {}
+    if isinstance(semantic.node.get("passive_joints"), YamlMap):
+        named = dict(semantic.each("passive_joints", "passive joint", _passive_joint))
+        yield from (joint for joint in named.values() if joint)
+        return
     for node in semantic.items("passive_joints"):
         name = semantic.text_at(node, "passive_joints")
         item = semantic.arranged("passive_joints", node.span, name=node)
@@ -128,28 +133,38 @@ def _passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
             yield joint
 
 
+def _passive_joint(fields: Fields, name: str) -> PassiveJoint | None:
+    return fields.build(lambda: PassiveJoint(name, source=fields.ref, **extras_of(fields)))
+
+
 def _collision_pairs(semantic: Fields, key: str) -> Iterator[CollisionPair]:
     for first, entry in semantic.nested(key):
         if first.text == entry.name:
             semantic.tell(PAIR_WITH_ITSELF, entry.key, link=entry.name)
             continue
-        item = semantic.arranged("collision pair", entry.key.span, link1=first, link2=entry.key, reason=entry.value)
-        reason = item.text("reason")
-        if pair := item.build(partial(CollisionPair, first.text, entry.name, reason, source=item.ref)):
+        item = _long(semantic, "collision pair", entry, "reason", link1=first, link2=entry.key)
+        make = partial(CollisionPair, first.text, entry.name, item.text("reason"), source=item.ref, **extras_of(item))
+        if pair := item.build(make):
             yield pair
 
 
 def _sphere_approximations(semantic: Fields) -> Iterator[LinkSphereApproximation]:
     section = semantic.map("link_sphere_approximations")
     for entry in section.node if section else ():
-        item = semantic.arranged(
-            f"sphere approximation of link '{entry.name}'", entry.key.span, link=entry.key, spheres=entry.value
-        )
+        item = _long(semantic, f"sphere approximation of link '{entry.name}'", entry, "spheres", link=entry.key)
         spheres = [_sphere(item, node) for node in item.items("spheres")]
         whole = [sphere for sphere in spheres if sphere]
-        approximation = item.build(partial(LinkSphereApproximation, entry.name, whole, source=item.ref))
-        if approximation:
+        make = partial(LinkSphereApproximation, entry.name, whole, source=item.ref, **extras_of(item))
+        if approximation := item.build(make):
             yield approximation
+
+
+def _long(semantic: Fields, owner: str, entry: YamlEntry, short: str, **ends: YamlNode) -> Fields:
+    """Return an entry in its long form, with the names that it stands under as fields."""
+    said = entry.value
+    if isinstance(said, YamlMap):
+        return semantic.arranged(owner, entry.key.span, *said, **ends)
+    return semantic.arranged(owner, entry.key.span, **ends, **{short: said})
 
 
 def _sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
@@ -168,10 +183,16 @@ def _sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
 def _joint_properties(semantic: Fields) -> Iterator[JointProperty]:
     for joint, entry in semantic.nested("joint_properties"):
         owner = f"property '{entry.name}' of joint '{joint.text}'"
-        item = semantic.arranged(owner, entry.key.span, joint_name=joint, property_name=entry.key, value=entry.value)
-        value = semantic.text_at(entry.value, entry.name)
+        item = _long(semantic, owner, entry, "value", joint_name=joint, property_name=entry.key)
+        said = item.node.entries.get("value")
         # A free part: a null that was written is text, and only what nobody wrote is none.
-        if value is None or (not value and item.node.get("value") is None):
+        if said is None or is_unsaid(said.value):
+            if isinstance(entry.value, YamlMap):
+                item.said("value", "true")
             continue
-        if remark := item.build(partial(JointProperty, joint.text, entry.name, value, source=item.ref)):
+        value = item.text_at(said.value, entry.name)
+        if value is None:
+            continue
+        make = partial(JointProperty, joint.text, entry.name, value, source=item.ref, **extras_of(item))
+        if remark := item.build(make):
             yield remark

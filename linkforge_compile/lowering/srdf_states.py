@@ -11,6 +11,7 @@ from typing import TypeAlias
 from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.diagnostics.codes.model import STATE_CIRCLE, STATE_VALUE_TWICE, UNKNOWN_STATE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP
+from linkforge_compile.lowering.extra import EXTRA_KEYS, extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import Measure
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar, is_null
@@ -66,8 +67,11 @@ def written_states(semantic: Fields) -> Iterator[WrittenState]:
             semantic.tell_kind(values, owner, "a map of positions by joint")
             yield WrittenState(group.text, entry.name, semantic.arranged(owner, entry.key.span), None)
             continue
-        said = tuple(value for value in values if values.get(value.name) is not None)
-        yield WrittenState(group.text, entry.name, semantic.arranged(owner, entry.key.span, *said, group=group), said)
+        said = tuple(value for value in values if value.name not in EXTRA_KEYS and values.get(value.name) is not None)
+        raw = (value for value in values if value.name in EXTRA_KEYS)
+        yield WrittenState(
+            group.text, entry.name, semantic.arranged(owner, entry.key.span, *said, *raw, group=group), said
+        )
 
 
 def resolve_states(written: Sequence[WrittenState], around: Surroundings) -> list[GroupState]:
@@ -81,7 +85,7 @@ def resolve_states(written: Sequence[WrittenState], around: Surroundings) -> lis
         known = positions.get(state.key)
         if known is None:
             continue
-        make = partial(GroupState, state.name, state.group, known, source=state.fields.ref)
+        make = partial(GroupState, state.name, state.group, known, source=state.fields.ref, **extras_of(state.fields))
         if built := state.fields.build(make):
             states.append(built)
     return states

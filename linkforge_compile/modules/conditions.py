@@ -49,7 +49,7 @@ def occurrences(
     if body is None or isinstance(condition, YamlFault) or isinstance(repeated, YamlFault):
         yield tree, YamlFault(node.span)
         return
-    thing = key if shape.is_object else None
+    thing = key if shape.is_object and not shape.has_short_form else None
     if not isinstance(repeated, YamlMap):
         yield from _once(body, condition, thing, tree)
     elif _are_names(repeated, tree) and _tells_apart(key, repeated, tree):
@@ -60,7 +60,7 @@ def occurrences(
 
 def _body(node: YamlMap, shape: Shape, sink: Diagnostics) -> YamlNode | None:
     """Return what is there, once or more often; None where the long form says something else, which is reported."""
-    if shape.is_object:
+    if shape.is_object and not (shape.has_short_form and "value" in node.entries):
         return YamlMap({name: entry for name, entry in node.entries.items() if name not in _WORDS}, node.span)
     others = [entry.key for entry in node if entry.name not in _WORDS | {"value"}]
     if others or "value" not in node.entries:

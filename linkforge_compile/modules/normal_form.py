@@ -10,9 +10,13 @@ from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, Ya
 
 SHORT_FORMS: Mapping[str, str] = {
     "an origin": "xyz",
+    "a box": "size",
     "a sphere": "radius",
     "a mesh": "file",
+    "a color": "rgba",
     "a module's joint": "name",
+    "a collision pair": "reason",
+    "a sphere approximation": "spheres",
 }
 """The key that stands for a whole object where its value is written in the object's place, by the object's title."""
 

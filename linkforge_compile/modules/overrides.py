@@ -81,7 +81,7 @@ class _Patch:
         entries = dict(base.entries)
         for change in patch:
             name, value = change.name, change.value
-            if shape.has_names and name not in base.entries:
+            if shape.has_names and name not in base.entries and not shape.is_raw(name):
                 self._tell_missing(change, base, shape)
             elif _is_written_null(value):
                 self._delete(entries, change)

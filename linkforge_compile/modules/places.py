@@ -29,7 +29,7 @@ _NAME = Shape({"title": "a name", "type": "string"})
 _WITHOUT_PREFIX = frozenset({"interfaces by name", "folders by package name"})
 """The titles of maps whose keys take no prefix."""
 
-_READ_BY_PLUGINS = frozenset({"extra", "extra_attributes"})
+_READ_BY_PLUGINS = frozenset({"extra", "extra_attributes", "extra_inside"})
 
 _COMPUTED = frozenset({"parameters", "variables", "data", "variants"})
 _COMPUTED_WITHIN = frozenset({"with", "for", "when"})
@@ -102,7 +102,9 @@ class _Judge:
         if not around.path and entry.name.startswith("x-"):
             return entry
         place = around.under(entry.name)
-        named = around.shape.has_names and around.shape.title not in _WITHOUT_PREFIX
+        named = (
+            around.shape.has_names and around.shape.title not in _WITHOUT_PREFIX and not around.shape.is_raw(entry.name)
+        )
         if not self._is_sound(entry.key, place._replace(shape=_NAME if named else FREE)):
             return YamlEntry(entry.key, YamlFault(entry.value.span))
         value = self.node(entry.value, place)

@@ -12,6 +12,9 @@ LONG_FORM = "the long form"
 
 WORDS = ("for", "when", "value")
 
+RAW = ("extra", "extra_attributes", "extra_inside")
+"""What most objects may say; the only keys but WORDS that are no names in a map keyed by names."""
+
 _FOR: Schema = {"$ref": "#/definitions/for"}
 _WHEN: Schema = {"$ref": "#/definitions/when"}
 _VALUE: Schema = {
@@ -64,11 +67,13 @@ class _Repetition:
                 continue
             if has_names(part):
                 value = {key: said for key, said in part.items() if key != "properties"} | _VALUE
-                part["properties"] = {"for": {**_FOR}, "when": {**_WHEN}, "value": value}
+                said = mapping(part.get("properties", {}))
+                part["properties"] = {**said, "for": {**_FOR}, "when": {**_WHEN}, "value": value}
                 return schema
             if "properties" in part:
                 mapping(part["properties"]).update({"for": {**_FOR}, "when": {**_WHEN}})
-                return schema
+                if not any(is_short_form(other) for other in parts):
+                    return schema
         if not whole:
             return schema
         union: list[Json] = [*branches(whole)] if "anyOf" in whole else [schema]
@@ -88,7 +93,16 @@ def is_plain(schema: Schema) -> bool:
 def has_names(schema: Schema) -> bool:
     """Whether a schema describes a map keyed by names of things; one of free texts is none."""
     keys, entry = mapping(schema.get("properties", {})).keys(), schema.get("additionalProperties")
-    return isinstance(entry, dict) and not is_plain(entry) and not is_plain(schema) and keys <= set(WORDS)
+    return isinstance(entry, dict) and not is_plain(entry) and not is_plain(schema) and keys <= {*WORDS, *RAW}
+
+
+def is_short_form(schema: Schema) -> bool:
+    """Whether a schema describes what stands in an object's place: a text, a number or a list, but no expression."""
+    return "object" not in str(schema.get("type")) and schema.get("pattern") != _EXPRESSION and "type" in schema
+
+
+_EXPRESSION = r"\$\("
+"""The pattern of what is nothing but an expression."""
 
 
 def is_list(schema: Schema) -> bool:

@@ -9,7 +9,7 @@ from typing import Final
 from linkforge_compile.schema.json_types import Schema, branches, mapping
 from linkforge_compile.schema.patches import POSITION
 from linkforge_compile.schema.registry import linked
-from linkforge_compile.schema.repetition import LONG_FORM, WORDS, has_names, is_list, is_plain
+from linkforge_compile.schema.repetition import LONG_FORM, RAW, WORDS, has_names, is_list, is_plain, is_short_form
 
 
 class Shape:
@@ -38,6 +38,8 @@ class Shape:
         """Whether it may be a map keyed by names."""
         self.is_object: Final = self._object is not None and not self.has_names
         """Whether it may be an object whose keys the schema knows."""
+        self.has_short_form: Final = self.is_object and any(map(is_short_form, self._union))
+        """Whether a text or a list may stand in the place of the object: then an entry takes the long form as well."""
         self.may_repeat: Final = self.is_object and "for" in mapping((self._object or {}).get("properties", {}))
         """Whether it may be an object that takes `for`, since somewhere it is an entry or an item of a list."""
 
@@ -70,14 +72,18 @@ class Shape:
 
     def under(self, key: str) -> Shape:
         """Return the shape of what stands under a key or a name; FREE for a key that the schema does not know."""
-        if self._names:
+        if self._names and not self.is_raw(key):
             return shape_of(mapping(self._names["additionalProperties"]))
         if key not in self._under:
             self._under[key] = self._find(key)
         return self._under[key]
 
+    def is_raw(self, key: str) -> bool:
+        """Whether a key says something raw in a map keyed by names, and is none."""
+        return self._names is not None and key in RAW and key in mapping(self._names.get("properties", {}))
+
     def _find(self, key: str) -> Shape:
-        keys = mapping(self._object.get("properties", {})) if self._object else {}
+        keys = mapping((self._object or self._names or {}).get("properties", {}))
         if key in keys and key not in WORDS:
             return shape_of(mapping(keys[key]))
         for part in self._union:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from linkforge_compile.schema.json_types import Schema, branches, mapping
-from linkforge_compile.schema.repetition import LONG_FORM, WORDS
+from linkforge_compile.schema.repetition import LONG_FORM, RAW, WORDS
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 
-COMMON_KEYS = frozenset({*WORDS, "extra", "extra_attributes"})
+COMMON_KEYS = frozenset({*WORDS, *RAW})
 """What stands in most objects, so no sentence about one of them lists it."""
 
 _SHOWN_KEYS = 4

@@ -13,7 +13,7 @@ from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, Yam
 from linkforge_compile.writers.pen import Pen
 from linkforge_compile.writers.robot import spec_of
 
-_SHORT_FORMS = {"origin": "xyz", "sphere": "radius", "mesh": "file"}
+_SHORT_FORMS = {"origin": "xyz", "box": "size", "sphere": "radius", "mesh": "file", "color": "rgba"}
 """What an object means of which only one value is written: `origin: [x, y, z]` is its `xyz`."""
 
 

@@ -16,7 +16,7 @@ from linkforge_compile.core.models.geometry import (
     Transform,
     Vector3,
 )
-from linkforge_compile.syntax import YamlMap, YamlNode
+from linkforge_compile.syntax import YamlNode
 from linkforge_compile.units import Dimension
 from linkforge_compile.writers.pen import Pen
 
@@ -42,13 +42,12 @@ def written_geometry(pen: Pen, shape: Geometry) -> dict[str, YamlNode]:
 
 
 def _box(pen: Pen, box: Box) -> YamlNode:
-    return pen.located(pen.numbers(box.size, Dimension.LENGTH), box.source)
+    return pen.alone(pen.element(box, size=pen.numbers(box.size, Dimension.LENGTH)), "size")
 
 
 def _sphere(pen: Pen, sphere: Sphere) -> YamlNode:
     radius = pen.number(sphere.radius, Dimension.LENGTH)
-    node = pen.element(sphere, radius=radius)
-    return _alone(pen, node, "radius")
+    return pen.alone(pen.element(sphere, radius=radius), "radius")
 
 
 def _round(pen: Pen, body: Cylinder | Capsule) -> YamlNode:
@@ -57,7 +56,7 @@ def _round(pen: Pen, body: Cylinder | Capsule) -> YamlNode:
 
 
 def _mesh(pen: Pen, mesh: Mesh) -> YamlNode:
-    return _alone(pen, pen.element(mesh, file=pen.text(mesh.resource), scale=_scale(pen, mesh.scale)), "file")
+    return pen.alone(pen.element(mesh, file=pen.text(mesh.resource), scale=_scale(pen, mesh.scale)), "file")
 
 
 def _scale(pen: Pen, scale: Vector3) -> YamlNode | None:
@@ -66,11 +65,6 @@ def _scale(pen: Pen, scale: Vector3) -> YamlNode | None:
     if scale == _UNSCALED:
         return None
     return pen.number(scale.x) if scale.x == scale.y == scale.z else pen.numbers(scale)
-
-
-def _alone(pen: Pen, node: YamlMap, key: str) -> YamlNode:
-    """Return what stands under the key of an object that says nothing else: its short form."""
-    return node if pen.full or len(node) > 1 else node.entries[key].value
 
 
 _WRITE: Mapping[GeometryType, Callable[..., YamlNode]] = {

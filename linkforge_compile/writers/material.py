@@ -32,4 +32,5 @@ def _color(pen: Pen, color: Color | None) -> YamlNode | None:
     if color is None:
         return None
     rgba = color.to_tuple()
-    return pen.located(pen.numbers(rgba[:3] if color.a == 1 and not pen.full else rgba), color.source)
+    numbers = pen.numbers(rgba[:3] if color.a == 1 and not pen.full else rgba)
+    return pen.alone(pen.element(color, rgba=numbers), "rgba")

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.part import Element, Inside
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
 from linkforge_compile.units import Dimension, number_text
@@ -102,14 +104,20 @@ class Pen:
 
     def element(self, part: Extended, /, **entries: YamlNode | None) -> YamlMap:
         """Return the object of a part: these entries, then what no field says."""
+        inside = part.extra_inside if isinstance(part, Element | Interface) else ()
         node = self.map_of(
             {
                 **entries,
                 "extra": self._raw(part.extra_elements),
                 "extra_attributes": self.free(dict(part.extra_attributes)) if part.extra_attributes else None,
+                "extra_inside": self.named("element", ((_tag(one), self.element(one)) for one in inside), told=False),
             }
         )
         return self.located(node, part.source)
+
+    def alone(self, node: YamlMap, key: str) -> YamlNode:
+        """Return what stands under the key of an object that says nothing else: its short form, unless in full."""
+        return node.entries[key].value if not self.full and node.entries.keys() == {key} else node
 
     def named(self, kind: str, parts: Iterable[tuple[str, YamlNode]], *, told: bool = True) -> YamlMap | None:
         """Return a map keyed by names, None for an empty one; unless `told`, nobody asks where its parts come from.
@@ -196,6 +204,10 @@ class Pen:
 
     def _is_unsaid(self, value: object, default: object) -> bool:
         return not self.full and value == default
+
+
+def _tag(one: Inside) -> str:
+    return one.tag if one.name is None else f"{one.tag} {one.name}"
 
 
 def _escaped(text: str) -> str:

@@ -22,8 +22,7 @@ def spec_of(robot: Robot, pen: Pen) -> YamlMap:
     """Return a robot as the tree of a spec without modules, parameters and expressions.
 
     Compiled, it gives an equal robot and the same URDF and SRDF; only states of one group, collision pairs of one
-    first link and properties of one joint come together where others stood between them. What the language has no
-    form for is left out: the extras of boxes, colors, group states, collision pairs and passive joints.
+    first link and properties of one joint come together where others stood between them.
 
     Raises:
         RobotGeneratorError: for two parts of one name where a spec can hold only one.

@@ -47,7 +47,7 @@ def _component(pen: Pen, component: Ros2ControlJoint | Ros2ControlSensor | Ros2C
 def _interfaces(pen: Pen, names: Sequence[str]) -> YamlNode | None:
     """Return interfaces as a list of names, or as a map where one of them has more to say."""
     interfaces = [Interface.of(name) for name in names]
-    if not any(one.parameters or one.extra_attributes or one.extra_elements for one in interfaces):
+    if not any(one.parameters or one.extra_attributes or one.extra_elements or one.extra_inside for one in interfaces):
         return pen.texts(interfaces)
     return pen.named("interface", ((str(one), _interface(pen, one)) for one in interfaces), told=False)
 

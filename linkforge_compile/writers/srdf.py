@@ -12,11 +12,13 @@ from linkforge_compile.core.models.srdf import (
     GroupState,
     JointProperty,
     LinkSphereApproximation,
+    PassiveJoint,
     PlanningGroup,
     SemanticRobotDescription,
     SrdfSphere,
     VirtualJoint,
 )
+from linkforge_compile.core.part import Element
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 from linkforge_compile.writers.pen import Pen
@@ -36,7 +38,7 @@ def written_semantic(pen: Pen, semantic: SemanticRobotDescription) -> YamlMap | 
             "state", ((state.group, state.name, _state(pen, state)) for state in semantic.group_states)
         ),
         end_effectors=pen.named("end effector", ((one.name, _effector(pen, one)) for one in semantic.end_effectors)),
-        passive_joints=pen.texts([joint.name for joint in semantic.passive_joints]),
+        passive_joints=_passive(pen, semantic.passive_joints),
         disabled_collisions=_pairs(pen, semantic.disabled_collisions),
         enabled_collisions=_pairs(pen, semantic.enabled_collisions),
         no_default_collision_links=pen.texts(semantic.no_default_collision_links),
@@ -46,6 +48,13 @@ def written_semantic(pen: Pen, semantic: SemanticRobotDescription) -> YamlMap | 
         ),
     )
     return node if len(node) else None
+
+
+def _passive(pen: Pen, joints: Sequence[PassiveJoint]) -> YamlNode | None:
+    """Return a list of names, or a map where one of them has more to say."""
+    if all(map(_says_no_more, joints)):
+        return pen.texts([joint.name for joint in joints])
+    return pen.named("passive joint", ((joint.name, pen.element(joint)) for joint in joints))
 
 
 def _virtual(pen: Pen, joint: VirtualJoint) -> YamlMap:
@@ -79,7 +88,7 @@ def _state(pen: Pen, state: GroupState) -> YamlMap:
     for joint, values in state.joint_values.items():
         node: YamlNode = pen.quantity(values[0]) if len(values) == 1 else pen.numbers(values)
         positions[joint] = pen.located(node, state.source, _name_in_its_file(state, joint))
-    return pen.located(pen.map_of(positions), state.source)
+    return pen.element(state, **positions)
 
 
 def _name_in_its_file(state: GroupState, joint: str) -> str:
@@ -101,18 +110,30 @@ def _effector(pen: Pen, effector: EndEffector) -> YamlMap:
 
 def _pairs(pen: Pen, pairs: Sequence[CollisionPair]) -> YamlMap | None:
     """Return the reasons by the first link and the second."""
-    reasons = ((one.link1, one.link2, pen.located(pen.word(one.reason), one.source, "reason")) for one in pairs)
-    return pen.nested("collision pair", reasons, told_once=True)
+    return pen.nested("collision pair", ((one.link1, one.link2, _reason(pen, one)) for one in pairs), told_once=True)
+
+
+def _reason(pen: Pen, pair: CollisionPair) -> YamlNode:
+    if _says_no_more(pair):
+        return pen.located(pen.word(pair.reason), pair.source, "reason")
+    return pen.element(pair, reason=pen.text(pair.reason))
+
+
+def _says_no_more(part: Element) -> bool:
+    """Whether a part has nothing to say beside its fields, so that its short form will do."""
+    return not (part.extra_elements or part.extra_attributes or part.extra_inside)
 
 
 def _remark(pen: Pen, remark: JointProperty) -> tuple[str, str, YamlNode]:
-    return remark.joint_name, remark.property_name, pen.located(pen.free(remark.value), remark.source, "value")
+    value = pen.located(pen.free(remark.value), remark.source, "value")
+    return remark.joint_name, remark.property_name, value if _says_no_more(remark) else pen.element(remark, value=value)
 
 
 def _spheres(pen: Pen, approximation: LinkSphereApproximation) -> YamlNode:
-    return pen.located(
-        pen.list_of(_sphere(pen, sphere) for sphere in approximation.spheres), approximation.source, "spheres"
-    )
+    spheres = pen.list_of(_sphere(pen, sphere) for sphere in approximation.spheres)
+    if _says_no_more(approximation):
+        return pen.located(spheres, approximation.source, "spheres")
+    return pen.element(approximation, spheres=spheres)
 
 
 def _sphere(pen: Pen, sphere: SrdfSphere) -> YamlMap:

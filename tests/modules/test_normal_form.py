@@ -30,7 +30,8 @@ def node_of(text: str) -> YamlNode:
         ("ros2_control a joints b command_interfaces", "[position, effort]", {"position": None, "effort": None}),
         ("links a visual", "", None),
         ("joints a axis", "x", "x"),
-        ("links a visual 0 box", "[1, 2, 3]", [1, 2, 3]),
+        ("links a visual 0 box", "[1, 2, 3]", {"size": [1, 2, 3]}),
+        ("semantic disabled_collisions a b", "Never", {"reason": "Never"}),
     ],
 )
 def test_a_short_form_is_its_long_one(path: str, short: str, long: object):

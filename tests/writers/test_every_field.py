@@ -35,6 +35,7 @@ from linkforge_compile.core.models.sensor import (
     SensorType,
 )
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
+from linkforge_compile.core.part import Inside
 from linkforge_compile.writers import write_spec
 from linkforge_compile.writers.gazebo import _SPELLED_SO
 from tests.backends.everything import everything
@@ -45,15 +46,27 @@ POSE = Transform(Vector3(1, 2, 3), Vector3(0.1, 0.2, 0.3))
 NOISE = SensorNoise("gaussian_quantized", 0.1, 0.2, 0.3, 0.4)
 EXTRAS = {"extra_elements": ("<e/>", "<f/>"), "extra_attributes": (("x", "1"),)}
 
+
+def raw(*tags: str) -> dict[str, object]:
+    """Return something raw in an element and in some of those inside of it."""
+    insides = [Inside(tag, name or None, **EXTRAS) for tag, _, name in (tag.partition(" ") for tag in tags)]
+    return {**EXTRAS, "extra_inside": tuple(insides)}
+
+
+NOTHING_INSIDE = {
+    *(core.Transform, core.Box, core.Cylinder, core.Sphere, core.Capsule, core.Mesh, core.Color, core.InertiaTensor),
+    *(JointLimits, JointDynamics, JointMimic, JointSafetyController, JointCalibration, core.LinkSphereApproximation),
+    *(core.Chain, core.VirtualJoint, core.EndEffector, core.PassiveJoint, core.CollisionPair, core.JointProperty),
+    *(core.SrdfSphere, GazeboElement, GazeboPlugin),
+}
+"""Elements of attributes alone, of parts, and of free parts, which say themselves what is inside."""
+
 # A semantic part is called what its robot is, and raw XML of a plugin becomes its `extra`; the rest has no form.
 NOT_OF_A_SPEC = {
     (core.SemanticRobotDescription, "robot_name"),
     (core.Joint, "axis_as_written"),
     (core.GazeboPlugin, "raw_xml"),
-    *((kind, extra) for kind in (core.Box, core.Color) for extra in EXTRAS),
-    *((kind, extra) for kind in (core.GroupState, core.CollisionPair, core.PassiveJoint) for extra in EXTRAS),
-    *((kind, extra) for kind in (core.JointProperty, core.LinkSphereApproximation) for extra in EXTRAS),
-    (core.SemanticRobotDescription, "extra_attributes"),
+    *((kind, "extra_inside") for kind in NOTHING_INSIDE),
 }
 
 
@@ -109,15 +122,15 @@ def said_fields(part: object) -> Iterator[str]:
 
 
 def full() -> Robot:
-    noise = replace(NOISE, **EXTRAS)
+    noise = replace(NOISE, **raw("mean"))
     plugin = GazeboPlugin("control", "control.so", {"frame": "tool", "gains": {"p": "1.10"}}, **EXTRAS)
-    shared = Material("shared", Color(0.1, 0.2, 0.3, 0.4), "shared.png", **EXTRAS)
+    shared = Material("shared", Color(0.1, 0.2, 0.3, 0.4, **EXTRAS), "shared.png", **raw("texture"))
     body = core.Link(
         "body",
-        Inertial(2, replace(POSE, **EXTRAS), InertiaTensor(1, 2, 3, 0.1, 0.2, 0.3, **EXTRAS), **EXTRAS),
+        Inertial(2, replace(POSE, **EXTRAS), InertiaTensor(1, 2, 3, 0.1, 0.2, 0.3, **EXTRAS), **raw("mass")),
         LinkPhysics(self_collide=True, gravity=False, mu=0.5, mu2=0.6, kp=7, kd=8),
-        [core.Visual(shape, replace(POSE, **EXTRAS), shared, "seen", **EXTRAS) for shape in _shapes()],
-        [core.Collision(shape, POSE, "felt", **EXTRAS) for shape in _shapes()],
+        [core.Visual(shape, replace(POSE, **EXTRAS), shared, "seen", **raw("geometry")) for shape in _shapes()],
+        [core.Collision(shape, POSE, "felt", **raw("geometry")) for shape in _shapes()],
         **EXTRAS,
     )
     names = ("arm", "finger")
@@ -145,7 +158,7 @@ def full() -> Robot:
 
 def _shapes() -> list[core.Geometry]:
     return [
-        core.Box(Vector3(1, 2, 3)),
+        core.Box(Vector3(1, 2, 3), **EXTRAS),
         core.Cylinder(1, 2, **EXTRAS),
         core.Sphere(1, **EXTRAS),
         core.Capsule(1, 2, **EXTRAS),
@@ -166,46 +179,46 @@ def _joint(name: str, parent: str, child: str) -> Joint:
         JointMimic("slide", 2, 0.5, **EXTRAS),
         JointSafetyController(-0.5, 0.5, 10, 20, **EXTRAS),
         JointCalibration(0.1, 0.2, **EXTRAS),
-        **EXTRAS,
+        **raw("parent", "axis"),
     )
 
 
 def _sensors(noise: SensorNoise) -> list[Sensor]:
-    camera = CameraInfo(1, 320, 240, "L8", 0.2, 50, noise, **EXTRAS)
-    lidar = LidarInfo(100, 2, -1, 1, 4, 2, -0.1, 0.1, 0.2, 20, 0.02, noise, **EXTRAS)
+    camera = CameraInfo(1, 320, 240, "L8", 0.2, 50, noise, **raw("image"))
+    lidar = LidarInfo(100, 2, -1, 1, 4, 2, -0.1, 0.1, 0.2, 20, 0.02, noise, **raw("scan"))
     common = {"update_rate": 7.5, "always_on": False, "visualize": True, "origin": POSE, "topic": "t", "frame": "arm"}
     return [
-        Sensor("camera", SensorType.CAMERA, "arm", camera_info=camera, **common, **EXTRAS),
+        Sensor("camera", SensorType.CAMERA, "arm", camera_info=camera, **common, **raw("always_on", "topic")),
         Sensor("lidar", SensorType.LIDAR, "arm", lidar_info=lidar, **common),
-        Sensor("imu", SensorType.IMU, "arm", imu_info=IMUInfo(noise, noise, **EXTRAS)),
-        Sensor("gps", SensorType.GPS, "arm", gps_info=GPSInfo(noise, noise, noise, noise, **EXTRAS)),
-        Sensor("touch", SensorType.CONTACT, "arm", contact_info=ContactInfo("felt", noise, **EXTRAS)),
+        Sensor("imu", SensorType.IMU, "arm", imu_info=IMUInfo(noise, noise, **raw("angular_velocity"))),
+        Sensor("gps", SensorType.GPS, "arm", gps_info=GPSInfo(noise, noise, noise, noise, **raw("position_sensing"))),
+        Sensor("touch", SensorType.CONTACT, "arm", contact_info=ContactInfo("felt", noise, **raw("collision"))),
         Sensor(
             "force",
             SensorType.FORCE_TORQUE,
             "arm",
-            force_torque_info=ForceTorqueInfo("sensor", "parent_to_child", noise, **EXTRAS),
+            force_torque_info=ForceTorqueInfo("sensor", "parent_to_child", noise, **raw("frame")),
         ),
     ]
 
 
 def _transmission() -> Transmission:
-    joint = TransmissionJoint("slide", ["velocity", "effort"], 50, 0.1, **EXTRAS)
-    actuator = TransmissionActuator("motor", ["effort"], None, 0.2, **EXTRAS)
-    return Transmission("gears", "custom", [joint], [actuator], {"role": {"_x": "1", "_text": "007"}}, **EXTRAS)
+    joint = TransmissionJoint("slide", ["velocity", "effort"], 50, 0.1, **raw("hardwareInterface effort"))
+    actuator = TransmissionActuator("motor", ["effort"], None, 0.2, **raw("offset"))
+    return Transmission("gears", "custom", [joint], [actuator], {"role": {"_x": "1", "_text": "007"}}, **raw("type"))
 
 
 def _hardware() -> Ros2Control:
-    position = Interface("position", {"min": "-1"}, **EXTRAS)
+    position = Interface("position", {"min": "-1"}, **raw("param min"))
     return Ros2Control(
         "hardware",
         "actuator",
         "driver/Actuator",
-        [Ros2ControlJoint("slide", [position, "velocity"], ["effort"], {"id": "007"}, **EXTRAS)],
-        [Ros2ControlSensor("force", ["x"], {"id": "1"}, **EXTRAS)],
+        [Ros2ControlJoint("slide", [position, "velocity"], ["effort"], {"id": "007"}, **raw("param"))],
+        [Ros2ControlSensor("force", ["x"], {"id": "1"}, **raw("param id"))],
         {"port": "1.10"},
-        gpios=[Ros2ControlGpio("flange", ["out"], ["in"], {"id": "2"}, **EXTRAS)],
-        **EXTRAS,
+        gpios=[Ros2ControlGpio("flange", ["out"], ["in"], {"id": "2"}, **raw("param id"))],
+        **raw("hardware"),
     )
 
 
@@ -215,12 +228,20 @@ def _semantic() -> core.SemanticRobotDescription:
     return replace(
         said,
         virtual_joints=[replace(joint, **EXTRAS) for joint in said.virtual_joints],
-        groups=[PlanningGroup("arm", ["arm"], ["slide"], [chain, chain], ["hand"], **EXTRAS), *said.groups[1:]],
+        groups=[
+            PlanningGroup("arm", ["arm"], ["slide"], [chain, chain], ["hand"], **raw("joint slide", "group hand")),
+            *said.groups[1:],
+        ],
         end_effectors=[EndEffector("tool", "hand", "arm", "arm", **EXTRAS)],
-        enabled_collisions=[CollisionPair("body", "arm", "User")],
+        enabled_collisions=[CollisionPair("body", "arm", "User", **EXTRAS)],
         link_sphere_approximations=[
-            replace(one, spheres=[replace(sphere, center_x=1, center_y=2, **EXTRAS) for sphere in one.spheres])
+            replace(
+                one, **EXTRAS, spheres=[replace(sphere, center_x=1, center_y=2, **EXTRAS) for sphere in one.spheres]
+            )
             for one in said.link_sphere_approximations
         ],
-        extra_elements=EXTRAS["extra_elements"],
+        passive_joints=[replace(joint, **EXTRAS) for joint in said.passive_joints],
+        joint_properties=[replace(remark, **EXTRAS) for remark in said.joint_properties],
+        group_states=[replace(state, **raw("joint shoulder")) for state in said.group_states],
+        **raw("disable_default_collisions wheel"),
     )

@@ -90,7 +90,7 @@ def test_what_nobody_wrote_is_told_as_such_with_what_it_belongs_to(arm: Robot, p
     ("path", "text"),
     [
         ("links/upper/visual/origin/xyz/2", "links/upper/visual/0/origin/xyz/2: 2 m"),
-        ("links/upper/visual/0/box", "links/upper/visual/0/box: [1, 1, 1] m"),
+        ("links/upper/visual/0/box/size", "links/upper/visual/0/box/size: [1, 1, 1] m"),
         ("joints/tool/0_joint/parent", "joints/tool/0_joint/parent: upper"),
         ("semantic/disabled_collisions/base/upper", "semantic/disabled_collisions/base/upper: Adjacent"),
         ("semantic/groups/arm/joints/0", "semantic/groups/arm/joints/0: elbow"),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from linkforge_compile.backends.element import attributes, elements
 from linkforge_compile.backends.environment import render
-from linkforge_compile.backends.markup import Xml, attributes, elements
+from linkforge_compile.backends.markup import Xml
 from linkforge_compile.backends.urdf.joint import JointView, joint_views
 from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS, LinkView, MaterialView, link_views, material_view
 from linkforge_compile.core.models.geometry import Capsule

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from linkforge_compile.backends.markup import Xml, attributes, attributes_at, elements, placed, spelled
+from linkforge_compile.backends.element import attributes, attributes_at, elements
+from linkforge_compile.backends.markup import Xml, placed, spelled
 from linkforge_compile.backends.raw import parameter_elements, raw_elements
 from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin

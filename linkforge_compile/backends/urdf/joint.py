@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from linkforge_compile.backends.markup import NOTHING, Xml, attributes, elements, leaf, leaf_at, placed
+from linkforge_compile.backends.element import attributes, elements, leaf, leaf_at
+from linkforge_compile.backends.markup import NOTHING, Xml, placed
 from linkforge_compile.backends.urdf.link import origin
 from linkforge_compile.core.models.joint import (
     Joint,

@@ -5,16 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from linkforge_compile.backends.markup import (
-    NOTHING,
-    Xml,
-    attributes,
-    attributes_at,
-    elements,
-    leaf,
-    leaf_at,
-    placed,
-)
+from linkforge_compile.backends.element import attributes, attributes_at, elements, leaf, leaf_at
+from linkforge_compile.backends.markup import NOTHING, Xml, placed
 from linkforge_compile.core.models.geometry import Box, Geometry, Mesh, Sphere, Transform
 from linkforge_compile.core.models.link import Collision, Inertial, Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Material

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.backends.markup import Xml, attributes, elements, placed, spelled
+from linkforge_compile.backends.element import attributes, elements
+from linkforge_compile.backends.markup import Xml, placed, spelled
 from linkforge_compile.core.models.ros2_control import (
     Interface,
     Ros2Control,

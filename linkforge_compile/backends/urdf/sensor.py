@@ -7,7 +7,8 @@ from dataclasses import fields
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
-from linkforge_compile.backends.markup import NOTHING, Xml, attributes, elements, escaped, placed, spelled
+from linkforge_compile.backends.element import attributes, elements, whole
+from linkforge_compile.backends.markup import NOTHING, Xml, placed, spelled
 from linkforge_compile.backends.urdf.gazebo import PluginView, plugin_view
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.sensor import Sensor, SensorNoise, SensorType
@@ -157,4 +158,4 @@ def _noise(noise: SensorNoise) -> NoiseView:
 def _pose(pose: Transform) -> Xml:
     if pose == Transform.identity():
         return NOTHING
-    return Xml(f"<pose{attributes(pose)}>{escaped(spelled((*pose.xyz, *pose.rpy)))}</pose>")
+    return whole("pose", pose, Xml(spelled((*pose.xyz, *pose.rpy))))

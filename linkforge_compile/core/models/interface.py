@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from linkforge_compile.core.frozen_map import FrozenMap
-from linkforge_compile.core.part import attribute_pairs
+from linkforge_compile.core.part import Inside, attribute_pairs
 from linkforge_compile.source import SourceRef
 
 
@@ -18,12 +18,13 @@ class Interface(str):
     `source` says where it was written, None if nowhere.
     """
 
-    __slots__ = ("extra_attributes", "extra_elements", "parameters", "source")
+    __slots__ = ("extra_attributes", "extra_elements", "extra_inside", "parameters", "source")
 
     parameters: Mapping[str, str]
     source: SourceRef | None
     extra_attributes: tuple[tuple[str, str], ...]
     extra_elements: tuple[str, ...]
+    extra_inside: tuple[Inside, ...]
 
     def __new__(
         cls,
@@ -33,6 +34,7 @@ class Interface(str):
         source: SourceRef | None = None,
         extra_attributes: Sequence[tuple[str, str]] = (),
         extra_elements: Sequence[str] = (),
+        extra_inside: Sequence[Inside] = (),
     ) -> Interface:
         interface = super().__new__(cls, name)
         facts = {
@@ -40,6 +42,7 @@ class Interface(str):
             "source": source,
             "extra_attributes": attribute_pairs(extra_attributes),
             "extra_elements": tuple(extra_elements),
+            "extra_inside": tuple(extra_inside),
         }
         for fact, value in facts.items():
             object.__setattr__(interface, fact, value)
@@ -64,7 +67,7 @@ class Interface(str):
 
     @property
     def _facts(self) -> tuple[object, ...]:
-        return self.parameters, self.extra_attributes, self.extra_elements
+        return tuple(getattr(self, fact) for fact in _FACTS)
 
     def __setattr__(self, name: str, value: object) -> NoReturn:
         raise AttributeError(f"an Interface cannot be changed: {name}")
@@ -79,14 +82,11 @@ class Interface(str):
         return self
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _revive, (str(self), self.parameters, self.source, self.extra_attributes, self.extra_elements)
+        return _revive, (str(self), {name: getattr(self, name) for name in ("source", *_FACTS)})
 
 
-def _revive(
-    name: str,
-    parameters: Mapping[str, str],
-    source: SourceRef | None,
-    extra_attributes: tuple[tuple[str, str], ...],
-    extra_elements: tuple[str, ...],
-) -> Interface:
-    return Interface(name, parameters, source=source, extra_attributes=extra_attributes, extra_elements=extra_elements)
+_FACTS = ("parameters", "extra_attributes", "extra_elements", "extra_inside")
+
+
+def _revive(name: str, facts: Mapping[str, Any]) -> Interface:  # Any: each fact has a type of its own
+    return Interface(name, **facts)

@@ -76,7 +76,7 @@ class PlanningGroup(Element):
 
     """
 
-    PREFIXED = ("name", "links", "joints", "chains", "subgroups")
+    PREFIXED = ("name", "links", "joints", "chains", "subgroups", "extra_inside")
 
     name: str
     links: Sequence[str] = ()
@@ -108,7 +108,7 @@ class GroupState(Element):
 
     """
 
-    PREFIXED = ("name", "group", "joint_values")
+    PREFIXED = ("name", "group", "joint_values", "extra_inside")
 
     name: str
     group: str

@@ -267,7 +267,7 @@ def _gazebo_order(element: GazeboElement) -> tuple[str, str]:
     content: dict[str, object] = {
         **{name: getattr(element, name) for name in element.__match_args__ if name not in {"reference", "plugins"}},
         "plugins": [(plugin.name, plugin.filename, _in_order(plugin.parameters)) for plugin in element.plugins],
-        "extras": (element.extra_attributes, element.extra_elements),
+        "extras": (element.extra_attributes, element.extra_elements, element.extra_inside),
     }
     return element.reference or "", repr(_in_order(content))
 

@@ -34,6 +34,7 @@ def _attribute(pair: tuple[str, str]) -> str:
 
 _EXTRAS: dict[str, Filing[Any]] = {  # Any, here and below: each collection has members of its own kind
     "extra_elements": Filing("extra element", itself, Repeats.KEPT),
+    "extra_inside": Filing("extra inside", itself, Repeats.KEPT),
     "extra_attributes": Filing("extra attribute", _attribute, Repeats.SKIPPED),
 }
 

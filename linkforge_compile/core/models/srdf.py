@@ -60,7 +60,7 @@ class SemanticRobotDescription(Element):
     Collections keep the order in which they were given. `no_default_collision_links` are names of links.
     """
 
-    PREFIXED = ("robot_name", *SEMANTIC_KEYS)
+    PREFIXED = ("robot_name", *SEMANTIC_KEYS, "extra_inside")
 
     robot_name: str = ""
     virtual_joints: Sequence[VirtualJoint] = ()

@@ -1,0 +1,146 @@
+"""Parts of the robot as elements: what their fields state, and then what no field says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Protocol
+
+from linkforge_compile.backends.marks import is_recording, mark, mark_of_attribute
+from linkforge_compile.backends.markup import NOTHING, Spellable, Xml, escaped, is_xml_name, spelled
+from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.part import Element, Inside, attribute_pairs
+from linkforge_compile.source import SourceRef
+
+
+class Extended(Protocol):
+    """A part of the robot that may hold attributes and elements that no field says."""
+
+    @property
+    def extra_attributes(self) -> Sequence[tuple[str, str]] | Mapping[str, str]: ...
+    @property
+    def extra_elements(self) -> Sequence[str]: ...
+    @property
+    def source(self) -> SourceRef | None: ...
+
+
+class RestatedAttributeError(RobotGeneratorError):
+    """An extra attribute, `name`, says again what a field of its part says; `source` is where the part was written."""
+
+    def __init__(self, name: str, source: SourceRef | None) -> None:
+        self.name = name
+        self.source = source
+        super().__init__(f"the attribute '{name}' is stated twice")
+
+
+class InsideError(RobotGeneratorError):
+    """What `extra_inside` says cannot be laid into its element.
+
+    `mark` is the line of `marks_of` that said it, `key` the outermost element inside, `others` are further such faults
+    of the same document.
+    """
+
+    def __init__(self, reason: str) -> None:
+        self.mark = self.key = ""
+        self.others: tuple[InsideError, ...] = ()
+        super().__init__(reason)
+
+
+def attributes(part: Extended | None = None, /, **stated: Spellable | None) -> Xml:
+    """Return ` name="value"` for each attribute that is stated, then for those that no field of the part says.
+
+    Raises:
+        RobotGeneratorError: for an extra attribute that says a stated one again, or that is no XML name.
+
+    """
+    text = "".join([f' {name}="{_quotable(value)}"' for name, value in stated.items() if value is not None])
+    if part is None or not (part.extra_attributes or is_recording()):
+        return Xml(text)
+    extra = attribute_pairs(part.extra_attributes)
+    _require_attributes(part, stated, extra)
+    if is_recording():
+        return _marked_attributes(part, stated, extra)
+    return Xml(text + "".join([f' {name}="{escaped(value)}"' for name, value in extra]))
+
+
+def attributes_at(source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
+    """Return ` name="value"` for what is no part of its own, but written under a path of one."""
+    return Xml(mark(source, *path) + attributes(**stated))
+
+
+def _marked_attributes(part: Extended, stated: Mapping[str, Spellable | None], extra: Iterable[tuple[str, str]]) -> Xml:
+    own = (
+        f'{mark_of_attribute(part.source, name)} {name}="{_quotable(value)}"'
+        for name, value in stated.items()
+        if value is not None
+    )
+    raw = (f'{mark(part.source, "extra_attributes", name)} {name}="{escaped(value)}"' for name, value in extra)
+    return Xml("".join((mark(part.source), *own, *raw)))
+
+
+def _quotable(value: Spellable) -> str:
+    return escaped(value) if isinstance(value, str) else spelled(value)
+
+
+def _require_attributes(part: Extended, stated: Mapping[str, object], extra: Iterable[tuple[str, str]]) -> None:
+    seen = {name for name, value in stated.items() if value is not None}
+    for name, _ in extra:
+        if not is_xml_name(name):
+            raise RobotGeneratorError(f"'{name}' cannot be the name of an XML attribute")
+        if name in seen:
+            raise RestatedAttributeError(name, part.source)
+        seen.add(name)
+
+
+def elements(part: Extended) -> Xml:
+    """Return the elements that no field of the part says, each well-formed by itself; templates place them last.
+
+    Raises:
+        RobotGeneratorError: for raw XML that is not well-formed.
+
+    """
+    inside = inside_of(part)
+    if not inside:
+        return raw(part)
+    from linkforge_compile.backends.inside import marks_of
+
+    return Xml("\n".join([*marks_of(inside), raw(part)]))
+
+
+def inside_of(part: Extended) -> Sequence[Inside]:
+    """Return what a part says of elements inside; a link and a robot hold none but parts."""
+    return part.extra_inside if isinstance(part, Element | Interface) else ()
+
+
+def raw(part: Extended) -> Xml:
+    """Return the elements that a part says raw.
+
+    Raises:
+        RobotGeneratorError: for raw XML that is not well-formed.
+
+    """
+    if not part.extra_elements:
+        return NOTHING
+    from linkforge_compile.backends.raw import raw_elements
+
+    raws = enumerate(part.extra_elements)
+    return Xml("\n".join(raw_elements(text, part.source, "extra", number) for number, text in raws))
+
+
+def leaf_at(tag: str, source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
+    """Return an element of attributes that is no part of its own, but written under a path of one."""
+    return Xml(f"<{tag}{attributes_at(source, *path, **stated)}/>")
+
+
+def leaf(tag: str, part: Extended | None, /, **stated: Spellable | None) -> Xml:
+    """Return an element whose fields are all attributes."""
+    return whole(tag, part, NOTHING, **stated)
+
+
+def whole(tag: str, part: Extended | None, text: Xml, /, **stated: Spellable | None) -> Xml:
+    """Return an element whose fields are attributes and its text."""
+    start, inner = f"<{tag}{attributes(part, **stated)}", NOTHING if part is None else elements(part)
+    if not text:
+        return Xml(f"{start}>\n{inner}\n</{tag}>" if inner else f"{start}/>")
+    # Text and elements side by side are one line: whatever stood between them would be text.
+    return Xml(f"{start}>{text}{inner.replace(chr(10), '')}</{tag}>")
