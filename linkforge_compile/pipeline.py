@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.backends import srdf_limits, urdf_limits
+from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.checks import check
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Severity
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
@@ -106,6 +106,10 @@ def compile_file(
 
     `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults. `gazebo`
     is the simulator, Gazebo Sim or Classic, whose limits are told; give it to `render_urdf` as well.
+
+    Raises:
+        ValueError: for another `gazebo` than `gz` or `classic`.
+
     """
     return _compile(_file(path), _Settings(parameters, packages, variant, gazebo))
 
@@ -202,6 +206,7 @@ def _compile(read: _Read, settings: _Settings) -> Compilation:
 
 
 def _compiled(read: _Read, settings: _Settings) -> Compilation:
+    require_dialect(settings.gazebo)
     sink = Diagnostics()
     loader = Loader({name: Path(folder) for name, folder in (settings.packages or {}).items()})
     spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them

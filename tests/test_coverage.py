@@ -67,7 +67,7 @@ LANGUAGE: dict[type, Said] = {
     link.Collision: Said(("a collision",), {"geometry": SHAPES}),
     link.Inertial: Said(("an inertial",), only_in_the_schema=frozenset({"density"})),
     link.InertiaTensor: Said(("an inertia tensor",)),
-    link.LinkPhysics: Said(("a link's physics",)),
+    link.LinkPhysics: Said(("a link's physics",), {}, {"stated": "which keys are there though they say the default"}),
     geometry.Vector3: Said((), {}, dict.fromkeys("xyz", "its place in a list of three numbers")),
     geometry.Transform: Said(("an origin",)),
     geometry.Box: Said(("a box",)),

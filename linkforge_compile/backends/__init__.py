@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.limits import srdf_limits, urdf_limits
 from linkforge_compile.backends.srdf import render_srdf
-from linkforge_compile.backends.urdf import render_urdf
+from linkforge_compile.backends.urdf import render_urdf, require_dialect
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-__all__ = ["BACKENDS", "render_srdf", "render_urdf", "srdf_limits", "urdf_limits"]
+__all__ = ["BACKENDS", "render_srdf", "render_urdf", "require_dialect", "srdf_limits", "urdf_limits"]
 
 BACKENDS: Mapping[str, Callable[..., str]] = {"urdf": render_urdf, "srdf": render_srdf}
 """The renderer of each format, by the name that is also its file's ending. All take `pretty` and `banner`."""

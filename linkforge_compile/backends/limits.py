@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.backends.element import InsideError, RestatedAttributeError, attributes, elements, inside_of
 from linkforge_compile.backends.srdf import render_srdf
 from linkforge_compile.backends.unwritable import extended_parts, refused, unwritable_texts
-from linkforge_compile.backends.urdf import capsules, render_urdf
+from linkforge_compile.backends.urdf import capsules, render_urdf, require_dialect
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.backends import (
@@ -30,7 +30,13 @@ _READ_VERSIONS = ("1.0", "1.1", "1.2")
 
 
 def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
-    """Yield what `render_urdf` leaves out or refuses, and what common readers refuse in what it writes."""
+    """Yield what `render_urdf` leaves out or refuses, and what common readers refuse in what it writes.
+
+    Raises:
+        ValueError: for another `gazebo` than `gz` or `classic`.
+
+    """
+    require_dialect(gazebo)
     yield from check_texts(robot)
     yield from check_attributes(_collections(robot), robot, partial(render_urdf, robot, gazebo=gazebo))
     yield from check_capsules(robot)

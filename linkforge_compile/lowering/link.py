@@ -75,7 +75,10 @@ def _physics(link: Fields) -> LinkPhysics:
             source=physics.ref,
         )
     )
-    return lowered or unsaid
+    if lowered is None:
+        return unsaid
+    said = [entry.name for entry in physics.node if physics.node.get(entry.name) is not None]
+    return replace(lowered, stated=[name for name in said if getattr(lowered, name) == getattr(unsaid, name)])
 
 
 def _shapes(link: Fields, key: str) -> Iterator[Fields | None]:

@@ -47,11 +47,7 @@ def gazebo_places(robot: Robot) -> GazeboPlaces:
 
 def _repeats(physics: LinkPhysics, element: GazeboElement) -> bool:
     """Whether a block says a tag that the physics of its link say, which no entry may do."""
-    usual = LinkPhysics()
-    return any(
-        tag in element.properties and getattr(physics, field) != getattr(usual, field)
-        for field, tag in _PHYSICS_TAGS.items()
-    )
+    return any(tag in element.properties and physics.is_written(field) for field, tag in _PHYSICS_TAGS.items())
 
 
 def written_blocks(pen: Pen, blocks: Iterable[GazeboElement], *, beside: bool = True) -> YamlNode | None:

@@ -12,8 +12,6 @@ from linkforge_compile.writers.geometry import written_geometry, written_origin
 from linkforge_compile.writers.material import written_visual_material
 from linkforge_compile.writers.pen import Pen
 
-_USUAL = LinkPhysics()
-
 
 def written_link(pen: Pen, link: Link, materials: Mapping[str, Material], gazebo: YamlNode | None) -> YamlMap:
     """Return a link; `gazebo` is what a simulator is told about it beside its physics."""
@@ -76,8 +74,9 @@ def _tensor(pen: Pen, tensor: InertiaTensor) -> YamlMap:
 
 
 def _physics(pen: Pen, physics: LinkPhysics) -> YamlNode | None:
-    flags = {key: pen.flag(getattr(physics, key), getattr(_USUAL, key)) for key in ("self_collide", "gravity")}
-    numbers = {key: pen.number(getattr(physics, key), default=getattr(_USUAL, key)) for key in _COEFFICIENTS}
+    said = [field for field in ("self_collide", "gravity", *_COEFFICIENTS) if pen.full or physics.is_written(field)]
+    flags = {key: pen.flag(getattr(physics, key)) for key in said if key not in _COEFFICIENTS}
+    numbers = {key: pen.number(getattr(physics, key)) for key in said if key in _COEFFICIENTS}
     node = pen.map_of({**flags, **numbers})
     return pen.located(node, physics.source) if len(node) else None
 

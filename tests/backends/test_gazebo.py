@@ -17,6 +17,16 @@ def test_only_physics_that_differ_are_written():
     """)
 
 
+def test_what_is_stated_is_written_though_it_is_the_default():
+    assert urdf(links=[Link("wheel", physics=LinkPhysics(stated=["mu", "gravity"]))]) == xml("""
+        <link name="wheel"/>
+        <gazebo reference="wheel">
+          <gravity>true</gravity>
+          <mu1>1</mu1>
+        </gazebo>
+    """)
+
+
 def test_every_field_has_the_tag_that_sdformat_knows():
     block = GazeboElement(
         "elbow",

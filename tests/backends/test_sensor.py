@@ -1,5 +1,7 @@
 import pytest
 
+from linkforge_compile import compile_text, render_urdf
+from linkforge_compile.core import Robot
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.models.joint import Joint, JointType
@@ -234,3 +236,10 @@ def test_sensors_stand_behind_the_written_gazebo_blocks_each_in_its_own():
         '<gazebo reference="base">',
         '  <sensor name="two" type="imu">',
     ]
+
+
+def test_a_simulator_that_nobody_knows_is_refused_with_the_choices():
+    with pytest.raises(ValueError, match="gazebo takes 'gz' or 'classic', found 'sim'"):
+        render_urdf(Robot("r"), gazebo="sim")
+    with pytest.raises(ValueError, match="gazebo takes 'gz' or 'classic', found 'sim'"):
+        compile_text("linkforge: 1\nname: r\nlinks: {base: }\n", gazebo="sim")

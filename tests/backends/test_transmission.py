@@ -2,12 +2,13 @@ from linkforge_compile.core.models.transmission import Transmission, Transmissio
 from tests.backends.inside import urdf, xml
 
 
-def test_a_simple_transmission_states_the_reduction_of_its_actuator():
+def test_a_simple_transmission_states_its_reductions():
     assert urdf(transmissions=[Transmission.create_simple("t1", "shoulder")]) == xml("""
         <transmission name="t1">
           <type>transmission_interface/SimpleTransmission</type>
           <joint name="shoulder">
             <hardwareInterface>position</hardwareInterface>
+            <mechanicalReduction>1</mechanicalReduction>
           </joint>
           <actuator name="shoulder_motor">
             <hardwareInterface>position</hardwareInterface>

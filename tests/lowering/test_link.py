@@ -1,6 +1,17 @@
 import pytest
 
-from linkforge_compile.core import Box, Capsule, Color, Cylinder, Material, Mesh, Sphere, Transform, Vector3
+from linkforge_compile.core import (
+    Box,
+    Capsule,
+    Color,
+    Cylinder,
+    LinkPhysics,
+    Material,
+    Mesh,
+    Sphere,
+    Transform,
+    Vector3,
+)
 from tests.lowering.specs import Spec, lowered, robot_of
 
 
@@ -148,3 +159,11 @@ def test_objects_know_where_they_were_written():
     assert str(link.source.span) == "spec.yaml:3:3"
     assert str(link.source.at("inertial", "mass")) == "spec.yaml:3:48"
     assert str(link.visuals[0].source.at("sphere")) == "spec.yaml:3:27"
+
+
+def test_physics_that_say_the_default_are_stated_all_the_same():
+    wheel = robot_of("""
+        name: cart
+        links: {wheel: {physics: {mu: 1, mu2: 0.5, kp: }}}
+    """).link("wheel")
+    assert wheel.physics == LinkPhysics(mu2=0.5, stated=["mu"])

@@ -133,13 +133,12 @@ def full() -> Robot:
         [core.Collision(shape, POSE, "felt", **raw("geometry")) for shape in _shapes()],
         **EXTRAS,
     )
-    names = ("arm", "finger")
     return Robot(
         "full",
         "1.2",
         {"shared": shared},
         {"author": "me"},
-        links=[body, *map(core.Link, names)],
+        links=[body, core.Link("arm", physics=LinkPhysics(stated=["mu"])), core.Link("finger")],
         joints=[_joint("slide", "body", "arm"), replace(_joint("follow", "arm", "finger"), type=JointType.CONTINUOUS)],
         sensors=[replace(sensor, plugin=plugin) for sensor in _sensors(noise)],
         transmissions=[_transmission()],

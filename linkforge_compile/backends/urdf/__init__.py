@@ -40,6 +40,20 @@ class RobotView(NamedTuple):
     elements: Xml
 
 
+DIALECTS = ("gz", "classic")
+
+
+def require_dialect(gazebo: str) -> None:
+    """Refuse a simulator whose dialect of Gazebo's tags nobody knows.
+
+    Raises:
+        ValueError: with the choices.
+
+    """
+    if gazebo not in DIALECTS:
+        raise ValueError(f"gazebo takes {' or '.join(map(repr, DIALECTS))}, found {gazebo!r}")
+
+
 def render_urdf(robot: Robot, *, pretty: bool = True, banner: str | None = None, gazebo: Gazebo = "gz") -> str:
     """Return the robot as a URDF document: materials, links, joints, transmissions, ros2_control, Gazebo, in its order.
 
@@ -49,8 +63,10 @@ def render_urdf(robot: Robot, *, pretty: bool = True, banner: str | None = None,
 
     Raises:
         RobotGeneratorError: for text that XML cannot hold, and for extras that are not well-formed XML.
+        ValueError: for another `gazebo` than `gz` or `classic`.
 
     """
+    require_dialect(gazebo)
     return render("urdf/robot.xml.j2", _robot_view(robot, gazebo), pretty=pretty, banner=banner)
 
 

@@ -49,7 +49,7 @@ class GazeboView(NamedTuple):
 
 
 def physics_views(links: Iterable[Link]) -> tuple[GazeboView, ...]:
-    """Return a block for each link whose physics differ from the defaults, with what differs."""
+    """Return a block for each link whose physics say something, with what they say."""
     return tuple(
         GazeboView(
             attributes_at(link.physics.source, reference=link.name), _physics_tags(link.physics), Xml(), (), Xml()
@@ -98,7 +98,7 @@ def _properties(block: GazeboElement) -> Xml:
 
 def _physics_tags(physics: LinkPhysics) -> tuple[tuple[str, str], ...]:
     return tuple(
-        (tag, placed(spelled(value), physics.source, name))
+        (tag, placed(spelled(getattr(physics, name)), physics.source, name))
         for name, tag in _PHYSICS_TAGS.items()
-        if (value := getattr(physics, name)) != getattr(DEFAULT_PHYSICS, name)
+        if physics.is_written(name)
     )

@@ -38,12 +38,8 @@ def transmission_views(transmissions: Iterable[Transmission]) -> tuple[Transmiss
         TransmissionView(
             attributes(transmission, name=transmission.name),
             placed(transmission.type, transmission.source, "type"),
-            # An actuator states its reduction even if it is 1, because loaders ask for it; a joint need not.
-            tuple(
-                _end(joint, joint.mechanical_reduction if joint.mechanical_reduction != 1 else None)
-                for joint in transmission.joints
-            ),
-            tuple(_end(actuator, actuator.mechanical_reduction) for actuator in transmission.actuators),
+            tuple(map(_end, transmission.joints)),
+            tuple(map(_end, transmission.actuators)),
             parameter_elements(transmission.parameters, transmission.source, "parameters"),
             elements(transmission),
         )
@@ -51,14 +47,16 @@ def transmission_views(transmissions: Iterable[Transmission]) -> tuple[Transmiss
     )
 
 
-def _end(end: TransmissionJoint | TransmissionActuator, reduction: float | None) -> EndView:
+def _end(end: TransmissionJoint | TransmissionActuator) -> EndView:
+    reduction = end.mechanical_reduction
     return EndView(
         attributes(end, name=end.name),
         [
             placed(interface, end.source, "hardware_interfaces", number)
             for number, interface in enumerate(end.hardware_interfaces)
         ],
-        placed(number_text(reduction), end.source, "mechanical_reduction") if reduction is not None else None,
+        # One of 1 is written too, because loaders ask for it; None is what nobody said.
+        None if reduction is None else placed(number_text(reduction), end.source, "mechanical_reduction"),
         placed(number_text(end.offset), end.source, "offset") if end.offset != 0 else None,
         elements(end),
     )

@@ -19,7 +19,7 @@ from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
 from linkforge_compile.core.models.index import Renamable
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.naming import prefixed
-from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze
+from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
 from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
 from linkforge_compile.source import SourceRef
 
@@ -89,6 +89,7 @@ class Inertial(Element):
 class LinkPhysics(Part):
     """How a simulator treats a link in contact; becomes tags of its `<gazebo reference>`, defaults left out.
 
+    `stated` names the fields that are written although they have their default: simulators do not agree on it.
     `mu` and `mu2` are Coulomb coefficients along the first and second friction direction, `kp` the contact
     stiffness [N/m], `kd` the contact damping [N·s/m].
 
@@ -103,9 +104,18 @@ class LinkPhysics(Part):
     mu2: float = DEFAULT_FRICTION_MU2
     kp: float = DEFAULT_CONTACT_KP
     kd: float = DEFAULT_CONTACT_KD
+    stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
 
     def __post_init__(self) -> None:
+        set_field(self, "stated", tuple(self.stated))
         require_finite(self, "mu", "mu2", "kp", "kd")
+
+    def is_written(self, name: str) -> bool:
+        """Whether a field becomes a tag: it differs from its default, or is stated all the same."""
+        return name in self.stated or getattr(self, name) != getattr(_USUAL_PHYSICS, name)
+
+
+_USUAL_PHYSICS = LinkPhysics()
 
 
 @dataclass(frozen=True, slots=True)
