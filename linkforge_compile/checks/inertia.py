@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Iterator
 
-from linkforge_compile.checks.tree import parent_joints
-from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.link import InertiaTensor
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Code, Diagnostic, Gaps
 from linkforge_compile.diagnostics.codes.physics import (
     IMPOSSIBLE_INERTIA,
     INDEFINITE_INERTIA,
-    MASSLESS_BODY,
     ZERO_INERTIA,
 )
 
@@ -54,36 +51,6 @@ def _inertia_fault(moments: tuple[float, float, float]) -> Code | None:
     if large > small + middle + ROUNDING * large:
         return IMPOSSIBLE_INERTIA
     return None
-
-
-def check_massless_bodies(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
-    """What a joint moves has mass, if mass hangs on it.
-
-    A link without mass is a frame, and normal. But Gazebo leaves out a link that moves and has no mass, nor
-    anything fixed to it that has, and with it all that hangs below. Give it, or a link that is fixed to it, an
-    `inertial`; or make its joint fixed. Silent while part of the robot could not be read.
-    """
-    if gaps:
-        return
-    above = parent_joints(robot)
-    heavy = _links_that_carry_mass(robot, above, {JointType.FIXED})
-    loaded = _links_that_carry_mass(robot, above, set(JointType))
-    for link in robot.links:
-        joint = above.get(link.name)
-        if joint and joint.type != JointType.FIXED and link.name in loaded and link.name not in heavy:
-            yield MASSLESS_BODY.at(link.source, "inertial", "mass", joint=joint.name, link=link.name)
-
-
-def _links_that_carry_mass(robot: Robot, above: Mapping[str, Joint], through: Container[JointType]) -> set[str]:
-    """Return the links that have mass and those above them, as far as the joints are of these types."""
-    carriers: set[str] = set()
-    for link in robot.links:
-        name = link.name if link.mass else None
-        while name is not None and name not in carriers:
-            carriers.add(name)
-            joint = above.get(name)
-            name = joint.parent if joint and joint.type in through else None
-    return carriers
 
 
 def principal_moments(inertia: InertiaTensor) -> tuple[float, float, float]:

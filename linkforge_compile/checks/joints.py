@@ -6,17 +6,29 @@ from collections.abc import Iterator
 
 from linkforge_compile.checks.circles import told_circles
 from linkforge_compile.checks.references import Use, unknown
-from linkforge_compile.core.models.joint import Joint, JointMimic, JointType
+from linkforge_compile.core.models.joint import Joint, JointLimits, JointMimic, JointSafetyController, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
-from linkforge_compile.diagnostics.codes.model import MIMIC_CIRCLE, MIMIC_FREEDOM, NO_RANGE
+from linkforge_compile.diagnostics.codes.model import (
+    EMPTY_RANGE,
+    IDLE_SOFT_LIMIT,
+    MIMIC_CIRCLE,
+    MIMIC_FREEDOM,
+    MIMIC_STANDS_STILL,
+    NO_RANGE,
+    POWERLESS_JOINT,
+    RANGE_OF_ENDLESS_JOINT,
+    SOFT_LIMITS_CROSSED,
+)
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT
 
 AXIS_JOINTS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 """The types whose position is one number, which is all that a mimic can multiply."""
 
-
 BOUNDED_JOINTS = (JointType.REVOLUTE, JointType.PRISMATIC)
+
+ROUNDING = 1e-4
+"""How far a soft limit may pass a limit [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
 
 
 def check_mimic_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
@@ -52,19 +64,103 @@ def check_mimic_freedom(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield use.told(MIMIC_FREEDOM, joint=joint.name, type=joint.type, leader=leader.name, led=leader.type)
 
 
+def check_mimic_motion(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A joint that mimics another moves when that one does.
+
+    With a `multiplier` of 0 it stands at its `offset` whatever its leader does. Write the ratio of the two, below 0
+    to turn the other way; or make the joint `fixed`.
+    """
+    for joint in robot.joints:
+        if joint.mimic and joint.mimic.multiplier == 0:
+            leader = joint.mimic.joint
+            yield MIMIC_STANDS_STILL.at(joint.source, "mimic", "multiplier", joint=joint.name, leader=leader)
+
+
 def check_joint_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """A revolute or prismatic joint says how far it goes.
+    """A revolute or prismatic joint has a range to move in.
 
     URDF takes an unsaid `lower` or `upper` for 0, so a joint that says neither, or one on the wrong side of 0,
-    cannot move. Write both, make the joint `continuous` if it turns without end, or `fixed` if it is not to move.
+    cannot move; nor can one that has the same position for both. Write both, make the joint `continuous` if it
+    turns without end, or `fixed` if it is not to move.
     """
     for joint in robot.joints:
         limits = joint.limits
-        if joint.type not in BOUNDED_JOINTS or limits is None or None not in (limits.lower, limits.upper):
+        if joint.type not in BOUNDED_JOINTS or limits is None:
             continue
-        if (limits.lower or 0.0) >= (limits.upper or 0.0):
-            unsaid = " and ".join(side for side in ("lower", "upper") if getattr(limits, side) is None)
-            yield NO_RANGE.at(joint.source, "limits", joint=joint.name, unsaid=unsaid)
+        if None in (limits.lower, limits.upper):
+            if (limits.lower or 0.0) >= (limits.upper or 0.0):
+                unsaid = " and ".join(side for side in ("lower", "upper") if getattr(limits, side) is None)
+                yield NO_RANGE.at(joint.source, "limits", joint=joint.name, unsaid=unsaid)
+        elif limits.lower == limits.upper:
+            found = f"{limits.lower:.6g}"
+            yield EMPTY_RANGE.at(joint.source, "limits", "upper", joint=joint.name, found=found)
+
+
+def check_endless_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A continuous joint turns without end, so it has no `lower` and `upper`.
+
+    Simulators and planners let it turn beyond them. Make it `revolute` if it stops there, or leave them out; `effort`
+    and `velocity` stay. Exporters write 0 for both, which nobody takes for a stop.
+    """
+    for joint in robot.joints:
+        limits = joint.limits
+        if joint.type != JointType.CONTINUOUS or limits is None:
+            continue
+        said = [side for side in ("lower", "upper") if getattr(limits, side) is not None]
+        if any(getattr(limits, side) for side in said):
+            yield RANGE_OF_ENDLESS_JOINT.at(joint.source, "limits", said[0], joint=joint.name, said=" and ".join(said))
+
+
+def check_joint_power(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """What moves a joint may push and turn it: its `effort` and `velocity` are above 0.
+
+    A limit of 0 is a limit: Gazebo, Bullet and ros2_control hold such a joint still, whatever it is told to do.
+    Exporters of CAD programs write 0 where nobody gave a value; write those of the motor. A joint without a motor
+    that others only push is `continuous` without `limits`, or has limits large enough. A joint that mimics another
+    is moved by it.
+    """
+    for joint in robot.joints:
+        limits = joint.limits
+        if joint.type not in AXIS_JOINTS or limits is None or joint.mimic:
+            continue
+        none = [field for field in ("effort", "velocity") if getattr(limits, field) == 0]
+        if none:
+            yield POWERLESS_JOINT.at(joint.source, "limits", none[0], joint=joint.name, fields=" and ".join(none))
+
+
+def check_soft_limits(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """The soft limits of a safety controller lie within the limits of its joint, the lower one below the upper one.
+
+    A controller begins to brake there. A soft limit beyond the stop never acts; with the two crossed, or an unsaid
+    one that URDF takes for 0, the joint is held everywhere. Without `k_position` nothing acts on positions.
+    """
+    for joint in robot.joints:
+        safety, limits = joint.safety_controller, joint.limits
+        if safety is None or not safety.k_position or joint.type not in BOUNDED_JOINTS or limits is None:
+            continue
+        lower, upper = safety.soft_lower_limit or 0.0, safety.soft_upper_limit or 0.0
+        if lower >= upper:
+            yield SOFT_LIMITS_CROSSED.at(
+                joint.source, "safety_controller", joint=joint.name, lower=f"{lower:.6g}", upper=f"{upper:.6g}"
+            )
+        else:
+            yield from _idle_soft_limits(joint, safety, limits)
+
+
+def _idle_soft_limits(joint: Joint, safety: JointSafetyController, limits: JointLimits) -> Iterator[Diagnostic]:
+    for side, sign in (("lower", 1.0), ("upper", -1.0)):
+        soft: float | None = getattr(safety, f"soft_{side}_limit")
+        hard: float | None = getattr(limits, side)
+        if soft is not None and hard is not None and sign * soft < sign * hard - ROUNDING:
+            yield IDLE_SOFT_LIMIT.at(
+                joint.source,
+                "safety_controller",
+                f"soft_{side}_limit",
+                joint=joint.name,
+                side=side,
+                hard=f"{hard:.6g}",
+                soft=f"{soft:.6g}",
+            )
 
 
 def _mimics(robot: Robot) -> dict[str, Use]:

@@ -58,7 +58,7 @@ _WITHOUT_AXIS = (JointType.FIXED, JointType.FLOATING)
 # Nothing of it is ever written: a compile that told an error gives no robot.
 _STAND_IN_TYPE = JointType.REVOLUTE
 _STAND_IN_AXIS = Vector3(0.0, 0.0, 1.0)
-_STAND_IN_LIMITS = JointLimits(-sys.float_info.max, sys.float_info.max, 0.0, 0.0)
+_STAND_IN_LIMITS = JointLimits(-sys.float_info.max, sys.float_info.max, 1.0, 1.0)
 
 _EXAMPLES = {Dimension.TORQUE: "50 N*m", Dimension.FORCE: "50 N", Dimension.ANGULAR_VELOCITY: "90 deg/s"}
 
@@ -192,9 +192,9 @@ def _limits(fields: Fields, joint_type: JointType, motion: _Motion) -> JointLimi
     is_one_lost = (lower is None and limits.said("lower")) or (upper is None and limits.said("upper"))
     if are_crossed or is_one_lost or limits.is_faulty:
         lower, upper = _STAND_IN_LIMITS.lower, _STAND_IN_LIMITS.upper
-    return limits.build(
-        lambda: JointLimits(lower, upper, effort or 0.0, velocity or 0.0, source=limits.ref, **extras_of(limits))
-    )
+    effort = _STAND_IN_LIMITS.effort if effort is None else effort
+    velocity = _STAND_IN_LIMITS.velocity if velocity is None else velocity
+    return limits.build(lambda: JointLimits(lower, upper, effort, velocity, source=limits.ref, **extras_of(limits)))
 
 
 def _tell_crossed(limits: Fields) -> None:

@@ -9,7 +9,7 @@ from linkforge_compile.checks import check
 from linkforge_compile.checks.inertia import principal_moments
 from linkforge_compile.core import Inertial, InertiaTensor, Link, Robot
 from linkforge_compile.diagnostics import Gaps, Severity
-from tests.checks.robots import body, fixed, robot, told, turning
+from tests.checks.robots import body, told
 
 FLAT_PLATE = InertiaTensor(0.001, 0.002, 0.003)
 TURNED_ROD = InertiaTensor(1.0, 1.0, 1.9, ixy=0.95)
@@ -63,30 +63,3 @@ def test_principal_moments_are_the_eigenvalues(inertia: InertiaTensor):
     # Below the smallest normal number a double has fewer digits than the bound asks for.
     bound = max(2e-12 * max(abs(wanted)), sys.float_info.min)
     numpy.testing.assert_allclose(principal_moments(inertia), wanted, rtol=0, atol=bound)
-
-
-def test_a_moving_frame_with_a_body_below_is_lost_in_gazebo():
-    subject = robot("base hand", turning("pan", "base", "head"), turning("tilt", "head", "hand"))
-    subject.add_link(Link("head"))
-    assert told(subject) == [
-        "LF6004 joint 'pan' moves link 'head', which has no mass: Gazebo leaves it out with all below it"
-    ]
-
-
-def test_a_moving_frame_is_fine_with_a_body_fixed_to_it():
-    subject = robot("base hand camera", turning("pan", "base", "head"), turning("tilt", "head", "hand"))
-    subject.links += (Link("head"), Link("bracket"))
-    subject.joints += (fixed("bolt", "head", "bracket"), fixed("glue", "bracket", "camera"))
-    assert told(subject) == []
-
-
-def test_frames_that_carry_nothing_are_fine():
-    subject = robot("base", turning("pan", "base", "head"), fixed("tool", "head", "tool0"))
-    subject.links += (Link("head"), Link("tool0"))
-    assert told(subject) == []
-
-
-def test_mass_is_not_missed_while_parts_of_the_robot_are_missing():
-    subject = robot("base hand", turning("pan", "base", "head"), turning("tilt", "head", "hand"))
-    subject.add_link(Link("head"))
-    assert told(subject, Gaps(frozenset({"counterweight"}))) == []

@@ -1,4 +1,6 @@
-from linkforge_compile.core import Joint, JointLimits, JointMimic, JointType
+import pytest
+
+from linkforge_compile.core import Joint, JointLimits, JointMimic, JointSafetyController, JointType
 from tests.checks.robots import X, fixed, robot, told, turning
 
 
@@ -42,3 +44,35 @@ def test_a_fixed_joint_cannot_lead():
     assert told(subject) == [
         "LF5502 joint 'loose': revolute joint 'loose' mimics fixed joint 'rigid', but both must have one axis"
     ]
+
+
+@pytest.mark.parametrize(
+    ("joint_type", "limits", "codes"),
+    [
+        (JointType.REVOLUTE, JointLimits(0.5, 0.5), ["LF5504"]),
+        (JointType.PRISMATIC, JointLimits(0.0, 0.0, 0.0, 1.0), ["LF5504", "LF5506"]),
+        (JointType.CONTINUOUS, JointLimits(0.0, 0.0), []),
+        (JointType.CONTINUOUS, JointLimits(None, 1.0), ["LF5505"]),
+        (JointType.CONTINUOUS, JointLimits(effort=5.0, velocity=0.0), ["LF5506"]),
+    ],
+)
+def test_limits_that_do_not_fit_a_joint_are_told(joint_type: JointType, limits: JointLimits, codes: list[str]):
+    joint = Joint("j", joint_type, "base", "a", axis=X, limits=limits)
+    assert [one[:6] for one in told(robot("base a", joint))] == codes
+
+
+@pytest.mark.parametrize(
+    ("safety", "codes"),
+    [
+        (JointSafetyController(-0.9, 0.9, 100.0, 1.0), []),
+        (JointSafetyController(-1.00005, 1.0, 100.0, 1.0), []),
+        (JointSafetyController(-5.0, 5.0, None, 1.0), []),
+        (JointSafetyController(-5.0, 5.0, 100.0, 1.0), ["LF5508", "LF5508"]),
+        (JointSafetyController(0.5, -0.5, 100.0, 1.0), ["LF5507"]),
+        (JointSafetyController(None, None, 100.0, 1.0), ["LF5507"]),
+    ],
+)
+def test_soft_limits_are_judged_by_the_limits(safety: JointSafetyController, codes: list[str]):
+    limits = JointLimits(-1.0, 1.0)
+    joint = Joint("j", JointType.REVOLUTE, "base", "a", axis=X, limits=limits, safety_controller=safety)
+    assert [one[:6] for one in told(robot("base a", joint))] == codes

@@ -73,7 +73,7 @@ def test_a_unit_axis_stays_as_it_is(axis):
     assert joint.axis_as_written is None
 
 
-def test_the_effort_and_velocity_of_the_ir_are_never_filled_in():
+def test_limits_that_stand_in_for_unsaid_ones_are_no_fault_of_their_own():
     result = lowered(
         LINKS
         + """
@@ -83,7 +83,7 @@ joints:
 # ^^E[LF5005]:72 joint 'wheel' has no 'limits.velocity'; write 'velocity: 90 deg/s'
 """
     )
-    assert result.robot.joint("wheel").limits == JointLimits(effort=0, velocity=0)
+    assert result.robot.joint("wheel").limits == JointLimits(effort=1, velocity=1)
 
 
 def test_a_joint_without_a_required_field_is_a_gap():

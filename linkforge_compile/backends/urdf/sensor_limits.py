@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.urdf.sensor import INFOS, Gazebo
+from linkforge_compile.core.models.gazebo import keeps_fixed_joint
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.sensor import Sensor, SensorType
 from linkforge_compile.diagnostics import Diagnostic
@@ -18,10 +19,7 @@ from linkforge_compile.diagnostics.codes.backends import (
 )
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.frozen_map import FreePart
     from linkforge_compile.core.models.robot import Robot
-
-_KEEP_A_FIXED_JOINT = ("preserveFixedJoint", "disableFixedJointLumping")
 
 
 def sensor_limits(robot: Robot, gazebo: Gazebo) -> Iterator[Diagnostic]:
@@ -44,23 +42,8 @@ def check_force_torque(sensor: Sensor, robot: Robot) -> Iterator[Diagnostic]:
     joint = robot.get_parent_joint(sensor.link_name)
     if joint is None:
         yield NO_JOINT_TO_SENSE.at(sensor.source, "link", link=sensor.link_name)
-    elif joint.type == JointType.FIXED and not _is_kept(joint.name, robot):
+    elif joint.type == JointType.FIXED and not keeps_fixed_joint(robot.get_gazebo_elements(joint.name)):
         yield SENSOR_ON_MERGED_JOINT.at(sensor.source, "link", joint=joint.name)
-
-
-def _is_kept(joint: str, robot: Robot) -> bool:
-    return any(
-        _says_yes(block.properties.get(tag, ""))
-        for block in robot.get_gazebo_elements(joint)
-        for tag in _KEEP_A_FIXED_JOINT
-    )
-
-
-def _says_yes(tag: FreePart) -> bool:
-    """As Gazebo reads a flag: in the attribute `value`, else in the text."""
-    if isinstance(tag, Mapping):
-        tag = tag.get("_value", tag.get("_text", ""))
-    return isinstance(tag, str) and tag.strip().lower() in ("true", "yes", "1")
 
 
 def check_contact(sensor: Sensor) -> Iterator[Diagnostic]:

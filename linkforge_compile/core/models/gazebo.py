@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
@@ -100,3 +100,18 @@ class GazeboElement(Element):
                 field=("stop_erp",),
             )
         require_finite(self, "stop_cfm")
+
+
+KEEP_FIXED_JOINT = ("preserveFixedJoint", "disableFixedJointLumping")
+"""The tags by which a block about a fixed joint keeps Gazebo from merging the links on its two sides into one."""
+
+
+def keeps_fixed_joint(blocks: Iterable[GazeboElement]) -> bool:
+    """Whether one of the blocks about a fixed joint keeps it: Gazebo reads the attribute `value`, else the text."""
+    return any(_says_yes(block.properties.get(tag, "")) for block in blocks for tag in KEEP_FIXED_JOINT)
+
+
+def _says_yes(tag: FreePart) -> bool:
+    if isinstance(tag, Mapping):
+        tag = tag.get("_value", tag.get("_text", ""))
+    return isinstance(tag, str) and tag.strip().lower() in ("true", "yes", "1")

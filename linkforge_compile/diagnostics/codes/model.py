@@ -74,6 +74,18 @@ SEVERAL_ROOTS = Code(
 MIMIC_CIRCLE = Code("LF5501", _E, "joints mimic one another in a circle: {path}")
 MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis")
 NO_RANGE = Code("LF5503", _W, "joint '{joint}' cannot move: its limits do not say {unsaid}, which URDF takes for 0")
+EMPTY_RANGE = Code("LF5504", _W, "joint '{joint}' cannot move: its lower and upper limit are both {found}")
+RANGE_OF_ENDLESS_JOINT = Code(
+    "LF5505", _W, "joint '{joint}' is continuous and turns beyond its {said}; make it revolute, or leave them out"
+)
+POWERLESS_JOINT = Code("LF5506", _W, "joint '{joint}' cannot be moved: its limit of {fields} is 0")
+SOFT_LIMITS_CROSSED = Code(
+    "LF5507", _W, "joint '{joint}' is held everywhere: its soft limits go from {lower} to {upper}"
+)
+IDLE_SOFT_LIMIT = Code(
+    "LF5508", _W, "joint '{joint}' stops at its {side} limit {hard}, before soft_{side}_limit {soft}"
+)
+MIMIC_STANDS_STILL = Code("LF5509", _W, "joint '{joint}' mimics '{leader}' with a multiplier of 0, so it stands still")
 
 # LF56xx: groups, states and end effectors
 GROUP_CIRCLE = Code("LF5601", _E, "planning groups contain one another in a circle: {path}")

@@ -13,7 +13,11 @@ IMPOSSIBLE_INERTIA = Code(
     "LF6003", _W, "no principal moment of inertia of link '{link}' may be above the sum of the others, found {moments}"
 )
 MASSLESS_BODY = Code(
-    "LF6004", _N, "joint '{joint}' moves link '{link}', which has no mass: Gazebo leaves it out with all below it"
+    "LF6004", _N, "joint '{joint}' moves link '{link}', which has no mass: Gazebo leaves it out with all below it{also}"
+)
+MASSLESS_ROOT = Code("LF6006", _N, "root link '{link}' has no mass: Gazebo leaves it out with all below it{also}")
+TINY_MASS = Code(
+    "LF6005", _W, "joint '{joint}' moves link '{link}' of {mass} kg, which Gazebo takes for no mass and leaves out"
 )
 
 # LF601x: meshes whose inertia is to be computed
@@ -35,6 +39,62 @@ TWISTED_MESH = Code("LF6017", _E, "mesh '{path}' faces both ways: {reason}; make
 INSIDE_OUT_MESH = Code("LF6018", _E, "mesh '{path}' is inside out: {reason}; flip its normals")
 FLAT_MESH = Code("LF6019", _E, "mesh '{path}' is no solid body: {reason}")
 WIDE_MESH = Code("LF6020", _W, "mesh '{path}' is {size} metres wide; write 'scale: 0.001' if it is in millimetres")
+
+# LF602x, past the width: mesh files that are at hand
+MISSING_MESH = Code("LF6021", _W, "there is no mesh '{path}'")
+HOLLOW_MESH_FILE = Code("LF6022", _W, "mesh '{path}' holds no shape: {reason}")
+CAD_MESH = Code(
+    "LF6023", _W, "mesh '{path}' is a .{ending} file, which no reader of URDF loads; export it as .stl or .dae"
+)
+MIRRORED_COLLISIONS = Code(
+    "LF6024", _N, "collision meshes of {links} are mirrored by their scale, and Gazebo Sim makes no collision of them"
+)
+FINE_COLLISIONS = Code(
+    "LF6025", _N, "collisions of {links} are the meshes that are seen, of {triangles} triangles; contacts will be slow"
+)
+
+# LF603x: mass and inertia against the shapes
+LIGHT_LINK = Code(
+    "LF6030",
+    _W,
+    "link '{link}' of {mass} kg is lighter than air: {density} kg/m³ in its shapes; is one in another unit?",
+)
+DENSE_LINK = Code(
+    "LF6031",
+    _W,
+    "link '{link}' of {mass} kg is denser than any metal: {density} kg/m³ in the box around its shapes; "
+    "is one in another unit?",
+)
+LARGE_INERTIA = Code("LF6032", _W, "inertia of link '{link}' is {factor} times that of the box around its shapes{hint}")
+SMALL_INERTIA = Code("LF6033", _N, "inertia of link '{link}' is {factor} of that of the box around its shapes")
+WIDE_INERTIA = Code(
+    "LF6034", _W, "inertia of link '{link}' is that of {mass} kg in a body {size} m wide; is it in kg*mm^2 or g*mm^2?"
+)
+FAR_CENTRE = Code(
+    "LF6035", _W, "centre of mass of link '{link}' is {distance} m away from its shapes, which are {size} m in size"
+)
+TURNED_PRODUCTS = Code(
+    "LF6036",
+    _W,
+    "inertia of link '{link}' is that of its shapes with the signs of ixy, ixz and iyz turned; turn all three",
+)
+
+# LF604x: links that Gazebo merges
+BLOCK_OF_MERGED_JOINT = Code(
+    "LF6040",
+    _N,
+    "Gazebo merges the links of fixed joint '{joint}' and drops this; say `preserveFixedJoint: true` in it",
+)
+MERGED_LINK_NAMED = Code(
+    "LF6041",
+    _N,
+    "Gazebo merges '{link}' into '{parent}', so this plugin finds no such link; "
+    "say `preserveFixedJoint: true` in the `gazebo` of joint '{joint}'",
+)
+
+# LF605x: shapes to see and to touch
+UNTOUCHED_VISUALS = Code("LF6050", _N, "{links} a visual and no collision, so everything passes through")
+UNSEEN_COLLISIONS = Code("LF6051", _N, "{links} a collision and no visual, so nobody sees what is touched")
 
 # LF61xx: ros2_control
 COMMANDED_TWICE = Code("LF6101", _E, "interface '{interface}' is commanded by {first} already")

@@ -1,0 +1,80 @@
+"""How much room the shapes of a link take: boxes along its axes, and the volume in them."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple, TypeAlias
+
+from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Transform
+from linkforge_compile.core.models.link import Collision, Visual
+from linkforge_compile.core.physics import rotation_matrix
+
+Shapes: TypeAlias = Sequence[Visual] | Sequence[Collision]
+
+
+class Extent(NamedTuple):
+    """A box along the axes of a link, from its lowest to its highest corner [m]."""
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+
+    @property
+    def diagonal(self) -> float:
+        """How far the corners are apart [m]."""
+        return math.dist(self.low, self.high)
+
+    @property
+    def volume(self) -> float:
+        """The volume [m³]."""
+        return math.prod(high - low for low, high in zip(self.low, self.high, strict=True))
+
+    def distance(self, point: Iterable[float]) -> float:
+        """Return how far a point lies outside [m]; 0 inside."""
+        axes = zip(self.low, point, self.high, strict=True)
+        return math.hypot(*(max(low - at, 0.0, at - high) for low, at, high in axes))
+
+
+def extent_of(shapes: Iterable[Visual | Collision]) -> Extent | None:
+    """Return the box that holds all of the shapes; None without any, and for meshes, which are not read here."""
+    extents = [_extent(shape.geometry, shape.origin) for shape in shapes]
+    known = [extent for extent in extents if extent]
+    if not known or len(known) < len(extents):
+        return None
+    lows, highs = zip(*(extent.low for extent in known), strict=True), zip(*(one.high for one in known), strict=True)
+    (x, y, z), (to_x, to_y, to_z) = map(min, lows), map(max, highs)
+    return Extent((x, y, z), (to_x, to_y, to_z))
+
+
+def volume_of(shapes: Shapes) -> float | None:
+    """Return the volumes of the shapes, added up [m³]; None without any, and for meshes."""
+    volumes = [shape.geometry.volume() for shape in shapes if not isinstance(shape.geometry, Mesh)]
+    return math.fsum(volumes) if volumes and len(volumes) == len(shapes) else None
+
+
+def _extent(geometry: Geometry, pose: Transform) -> Extent | None:
+    half = _half(geometry)
+    if half is None:
+        return None
+    if any(pose.rpy):
+        half = tuple(sum(map(operator.mul, map(abs, row), half)) for row in rotation_matrix(pose.rpy))
+    (x, y, z), (to_x, to_y, to_z) = (
+        [at + sign * side for at, side in zip(pose.xyz, half, strict=True)] for sign in (-1, 1)
+    )
+    return Extent((x, y, z), (to_x, to_y, to_z))
+
+
+def _half(geometry: Geometry) -> tuple[float, ...] | None:
+    """Return half the size of a shape along its own axes [m]."""
+    match geometry:
+        case Box():
+            return tuple(size / 2 for size in geometry.size)
+        case Sphere():
+            return (geometry.radius,) * 3
+        case Cylinder():
+            return geometry.radius, geometry.radius, geometry.length / 2
+        case Capsule():
+            return geometry.radius, geometry.radius, geometry.length / 2 + geometry.radius
+        case Mesh():
+            return None

@@ -1,0 +1,190 @@
+"""What Gazebo makes of links when it reads URDF: it merges those that do not move and drops those without mass."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from linkforge_compile.checks.references import SHOWN, Use, listed
+from linkforge_compile.checks.tree import hanging, parent_joints
+from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics.codes.physics import (
+    BLOCK_OF_MERGED_JOINT,
+    MASSLESS_BODY,
+    MASSLESS_ROOT,
+    MERGED_LINK_NAMED,
+    TINY_MASS,
+)
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.frozen_map import FreePart
+    from linkforge_compile.core.models.gazebo import GazeboElement
+    from linkforge_compile.core.models.link import Link
+
+NEGLIGIBLE_MASS = 1e-6
+"""What Gazebo takes for no mass [kg]."""
+
+WORLD = "world"
+"""The root link that Gazebo takes for the world, which needs no mass."""
+
+LOOKS_UP_A_LINK = frozenset(("link_name", "linkName", "body_name", "parent_link"))
+"""The tags by which plugins name a link that they look for in the simulation."""
+
+
+def check_massless_bodies(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """What a joint moves has mass, if mass hangs on it; and so has the root.
+
+    A link without mass is a frame, and normal. But Gazebo leaves out a link that moves, or is the root, and has no
+    mass, nor anything fixed to it that has, and with it all that hangs below. Give it, or a link that is fixed to it,
+    an `inertial`; or make its joint fixed. A root named `world` is Gazebo's own. Told of the first link of a chain,
+    with the joints that are lost; of the root only where the robot says something to Gazebo or has sensors. Silent
+    while part of the robot could not be read.
+    """
+    if gaps:
+        return
+    above, below = parent_joints(robot), _joints_below(robot)
+    weights, loaded = _merged_weights(robot, above), _links_that_carry_mass(robot, above)
+    is_for_gazebo = bool(robot.gazebo_elements or robot.sensors)
+    pending = [link.name for link in reversed(robot.links) if link.name not in above]
+    while pending:
+        name = pending.pop()
+        if name in loaded and weights.get(name, 1.0) == 0 and (name in above or is_for_gazebo) and name != WORLD:
+            yield _lost(robot.links[name], above.get(name), _moving_joints(name, below))
+        else:
+            pending += [joint.child for joint in reversed(below[name]) if above[joint.child] is joint]
+
+
+def _lost(link: Link, joint: Joint | None, moving: Sequence[Joint]) -> Diagnostic:
+    also = f", joint{'s' if len(moving) > 1 else ''} {listed([one.name for one in moving])} too" if moving else ""
+    notes = [hanging(one).note(f"joint '{one.name}' is lost") for one in moving[:SHOWN]]
+    if joint is None:
+        return MASSLESS_ROOT.at(link.source, "inertial", "mass", link=link.name, also=also, notes=notes)
+    where = ("inertial", "mass")
+    return MASSLESS_BODY.at(link.source, *where, joint=joint.name, link=link.name, also=also, notes=notes)
+
+
+def check_tiny_masses(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """What a joint moves weighs more than a milligram, with all that is fixed to it.
+
+    Gazebo takes 1e-6 kg and less for no mass and leaves the link out, with its joint and all that hangs below.
+    Write a mass that a solver can hold beside those of its neighbours, or make the joint fixed.
+    """
+    if gaps:
+        return
+    above = parent_joints(robot)
+    for name, weight in _merged_weights(robot, above).items():
+        if 0 < weight <= NEGLIGIBLE_MASS and name in above:
+            link = robot.links[name]
+            mass = f"{weight:g}"
+            yield TINY_MASS.at(link.source, "inertial", "mass", joint=above[name].name, link=name, mass=mass)
+
+
+def check_merged_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A Gazebo block is about a joint that Gazebo keeps.
+
+    It merges the links of a fixed joint into one, and what was to be set for the joint is lost with it. Say
+    `preserveFixedJoint: true` in the block, or take the block out.
+    """
+    merged = {joint.name for joint in _merged_joints(robot)}
+    for block in robot.gazebo_elements:
+        if block.reference in merged and block.reference not in robot.links and _says_something(block):
+            yield BLOCK_OF_MERGED_JOINT.at(block.source, joint=block.reference)
+
+
+def check_merged_links(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A Gazebo plugin that looks for a link names one that Gazebo keeps.
+
+    It merges a link that hangs on a fixed joint into the link above, and a plugin that looks for it by name finds
+    nothing. Name the link above, or say `preserveFixedJoint: true` in the `gazebo` of the joint.
+    """
+    merged = {joint.child: joint for joint in _merged_joints(robot)}
+    for block in robot.gazebo_elements if merged else ():
+        for plugin in block.plugins:
+            for path, name in _named_links(plugin.parameters):
+                if joint := merged.get(name):
+                    use = Use(name, f"plugin '{plugin.name}'", plugin.source or block.source, ("parameters", *path))
+                    yield use.told(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
+
+
+def _merged_joints(robot: Robot) -> Iterator[Joint]:
+    from linkforge_compile.core.models.gazebo import keeps_fixed_joint
+
+    blocks: dict[str | None, list[GazeboElement]] = defaultdict(list)
+    for block in robot.gazebo_elements:
+        blocks[block.reference].append(block)
+    for joint in robot.joints:
+        if joint.type == JointType.FIXED and joint.parent != WORLD and not keeps_fixed_joint(blocks[joint.name]):
+            yield joint
+
+
+def _merged_weights(robot: Robot, above: Mapping[str, Joint]) -> Mapping[str, float]:
+    """Return the mass of each link that stays, together with all that is merged into it [kg]."""
+    into = {joint.child: joint.parent for joint in _merged_joints(robot) if above[joint.child] is joint}
+    weights = {link.name: 0.0 for link in robot.links if link.name not in into}
+    for link in robot.links:
+        name, way = link.name, dict[str, None]()
+        while name in into and name not in way:
+            way[name] = None
+            name = into[name]
+        into.update(dict.fromkeys(way, name))  # so that no way is gone twice, nor round a circle
+        if name in weights:
+            weights[name] += link.mass
+    return weights
+
+
+def _links_that_carry_mass(robot: Robot, above: Mapping[str, Joint]) -> set[str]:
+    """Return the links that have mass and all those above them."""
+    carriers: set[str] = set()
+    for link in robot.links:
+        name = link.name if link.mass else None
+        while name is not None and name not in carriers:
+            carriers.add(name)
+            joint = above.get(name)
+            name = joint.parent if joint else None
+    return carriers
+
+
+def _joints_below(robot: Robot) -> Mapping[str, Sequence[Joint]]:
+    below: dict[str, list[Joint]] = defaultdict(list)
+    for joint in robot.joints:
+        below[joint.parent].append(joint)
+    return below
+
+
+def _moving_joints(link: str, below: Mapping[str, Sequence[Joint]]) -> Sequence[Joint]:
+    """Return the joints that move what hangs below a link, level by level."""
+    reached, seen = [link], {link}
+    moving = []
+    for name in reached:
+        for joint in below[name]:
+            if joint.child not in seen:
+                seen.add(joint.child)
+                reached.append(joint.child)
+                moving += [joint] if joint.type != JointType.FIXED else []
+    return moving
+
+
+def _says_something(block: GazeboElement) -> bool:
+    """Whether a block says more than what becomes of its joint."""
+    from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT
+
+    fields = (block.material, block.static, block.stop_cfm, block.stop_erp, block.provide_feedback)
+    is_more = any(field is not None for field in (*fields, block.implicit_spring_damper))
+    return is_more or bool(block.plugins or block.extra_elements or block.properties.keys() - {*KEEP_FIXED_JOINT})
+
+
+def _named_links(part: FreePart) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """Yield the names of links that plugins look for, each with its path."""
+    if isinstance(part, Mapping):
+        for tag, inner in part.items():
+            if isinstance(inner, str):
+                if tag in LOOKS_UP_A_LINK:
+                    yield (tag,), inner.strip()
+            else:
+                yield from (((tag, *path), name) for path, name in _named_links(inner))
+    elif isinstance(part, tuple):
+        for place, inner in enumerate(part):
+            yield from (((place, *path), name) for path, name in _named_links(inner))

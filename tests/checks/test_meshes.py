@@ -1,0 +1,141 @@
+import math
+import struct
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile.checks import check
+from linkforge_compile.checks.meshes import SAMPLES, look_at
+from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
+from linkforge_compile.diagnostics import Gaps
+from tests.checks.robots import told
+
+UNSCALED = Vector3(1.0, 1.0, 1.0)
+
+
+def stl(*triangles: tuple[float, ...]) -> bytes:
+    """Return a binary STL of triangles of nine numbers each."""
+    records = (struct.pack("<12fH", 0, 0, 0, *triangle, 0) for triangle in triangles)
+    return bytes(80) + struct.pack("<I", len(triangles)) + b"".join(records)
+
+
+def strip(count: int, side: float) -> bytes:
+    """Return a strip of triangles along x, `side` long in all."""
+    step = side / count
+    return stl(*((n * step, 0, 0, (n + 1) * step, 0, 0, n * step, 0.01, 0) for n in range(count)))
+
+
+@pytest.fixture
+def meshes(tmp_path: Path) -> Path:
+    (tmp_path / "arm" / "meshes").mkdir(parents=True)
+    (tmp_path / "arm" / "package.xml").write_text("<package><name>arm</name></package>")
+    return tmp_path / "arm" / "meshes"
+
+
+def of(meshes: Path, *resources: str, scale: Vector3 = UNSCALED, as_collision: bool = False) -> Robot:
+    shapes = [Mesh(resource, scale) for resource in resources]
+    collisions = [Collision(shape) for shape in shapes] if as_collision else []
+    link = Link("a", visuals=[Visual(shape) for shape in shapes], collisions=collisions)
+    return Robot("r", links=[link], resource_resolver=FileSystemResolver([meshes.parents[1]]))
+
+
+@pytest.mark.parametrize(
+    "resource",
+    [
+        "package://arm/meshes/a.stl",
+        "package://elsewhere/b.stl",
+        "http://example.org/b.stl",
+        "model://b/c.stl",
+        "b.stl",
+        "",
+    ],
+)
+def test_what_is_there_or_not_to_be_found_from_here_is_fine(meshes: Path, resource: str):
+    (meshes / "a.stl").write_bytes(strip(2, 0.1))
+    assert told(of(meshes, resource)) == []
+
+
+def test_a_name_in_other_capitals_is_missing_and_offered(meshes: Path):
+    (meshes / "Base.STL").write_bytes(strip(2, 0.1))
+    assert told(of(meshes, "package://arm/meshes/base.stl")) == [
+        "LF6021 there is no mesh 'package://arm/meshes/base.stl'; did you mean 'Base.STL'?"
+    ]
+
+
+def test_a_resolver_that_does_not_mind_capitals_changes_nothing(meshes: Path):
+    """As the file systems of Windows and macOS do not."""
+    (meshes / "Base.STL").write_bytes(strip(2, 0.1))
+    (meshes / "link.stl").symlink_to(meshes / "Base.STL")
+    assert told(of(meshes, "package://arm/meshes/link.stl", f"file://{meshes}/Base.STL")) == []
+
+
+def test_all_files_of_a_folder_that_is_not_there_are_one_fault(meshes: Path):
+    subject = of(meshes, *(f"package://arm/mesh/{name}.stl" for name in "abc"), as_collision=True)
+    (diagnostic,) = check(subject, Gaps())
+    assert diagnostic.message == "there is no mesh 'package://arm/mesh/a.stl'; did you mean 'meshes'?"
+    assert [note.message for note in diagnostic.notes] == [
+        f"looked for it at {meshes.parent / 'mesh'}",
+        "nor 'package://arm/mesh/b.stl'",
+        "nor 'package://arm/mesh/c.stl'",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        (b"", "it is empty"),
+        (b" \n", "it is empty"),
+        (stl(), "it has no triangles"),
+        (b"version https://git-lfs.github.com/spec/v1\n", "it is a pointer of Git LFS; run 'git lfs pull'"),
+    ],
+)
+def test_a_file_without_a_shape_is_told(meshes: Path, content: bytes, reason: str):
+    (meshes / "a.stl").write_bytes(content)
+    assert told(of(meshes, "package://arm/meshes/a.stl")) == [
+        f"LF6022 mesh 'package://arm/meshes/a.stl' holds no shape: {reason}"
+    ]
+
+
+def test_millimetres_are_told_unless_they_are_scaled(meshes: Path):
+    (meshes / "a.stl").write_bytes(strip(1000, 250.0))
+    assert told(of(meshes, "package://arm/meshes/a.stl", scale=Vector3(0.001, 0.001, 0.001))) == []
+    (message,) = told(of(meshes, "package://arm/meshes/a.stl"))
+    assert message.startswith("LF6020 mesh 'package://arm/meshes/a.stl' is 2.4e+02 metres wide")
+
+
+def test_a_few_triangles_from_all_over_the_file_tell_its_size(meshes: Path):
+    (meshes / "a.stl").write_bytes(strip(100_000, 1.0))
+    look = look_at(meshes / "a.stl")
+    assert look.triangles == 100_000
+    assert look.size is not None
+    assert look.size.x > 1 - 2 / SAMPLES
+
+
+@pytest.mark.parametrize(
+    "content", [b"solid a", b"\0" * 200, strip(3, 1.0)[:-1], stl((math.nan,) * 9), stl((3e38, -3e38) + (0,) * 7)]
+)
+def test_a_file_that_is_no_sound_binary_stl_is_not_judged(meshes: Path, content: bytes):
+    (meshes / "a.stl").write_bytes(content)
+    assert told(of(meshes, "package://arm/meshes/a.stl"))[1:] == []
+
+
+def test_a_folder_is_no_mesh(meshes: Path):
+    (meshes / "a.stl").mkdir()
+    assert [one[:6] for one in told(of(meshes, "package://arm/meshes/a.stl"))] == ["LF6021"]
+
+
+def test_collisions_as_fine_as_what_is_seen_are_told_together(meshes: Path):
+    (meshes / "fine.stl").write_bytes(strip(12_000, 1.0))
+    (meshes / "coarse.stl").write_bytes(strip(100, 1.0))
+    names = [f"package://arm/meshes/{name}.stl" for name in ("fine", "coarse")]
+    assert told(of(meshes, *names)) == []
+    assert told(of(meshes, *names, as_collision=True)) == [
+        "LF6025 collisions of 'a' are the meshes that are seen, of 12,000 triangles; contacts will be slow"
+    ]
+
+
+def test_a_collision_that_is_turned_by_its_scale_is_fine(meshes: Path):
+    turned, mirrored = Vector3(-1.0, -1.0, 1.0), Vector3(1.0, -1.0, 1.0)
+    assert told(of(meshes, "package://b/a.stl", scale=turned, as_collision=True)) == []
+    assert told(of(meshes, "package://b/a.stl", scale=mirrored)) == []
+    assert [one[:6] for one in told(of(meshes, "package://b/a.stl", scale=mirrored, as_collision=True))] == ["LF6024"]
