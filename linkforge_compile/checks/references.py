@@ -85,7 +85,7 @@ def unknown(uses: Iterable[Use], code: Code, known: Iterable[str], gaps: Gaps, *
     for use in uses:
         if use.name not in names and use.name not in gaps:
             prefix = use.prefix
-            why = [gaps.removed[use.name]] if use.name in gaps.removed else []
+            why = gaps.removed.why(use.name)
             is_offered = not why and told < MOST_OFFERED
             near = [name.removeprefix(prefix) for name in names if name.startswith(prefix)] if is_offered else []
             yield use.told(code, name=use.name.removeprefix(prefix), near=near, notes=why, **facts)

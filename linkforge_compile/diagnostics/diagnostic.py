@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from enum import StrEnum
+from enum import Enum, StrEnum
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics.suggest import did_you_mean
@@ -20,6 +20,17 @@ class Severity(StrEnum):
     ERROR = "error"
     WARNING = "warning"
     NOTE = "note"
+
+
+class Blame(Enum):
+    """Who is to mend what is wrong with a value that an expression hands on from where it was written."""
+
+    USER = "user"
+    """The place that uses it."""
+    KIND = "kind"
+    """A value of another kind than its place takes: that place too, unless it is read from a file of data."""
+    WRITER = "writer"
+    """Whoever wrote the value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +76,7 @@ class Code:
     id: str
     severity: Severity
     message: str
+    blame: Blame = Blame.USER
 
     @property
     def title(self) -> str:
@@ -93,9 +105,19 @@ class Code:
         message = on_one_line(self.message.format(**facts) + did_you_mean(str(facts.get("name", "")), near))
         span = where.at(*path) if isinstance(where, SourceRef) else where
         trail = where.trail if isinstance(where, SourceRef) else ()
+        span, moved = self._blamed(span) if span else (None, ())
         includes = [Note("included here", include) for include in (span.file.includes if span else ())]
         uses = [Note("used here", use) for use in trail]
-        return Diagnostic(self, message, span, (*notes, *includes, *uses))
+        return Diagnostic(self, message, span, (*notes, *moved, *includes, *uses))
+
+    def _blamed(self, used: Span) -> tuple[Span, tuple[Note, ...]]:
+        """Return the place to blame for a value that stands at one, and the other of its two places as a note."""
+        origin = used.origin
+        if origin is None:
+            return used, ()
+        if self.blame is Blame.WRITER or (self.blame is Blame.KIND and origin.is_data):
+            return origin.span, (Note("the value is used here", used),)
+        return used, (Note("the value is written here", origin.span),)
 
 
 def on_one_line(text: str) -> str:

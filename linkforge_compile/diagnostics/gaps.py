@@ -9,18 +9,41 @@ from linkforge_compile.diagnostics.diagnostic import Note
 
 
 @dataclass(frozen=True, slots=True)
+class Removed:
+    """Names that are not there because the author said so, each with the note that shows where.
+
+    `starts` are the prefixes of whole modules.
+    """
+
+    names: Mapping[str, Note] = field(default_factory=dict)
+    starts: Mapping[str, Note] = field(default_factory=dict)
+
+    def why(self, name: str) -> list[Note]:
+        """Return the note that says why a name is not there, [] where nobody said so."""
+        if name in self.names:
+            return [self.names[name]]
+        return [note for start, note in self.starts.items() if start and name.startswith(start)][:1]
+
+    def with_prefix(self, prefix: str) -> Removed:
+        names = {prefix + name: note for name, note in self.names.items()}
+        return Removed(names, {prefix + start: note for start, note in self.starts.items()})
+
+    def __or__(self, other: Removed) -> Removed:
+        return Removed({**other.names, **self.names}, {**other.starts, **self.starts})
+
+
+@dataclass(frozen=True, slots=True)
 class Gaps:
     """Names that the author wrote and the robot lacks.
 
     `prefixes` stand for whole modules that could not be read: every name that begins with one may be theirs,
     and the empty prefix covers all names. True when anything is missing, so a check that judges the whole
-    tree can tell that it does not see the whole tree. `removed` are no gaps: names that are not there because the
-    author said so, each with the note that shows where, for whoever misses them.
+    tree can tell that it does not see the whole tree. `removed` are no gaps, but there for whoever misses them.
     """
 
     names: frozenset[str] = frozenset()
     prefixes: tuple[str, ...] = ()
-    removed: Mapping[str, Note] = field(default_factory=dict)
+    removed: Removed = field(default_factory=Removed)
 
     def __contains__(self, name: object) -> bool:
         return name in self.names or (isinstance(name, str) and name.startswith(self.prefixes))
@@ -31,9 +54,7 @@ class Gaps:
     def with_prefix(self, prefix: str) -> Gaps:
         """Return the same gaps as seen from the file that uses this one under `prefix`."""
         names = frozenset(prefix + name for name in self.names)
-        removed = {prefix + name: note for name, note in self.removed.items()}
-        return Gaps(names, tuple(prefix + start for start in self.prefixes), removed)
+        return Gaps(names, tuple(prefix + start for start in self.prefixes), self.removed.with_prefix(prefix))
 
     def __or__(self, other: Gaps) -> Gaps:
-        removed = {**other.removed, **self.removed}
-        return Gaps(self.names | other.names, self.prefixes + other.prefixes, removed)
+        return Gaps(self.names | other.names, self.prefixes + other.prefixes, self.removed | other.removed)

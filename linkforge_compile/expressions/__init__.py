@@ -1,6 +1,6 @@
 """`$(...)`: from text to a value, by an allow-list over Python's grammar; nothing is ever run."""
 
-from linkforge_compile.expressions.evaluate import evaluate
+from linkforge_compile.expressions.evaluate import evaluate, handed_on
 from linkforge_compile.expressions.functions import RESERVED_NAMES
 from linkforge_compile.expressions.parse import has_expression, parse_template
 from linkforge_compile.expressions.scope import FileFunction, Lazy, Scope
@@ -19,6 +19,7 @@ __all__ = [
     "Value",
     "as_text",
     "evaluate",
+    "handed_on",
     "has_expression",
     "kind_name",
     "parse_template",

@@ -38,6 +38,20 @@ def evaluate(template: Template, scope: Scope, sink: Diagnostics) -> Value | Fau
     return text
 
 
+def handed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, ...]] | None:
+    """Return the name whose value a template gives as it is, and the keys to the part of it that it gives.
+
+    None for text around expressions, and for an expression that makes a value of its own.
+    """
+    match template.parts:
+        case (Expression() as whole,):
+            try:
+                return _Evaluation(whole, scope, Diagnostics()).taken(whole.tree)
+            except _FaultError:
+                return None
+    return None
+
+
 def _evaluate_to_text(expression: Expression, scope: Scope, sink: Diagnostics) -> str | None:
     value = _evaluate(expression, scope, sink)
     if isinstance(value, Fault):
@@ -105,6 +119,21 @@ class _Evaluation:
             case ast.Attribute(value=whole, attr=key):
                 return self._apply(lambda value: field(value, key), node, whole)
         raise AssertionError(f"the grammar lets no {type(node).__name__} through")
+
+    def taken(self, node: ast.expr) -> tuple[str, tuple[str | int, ...]] | None:
+        """Return what `handed_on` does, for a part of the expression."""
+        match node:
+            case ast.Name(id=name):
+                return None if name in CONSTANTS else (name, ())
+            case ast.IfExp(test=condition, body=chosen, orelse=other):
+                return self.taken(chosen if self._truth(condition, "'if'") else other)
+            case ast.Attribute(value=whole, attr=key):
+                reached = self.taken(whole)
+                return reached and (reached[0], (*reached[1], key))
+            case ast.Subscript(value=whole, slice=index):
+                reached, place = self.taken(whole), self.value(index)
+                return (reached[0], (*reached[1], place)) if reached and isinstance(place, str | int) else None
+        return None
 
     def _named(self, name: str) -> Value:
         value = self._scope.lookup(name, self._sink)

@@ -57,4 +57,10 @@ class Template:
     @property
     def names(self) -> frozenset[str]:
         """The parameters, variables and other names that it uses."""
-        return frozenset(name.id for part in self.parts if isinstance(part, Expression) for name in part.names)
+        return frozenset(self.names_in_order)
+
+    @property
+    def names_in_order(self) -> tuple[str, ...]:
+        """The same in the order in which they are first used."""
+        used = (name.id for part in self.parts if isinstance(part, Expression) for name in part.names)
+        return tuple(dict.fromkeys(used))

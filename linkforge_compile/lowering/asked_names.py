@@ -16,6 +16,6 @@ def tell_unknown_names(references: Iterable[NameReference], robot: Robot, gaps: 
     for reference in references:
         names, code = known[reference.kind]
         if reference.name not in names and reference.name not in gaps:
-            why = [gaps.removed[reference.name]] if reference.name in gaps.removed else []
+            why = gaps.removed.why(reference.name)
             near = () if why else names
             sink.report(code.at(reference.where, name=reference.name, near=near, notes=why))

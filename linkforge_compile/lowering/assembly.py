@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.graph import refuse_cycles
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Note
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Note, Removed
 from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
 from linkforge_compile.lowering.asked_names import tell_unknown_names
 from linkforge_compile.lowering.clashes import Clash, told_of_clashes
@@ -72,7 +72,7 @@ def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = Non
 class _Fold:
     """A robot while modules are being joined to it."""
 
-    def __init__(self, file: LoweredFile, removed: Mapping[str, Note], sink: Diagnostics) -> None:
+    def __init__(self, file: LoweredFile, removed: Removed, sink: Diagnostics) -> None:
         self._robot = file.robot
         self._states = file.states
         self._gaps = file.gaps | Gaps(removed=removed)
@@ -209,7 +209,7 @@ class _Fold:
             name, link = joint.name.removeprefix(prefix), root.removeprefix(prefix)
             self._sink.report(VIRTUAL_JOINT_LEFT_OUT.at(joint.source, joint=name, others=left.words, link=link))
             note = Note("left out with this virtual joint", joint.source.span if joint.source else None)
-            self._gaps |= Gaps(removed=dict.fromkeys((joint.name, *left.groups), note))
+            self._gaps |= Gaps(removed=Removed(dict.fromkeys((joint.name, *left.groups), note)))
 
     def _connect(self, hanging: ModuleJoint) -> bool:
         """Add the joint that a module hangs by; its parent may belong to a module that comes later."""

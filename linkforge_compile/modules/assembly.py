@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics import Removed
 from linkforge_compile.modules.mesh_files import FindMesh, no_mesh
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlMap
@@ -47,4 +47,4 @@ class Instance:
     modules: tuple[Instance, ...] = ()
     references: tuple[NameReference, ...] = ()
     find_mesh: FindMesh = no_mesh
-    removed: Mapping[str, Note] = field(default_factory=dict)
+    removed: Removed = field(default_factory=Removed)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Code, Diagnostics
 from linkforge_compile.diagnostics.codes.modules import INVALID_VARIABLE_NAME, RESERVED_NAME
@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes.repetition import (
     TOO_MUCH_REPEATED,
 )
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value
+from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.values import describe
 from linkforge_compile.schema.shapes import Shape
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
@@ -49,13 +50,20 @@ def occurrences(
     if body is None or isinstance(condition, YamlFault) or isinstance(repeated, YamlFault):
         yield tree, YamlFault(node.span)
         return
-    thing = key if shape.is_object and not shape.has_short_form else None
+    thing = _Thing(key, shape.title) if key and shape.is_object and not shape.has_short_form else None
     if not isinstance(repeated, YamlMap):
         yield from _once(body, condition, thing, tree)
     elif _are_names(repeated, tree) and _tells_apart(key, repeated, tree):
         yield from _repeated(body, condition, repeated, thing, tree)
     else:
         yield tree, YamlFault(node.span)
+
+
+class _Thing(NamedTuple):
+    """What has a name: its key, and the title of its schema."""
+
+    key: YamlScalar
+    title: str
 
 
 def _body(node: YamlMap, shape: Shape, sink: Diagnostics) -> YamlNode | None:
@@ -71,15 +79,15 @@ def _body(node: YamlMap, shape: Shape, sink: Diagnostics) -> YamlNode | None:
 
 
 def _once(
-    body: YamlNode, condition: YamlNode | None, key: YamlScalar | None, tree: TreeEvaluator
+    body: YamlNode, condition: YamlNode | None, thing: _Thing | None, tree: TreeEvaluator
 ) -> Iterator[Occurrence]:
     is_there = _is_there(condition, tree)
     if isinstance(is_there, Fault):
         yield tree, YamlFault(body.span)
     elif is_there:
         yield tree, body
-    elif key and condition:
-        tree.disable(key, condition.span)
+    elif thing and condition:
+        tree.disabled.add(thing.key, body, thing.title, condition.span, tree)
 
 
 def _is_there(condition: YamlNode | None, tree: TreeEvaluator) -> bool | Fault:
@@ -87,23 +95,23 @@ def _is_there(condition: YamlNode | None, tree: TreeEvaluator) -> bool | Fault:
     if value is None or isinstance(value, bool | Fault):
         return True if value is None else value
     assert condition is not None, "without a condition, the value is True"
-    tree.sink.report(CONDITION_KIND.at(condition.span, found=describe(value)))
+    tree.sink.report(CONDITION_KIND.at(tree.place(condition), found=describe(value)))
     return FAULT
 
 
 def _repeated(
-    body: YamlNode, condition: YamlNode | None, repeated: YamlMap, key: YamlScalar | None, tree: TreeEvaluator
+    body: YamlNode, condition: YamlNode | None, repeated: YamlMap, thing: _Thing | None, tree: TreeEvaluator
 ) -> Iterator[Occurrence]:
     """Yield a copy for each combination of the `for` values.
 
     A condition without `for` names is the same for all: where it fails, the `for` itself is not computed.
-    `key` is that of a thing with a name, which a failing condition disables.
+    A failing condition disables the `thing`, None for what has no name.
     """
     if condition is not None and not tree.names_in(condition) & repeated.entries.keys():
         is_there = _is_there(condition, tree)
-        if is_there is False and key:
+        if is_there is False and thing:
             for copy in _copies(repeated, tree.silent, 0) or ():
-                copy.disable(key, condition.span)
+                tree.disabled.add(thing.key, body, thing.title, condition.span, copy)
         if is_there is not True:
             yield from [(tree, YamlFault(body.span))] if is_there is FAULT else []
             return
@@ -112,7 +120,7 @@ def _repeated(
     if copies is None:
         yield tree, YamlFault(body.span)
     for copy in copies or ():
-        yield from _once(body, condition, key, copy)
+        yield from _once(body, condition, thing, copy)
 
 
 def _copies(repeated: YamlMap, tree: TreeEvaluator, size: int) -> list[TreeEvaluator] | None:
@@ -120,23 +128,26 @@ def _copies(repeated: YamlMap, tree: TreeEvaluator, size: int) -> list[TreeEvalu
 
     `size` is that of what is repeated: of all copies together, and of their names, there is only so much.
     """
-    combinations: list[dict[str, Value]] = [{}]
+    combinations: list[tuple[dict[str, Value], dict[str, Setting]]] = [({}, {})]
     for number, entry in enumerate(repeated, start=1):
         cost = number + (size if number == len(repeated) else 0)
         longer = []
-        for combination in combinations:
-            values = _values(entry, tree.inside(combination))
+        for names, settings in combinations:
+            around = tree.inside(names, settings)
+            values = _values(entry, around)
             if values is None:
                 return None
-            for value in values:
+            is_made = isinstance(values, range)
+            for place, value in enumerate(values):
                 admitted = tree.expressions.may_repeat(cost)
                 if admitted is None:
                     tree.sink.report(TOO_MUCH_REPEATED.at(entry.key.span, limit=f"{MAX_REPEATED:,}"))
                 if not admitted:
                     return None
-                longer.append({**combination, entry.name: value})
+                setting = Setting("one of 'for'", entry.value, around, (place,), is_made)
+                longer.append(({**names, entry.name: value}, {**settings, entry.name: setting}))
         combinations = longer
-    return [tree.inside(combination) for combination in combinations]
+    return [tree.inside(*combination) for combination in combinations]
 
 
 def _values(entry: YamlEntry, tree: TreeEvaluator) -> Sequence[Value] | None:
@@ -149,7 +160,7 @@ def _values(entry: YamlEntry, tree: TreeEvaluator) -> Sequence[Value] | None:
             return value
         case int() | float() if not isinstance(value, bool) and value >= 0 and value == value // 1 < float("inf"):
             return range(int(value))
-    tree.sink.report(FOR_KIND.at(entry.value.span, name=entry.name, found=describe(value)))
+    tree.sink.report(FOR_KIND.at(tree.place(entry.value), name=entry.name, found=describe(value)))
     return None
 
 

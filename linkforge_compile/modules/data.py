@@ -10,31 +10,29 @@ from linkforge_compile.diagnostics.codes.files import DATA_NOT_PATH, TAG_NOT_NUM
 from linkforge_compile.expressions import FAULT, Fault, Scope, Value, as_text, evaluate, kind_name, parse_template
 from linkforge_compile.modules.loader import Loader
 from linkforge_compile.modules.uses import UseSite, locate
-from linkforge_compile.modules.values import plain_value
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import Tags, YamlEntry, YamlFault, YamlNode, YamlScalar
 from linkforge_compile.units import number_text
 
 
-def data_value(
+def data_of(
     entry: YamlEntry, path: Value | Fault, site: Callable[[str, Span], UseSite], loader: Loader, sink: Diagnostics
-) -> Value | Fault:
-    """Return what the file holds that an entry of `data` names, FAULT where it cannot be had, which is reported.
+) -> YamlNode | None:
+    """Return what the file holds that an entry of `data` names, None where it cannot be had, which is reported.
 
     `path` is what the entry's value is once computed, and `site` makes a path of it. Text in the file that is a
     number and a unit is a quantity, `$(` is text as any other.
     """
     if path is FAULT:
-        return FAULT
+        return None
     text = as_text(path)
     if text is None:
         found = "nothing" if path is None else kind_name(path)
         sink.report(DATA_NOT_PATH.at(entry.value.span, name=entry.name, found=found))
-        return FAULT
+        return None
     written = site(text, entry.value.span)
     target = locate(written, loader, sink)
-    node = loader.open_data(target.path, sink, _tags(sink), written.used) if target else None
-    return FAULT if node is None else plain_value(node)
+    return loader.open_data(target.path, sink, _tags(sink), written.used) if target else None
 
 
 def _tags(sink: Diagnostics) -> Tags:

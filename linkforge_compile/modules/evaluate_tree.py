@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
@@ -24,10 +25,12 @@ from linkforge_compile.expressions import (
 )
 from linkforge_compile.modules.computed import judge_computed
 from linkforge_compile.modules.conditions import MAX_REPEATED, occurrences
+from linkforge_compile.modules.disabled import Disabled
+from linkforge_compile.modules.origins import ExpressionTrace, Setting
 from linkforge_compile.modules.values import node_of, plain_value, size_of
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source import ComputedSpan, SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
 from linkforge_compile.units import parse_quantity
 
@@ -148,34 +151,36 @@ class TreeEvaluator:
     """Evaluates nodes of one file in one scope.
 
     `elsewhere` holds, for each included file that lies in another folder, the paths among the names as seen from it.
-    `disabled` collects the names of the entries that a `when` takes out, each with the place of the `when`.
+    `disabled` collects what a `when` takes out.
+    `settings` says of the names in scope what gave them their values.
     """
 
     scope: Scope
     expressions: Expressions
     sink: Diagnostics
     elsewhere: Mapping[SourceFile, Mapping[str, Lazy]] = field(default_factory=dict)
-    disabled: dict[str, Span] = field(default_factory=dict)
+    disabled: Disabled = field(default_factory=Disabled)
+    settings: ChainMap[str, Setting] = field(default_factory=ChainMap)
 
-    def inside(self, values: Mapping[str, Value]) -> TreeEvaluator:
+    def inside(self, values: Mapping[str, Value], settings: dict[str, Setting]) -> TreeEvaluator:
         """Return one that knows these names as well."""
-        return replace(self, scope=self.scope.inside(values))
+        return replace(self, scope=self.scope.inside(values), settings=self.settings.new_child(settings))
+
+    def scope_of(self, scalar: YamlScalar) -> Scope:
+        """Return the scope in which a scalar's expressions are computed."""
+        moved = self.elsewhere.get(scalar.span.file)
+        return self.scope.inside(moved) if moved else self.scope
+
+    def place(self, node: YamlNode) -> Span:
+        """Return where a node stands; the place of an expression can tell where its value comes from."""
+        if isinstance(node, YamlScalar) and has_expression(node.text):
+            return ComputedSpan.of(node.span, ExpressionTrace(node, self))
+        return node.span
 
     @property
     def silent(self) -> TreeEvaluator:
         """One that reports nothing, for what is not part of the robot."""
         return replace(self, sink=Diagnostics(), expressions=Expressions())
-
-    def disable(self, key: YamlScalar, where: Span) -> None:
-        """Remember the name of an entry that the `when` at a place takes out, if it can be told."""
-        name = self.silent.key(key)
-        if name:
-            self.disabled.setdefault(name.text, where)
-
-    @property
-    def removed(self) -> dict[str, Note]:
-        """Why a name is not there, by the name."""
-        return {name: Note(f"'{name}' is disabled by 'when' here", where) for name, where in self.disabled.items()}
 
     def names_in(self, node: YamlNode) -> frozenset[str]:
         """Return the names that the expressions of a scalar use."""
@@ -299,15 +304,14 @@ class TreeEvaluator:
         template = self.expressions.template(scalar, self.sink)
         if template is None:
             return FAULT
-        moved = self.elsewhere.get(scalar.span.file)
-        return evaluate(template, self.scope.inside(moved) if moved else self.scope, self.sink)
+        return evaluate(template, self.scope_of(scalar), self.sink)
 
     def _scalar(self, scalar: YamlScalar, is_text: bool) -> YamlNode:
         value = self._computed(scalar)
         if value is FAULT or (not is_text and self.expressions.tell_made_number(scalar, value, self.sink)):
             return YamlFault(scalar.span)
         admitted = self.expressions.admit(value, scalar.span, self.sink)
-        return node_of(value, scalar.span) if admitted else YamlFault(scalar.span)
+        return node_of(value, self.place(scalar)) if admitted else YamlFault(scalar.span)
 
 
 def _looks_like_number(text: Value) -> bool:

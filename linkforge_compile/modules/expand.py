@@ -101,7 +101,7 @@ class _Expansion:
         file = UseOfFile(use.spec, use.given, use.prefix, use.trail)
         names = FileNames(file, self._shared, used_from(self._sink, use.trail))
         names.judge_parameters()
-        body = Body(_tree(use, names.tree), tuple(_entries(use, names.tree)), names.tree.removed)
+        body = Body(_tree(use, names.tree), tuple(_entries(use, names.tree)), names.tree.disabled.removed)
         for override in use.entry.overrides if use.entry else ():
             body = body.under(override)
         tree = body.tree

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.files import FILE_OUTSIDE_PACKAGE
@@ -14,11 +15,12 @@ from linkforge_compile.diagnostics.codes.modules import (
     UNKNOWN_PARAMETER,
 )
 from linkforge_compile.expressions import FAULT, Fault, Value
-from linkforge_compile.modules.arguments import Arguments
+from linkforge_compile.modules.arguments import COMMAND_LINE, Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.kinds import Kind, kind_of
 from linkforge_compile.modules.loader import SpecFile
 from linkforge_compile.modules.noted import NotedSink
+from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.parameters import Declaration, Parameter, parameter_of, written
 from linkforge_compile.modules.uses import rebased
 from linkforge_compile.modules.values import plain_value
@@ -72,6 +74,19 @@ class Given:
         typed = read(file, sink)
         return YamlFault(node.span) if typed is None else typed.get(name) or node
 
+    def place(self, node: YamlNode) -> Span:
+        """Return where a given node stands; the place of an expression can tell where its value comes from."""
+        return self.tree.place(node) if self.tree else node.span
+
+    def settings(self, name: str, node: YamlNode) -> list[Setting]:
+        """Return what gives the node to a parameter, and what that took the place of."""
+        by = "'with'" if self.use else "the command line" if node.span.file.name == COMMAND_LINE else "Python"
+        settings, entry = [Setting(by, node, self.tree)], self.arguments.entries[name].replaced
+        while entry:
+            settings.append(Setting(by, entry.value, self.tree))
+            entry = entry.replaced
+        return settings
+
     def value(self, node: YamlNode, kind: Kind) -> Value | Fault:
         """Return what a given node means to a parameter of a type, before it is judged."""
         if self.tree:
@@ -81,28 +96,31 @@ class Given:
 
 def parameter_value(
     declaration: Declaration, given: Given, variants: Variants, spec: SpecFile, tree: TreeEvaluator
-) -> Value | Fault | None:
+) -> tuple[Value | Fault | None, Setting | None]:
     """Return the value of a parameter: the given one, else the chosen variant's, else the default; None for none.
 
     `tree` computes the declaration, in the scope of the file `spec` that has it. FAULT for what was reported.
+    With it comes what set it.
     """
     kind = declared_kind(declaration, tree)
     if kind is None:
-        return FAULT
+        return FAULT, None
     parameter = parameter_of(declaration, kind, tree)
-    declared = [Note("the parameter is declared here", declaration.key.span)]
-    in_force = _given_value(parameter, given, spec, tree, NotedSink(given.sink, declared))
-    for node, sink, may_win in (
-        (variants.value_of(declaration.name), NotedSink(tree.sink, declared), True),
-        *((other, NotedSink(tree.sink, declared), False) for other in variants.other_values_of(declaration.name)),
-        (declaration.default, tree.sink, True),
+    noted = NotedSink(tree.sink, [Note("the parameter is declared here", declaration.key.span)])
+    in_force, settings = _given_value(parameter, given, spec, tree, declaration.key.span)
+    for node, sink, by in (
+        (variants.value_of(declaration.name), noted, f"variant '{variants.chosen}'"),
+        *((other, noted, "") for other in variants.other_values_of(declaration.name)),
+        (declaration.default, tree.sink, "the default"),
     ):
-        wins = may_win and in_force is None
+        wins = bool(by) and in_force is None
         # What is wrong with a value whatever the names stand for is wrong unused, too.
         if node is not None and (wins or not tree.expressions.are_in(node)):
             value = _own_value(parameter, node, spec, tree, sink)
             in_force = value if wins else in_force
-    return in_force
+        if node is not None and by and in_force is not None:
+            settings.append(Setting(by, node, tree))
+    return in_force, replace(settings[0], instead_of=tuple(settings[1:])) if settings else None
 
 
 def tell_unset(declaration: Declaration, given: Given) -> None:
@@ -127,18 +145,19 @@ def declared_kind(declaration: Declaration, tree: TreeEvaluator) -> Kind | None:
 
 
 def _given_value(
-    parameter: Parameter, given: Given, spec: SpecFile, tree: TreeEvaluator, sink: Diagnostics
-) -> Value | Fault | None:
-    """Return what the user of the file gives, None for nothing."""
+    parameter: Parameter, given: Given, spec: SpecFile, tree: TreeEvaluator, declared: Span
+) -> tuple[Value | Fault | None, list[Setting]]:
+    """Return what the user of the file gives, None for nothing, and what gives it."""
+    sink = NotedSink(given.sink, [Note("the parameter is declared here", declared)])
     node = given.node(parameter.name, parameter.kind, given.sink)
     value = None if node is None else given.value(node, parameter.kind)
     if node is None or value is None:
-        return None
-    taken = _judged(parameter, node, value, tree, sink)
+        return None, []
+    taken = _judged(parameter, _Said(node, value, given.place(node)), tree, sink)
     path = _in_the_file(parameter, taken, given.arguments.folder, spec)
     if isinstance(taken, str) and path != taken and Path(str(path)).is_absolute():
         sink.report(FILE_OUTSIDE_PACKAGE.at(node.span, path=taken))
-    return path
+    return path, given.settings(parameter.name, node)
 
 
 def _own_value(
@@ -148,7 +167,8 @@ def _own_value(
     value = written(node, parameter.kind, tree)
     if value is None:
         return None
-    return _in_the_file(parameter, _judged(parameter, node, value, tree, sink), spec.writer(node.span).folder, spec)
+    taken = _judged(parameter, _Said(node, value, tree.place(node)), tree, sink)
+    return _in_the_file(parameter, taken, spec.writer(node.span).folder, spec)
 
 
 def _in_the_file(parameter: Parameter, value: Value | Fault, writer: Path | None, spec: SpecFile) -> Value | Fault:
@@ -156,13 +176,19 @@ def _in_the_file(parameter: Parameter, value: Value | Fault, writer: Path | None
     return rebased(value, writer, spec) if parameter.kind.name == "file" and isinstance(value, str) else value
 
 
-def _judged(
-    parameter: Parameter, node: YamlNode, value: Value | Fault, tree: TreeEvaluator, sink: Diagnostics
-) -> Value | Fault:
-    """Return the value as one of the parameter's type, FAULT where it does not fit, which is reported at the node."""
-    if value is FAULT:
+class _Said(NamedTuple):
+    """What is said of a parameter, what it comes to, and the place to blame for that."""
+
+    node: YamlNode
+    value: Value | Fault
+    place: Span
+
+
+def _judged(parameter: Parameter, said: _Said, tree: TreeEvaluator, sink: Diagnostics) -> Value | Fault:
+    """Return the value as one of the parameter's type, FAULT where it does not fit, which is reported at its place."""
+    if said.value is FAULT:
         return FAULT
-    if not parameter.kind.is_text and tree.expressions.tell_made_number(node, value, sink):
+    if not parameter.kind.is_text and tree.expressions.tell_made_number(said.node, said.value, sink):
         return FAULT
-    taken = parameter.take(value, node.span, sink)
+    taken = parameter.take(said.value, said.place, sink)
     return FAULT if taken is None else taken

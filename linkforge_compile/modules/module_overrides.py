@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics import Removed
 from linkforge_compile.modules.module_entry import ModuleEntry, with_fields
 from linkforge_compile.modules.overrides import Override
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
@@ -17,7 +17,7 @@ class Body:
 
     tree: YamlMap
     entries: tuple[ModuleEntry, ...]
-    removed: Mapping[str, Note]
+    removed: Removed
 
     def under(self, override: Override) -> Body:
         """Return the same with an override applied; what it says of nested modules goes to their entries."""
@@ -32,7 +32,9 @@ class Body:
             for entry in self.entries
             if entry.name in left
         )
-        removed = {**self.removed, **dict(patch.deleted(whole, patched))}
+        names = dict(patch.deleted(whole, patched))
+        starts = {entry.prefix: names[entry.name] for entry in self.entries if entry.name in names}
+        removed = Removed(names, starts) | self.removed
         tree = YamlMap({name: one for name, one in patched.entries.items() if name != "modules"}, patched.span)
         return Body(tree, entries, removed)
 

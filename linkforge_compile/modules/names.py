@@ -18,15 +18,17 @@ from linkforge_compile.diagnostics.codes.modules import (
     RESERVED_NAME,
 )
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Lazy, Scope, Value
-from linkforge_compile.modules.data import data_value
+from linkforge_compile.modules.data import data_of
 from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
 from linkforge_compile.modules.given import Given, Unset, parameter_value, tell_unset
 from linkforge_compile.modules.kinds import KINDS
 from linkforge_compile.modules.loader import Loader, SpecFile
+from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.own_names import OwnNames
 from linkforge_compile.modules.parameters import Declaration, declarations
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.modules.uses import rebased
+from linkforge_compile.modules.values import plain_value
 from linkforge_compile.modules.variants import Variants, variants_of
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, Span
@@ -131,7 +133,9 @@ class FileNames:
             self.tree.value(setting.value)
 
     def _parameter(self, declaration: Declaration) -> Value | Fault:
-        value = parameter_value(declaration, self._given, self._variants, self._spec, self.tree)
+        value, setting = parameter_value(declaration, self._given, self._variants, self._spec, self.tree)
+        if setting is not None:
+            self.tree.settings[declaration.name] = setting
         if value is not None:
             return value
         if declaration.is_faulty:
@@ -168,11 +172,16 @@ class FileNames:
         return Lazy(partial(compute, entry), entry.key.span)
 
     def _variable(self, entry: YamlEntry) -> Value | Fault:
+        self.tree.settings[entry.name] = Setting("the variable", entry.value, self.tree)
         return self.tree.value(entry.value)
 
     def _data_value(self, entry: YamlEntry) -> Value | Fault:
         path = self.tree.value(entry.value)
-        return data_value(entry, path, self.own.site, self._loader, self._sink)
+        node = data_of(entry, path, self.own.site, self._loader, self._sink)
+        if node is None:
+            return FAULT
+        self.tree.settings[entry.name] = Setting("data", node, named_by=entry.value)
+        return plain_value(node)
 
     def _paths_seen_from_elsewhere(self) -> dict[SourceFile, dict[str, Lazy]]:
         """Return the parameters that are paths, for each included file that lies in another folder than this one."""

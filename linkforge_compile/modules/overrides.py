@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from linkforge_compile.diagnostics import Code, Diagnostics, Note
+from linkforge_compile.diagnostics import Code, Diagnostics, Note, Removed
 from linkforge_compile.diagnostics.codes.repetition import (
     EMPTY_OVERRIDE,
     NO_SUCH_POSITION,
@@ -36,7 +36,7 @@ class Override:
     patch: YamlMap
     sink: Diagnostics
 
-    def applied(self, tree: YamlMap, missing: Mapping[str, Note]) -> YamlMap:
+    def applied(self, tree: YamlMap, missing: Removed) -> YamlMap:
         """Return a module's tree as this override leaves it; `missing` says why names are not there.
 
         Whatever hangs on a link that is deleted goes with it: the joint to it, the Gazebo blocks about either, its
@@ -47,13 +47,13 @@ class Override:
         return _without_links(patched, set(_names(whole, "links")) - set(_names(patched, "links")))
 
     def deleted(self, before: YamlMap, after: YamlMap) -> Iterator[tuple[str, Note]]:
-        """Yield the names of links and joints that are gone, each with the place that deletes it."""
-        for section in ("links", "joints"):
-            said = self.patch.get(section)
-            for name in set(_names(with_frames_as_joints(before), section)) - set(_names(after, section)):
-                entry = said.entries.get(name) if isinstance(said, YamlMap) else None
-                where = entry.key.span if entry else self.patch.span
-                yield name, Note(f"'{name}' is deleted by this override", where)
+        """Yield the names that are gone, each with the place that deletes it."""
+        whole = with_frames_as_joints(before)
+        yield from _deleted(whole, after, self.patch, _SECTIONS)
+        semantic, left, patch = (tree.get("semantic") for tree in (whole, after, self.patch))
+        if isinstance(semantic, YamlMap) and isinstance(patch, YamlMap):
+            left = left if isinstance(left, YamlMap) else YamlMap({}, after.span)
+            yield from _deleted(semantic, left, patch, _SEMANTIC_SECTIONS)
 
 
 def refuse_empty(node: YamlNode, shape: Shape, sink: Diagnostics, field: str = "module") -> None:
@@ -71,7 +71,7 @@ def refuse_empty(node: YamlNode, shape: Shape, sink: Diagnostics, field: str = "
 class _Patch:
     """One patch over one tree; what is wrong with it is reported where it stands, and the tree left as it was there."""
 
-    def __init__(self, sink: Diagnostics, missing: Mapping[str, Note]) -> None:
+    def __init__(self, sink: Diagnostics, missing: Removed) -> None:
         self._sink = sink
         self._missing = missing
 
@@ -153,7 +153,7 @@ class _Patch:
         name = change.name
         if "$(" in name or any("$(" in other for other in base.entries):
             return
-        notes = [self._missing[name]] if name in self._missing else []
+        notes = self._missing.why(name)
         self._report(NOTHING_TO_OVERRIDE, change, near=() if notes else base.entries, notes=notes, owner=shape.things)
 
     def _report(
@@ -172,6 +172,21 @@ def _items(base: YamlNode | None, shape: Shape) -> tuple[YamlNode, ...]:
     """Return the items of a list, or what stands for a list of one."""
     whole = None if base is None else long_form(base, shape)
     return whole.items if isinstance(whole, YamlList) else ()
+
+
+_SECTIONS = ("links", "joints", "modules", "mount", "materials", "sensors", "transmissions", "ros2_control")
+_SEMANTIC_SECTIONS = ("groups", "virtual_joints", "end_effectors")
+
+
+def _deleted(before: YamlMap, after: YamlMap, patch: YamlMap, sections: tuple[str, ...]) -> Iterator[tuple[str, Note]]:
+    """Yield the names that sections have before and not after, each with its place in the patch, or the patch's own."""
+    for section in sections:
+        said, left = patch.get(section), _names(after, section)
+        for name in _names(before, section):
+            if name not in left:
+                entry = said.entries.get(name) if isinstance(said, YamlMap) else None
+                where = entry.key.span if entry else patch.span
+                yield name, Note(f"'{name}' is deleted by this override", where)
 
 
 def _is_written_null(node: YamlNode) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from linkforge_compile.expressions import FAULT, Fault, Value, as_text
-from linkforge_compile.source import Span
+from linkforge_compile.source import Key, Span
 from linkforge_compile.syntax import ScalarValue, YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, parse_quantity
 
@@ -37,16 +37,18 @@ def plain_value(node: YamlNode) -> Value | Fault:
 
 
 def node_of(value: Value, span: Span) -> YamlNode:
-    """Return a computed value as a tree whose every node lies at `span`, where the expression stands.
+    """Return a computed value as a tree whose every node lies at `span`, where the expression stands, as its part.
 
     A scalar's text is its shortest, of a quantity the number in SI units; null has none, as if nothing were written.
     """
     if isinstance(value, tuple):
-        return YamlList(tuple(node_of(item, span) for item in value), span)
+        return YamlList(tuple(node_of(item, span.inside(place)) for place, item in enumerate(value)), span)
     if isinstance(value, Mapping):
-        return YamlMap(
-            {name: YamlEntry(_scalar(name, span), node_of(item, span)) for name, item in value.items()}, span
-        )
+        entries = {
+            name: YamlEntry(_scalar(name, span.inside(Key(name))), node_of(item, span.inside(name)))
+            for name, item in value.items()
+        }
+        return YamlMap(entries, span)
     return _scalar(value, span)
 
 

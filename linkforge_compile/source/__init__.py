@@ -2,6 +2,17 @@
 
 from linkforge_compile.source.file import SourceFile
 from linkforge_compile.source.ref import Key, Located, Sourced, SourceRef
-from linkforge_compile.source.span import Position, Span
+from linkforge_compile.source.span import ComputedSpan, Origin, Position, Span, Trace
 
-__all__ = ["Key", "Located", "Position", "SourceFile", "SourceRef", "Sourced", "Span"]
+__all__ = [
+    "ComputedSpan",
+    "Key",
+    "Located",
+    "Origin",
+    "Position",
+    "SourceFile",
+    "SourceRef",
+    "Sourced",
+    "Span",
+    "Trace",
+]

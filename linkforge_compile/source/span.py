@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from linkforge_compile.source.file import SourceFile
@@ -49,7 +49,55 @@ class Span(NamedTuple):
 
     def within(self, offset: int, length: int) -> Span:
         """Return the part that begins `offset` characters in; for a span that lies on one line."""
-        return self._replace(column=self.column + offset, end_line=self.line, end_column=self.column + offset + length)
+        start = self.column + offset
+        return Span(self.file, self.line, start, self.line, start + length)
+
+    def inside(self, key: str | int) -> Span:
+        """Return the place of a part of the value that stands here."""
+        return self
+
+    @property
+    def origin(self) -> Origin | None:
+        """Where the value was written that an expression here hands on; None where it was written or made here."""
+        return None
 
     def __str__(self) -> str:
         return f"{self.file.name}:{self.line}:{self.column}"
+
+
+class Origin(NamedTuple):
+    """Where a value was written that is used elsewhere; `is_data` in a file that says values only."""
+
+    span: Span
+    is_data: bool
+
+
+class Trace(Protocol):
+    """Follows the value of one expression back to where it was written."""
+
+    def origin(self, path: tuple[str | int, ...]) -> Origin | None:
+        """Return where the part at a path of the value was written; None where the expression itself made it."""
+        ...
+
+
+class ComputedSpan(Span):
+    """The place of an expression, for one part of its value: `path` leads to that from the whole."""
+
+    trace: Trace
+    path: tuple[str | int, ...]
+
+    @classmethod
+    def of(cls, place: Span, trace: Trace, path: tuple[str | int, ...] = ()) -> ComputedSpan:
+        made = cls(*place)
+        made.trace, made.path = trace, path
+        return made
+
+    def inside(self, key: str | int) -> ComputedSpan:
+        return ComputedSpan.of(self, self.trace, (*self.path, key))
+
+    @property
+    def origin(self) -> Origin | None:
+        return self.trace.origin(self.path)
+
+    def __reduce__(self) -> tuple[type[Span], tuple[object, ...]]:
+        return Span, tuple(self)

@@ -8,8 +8,9 @@ from linkforge_compile.writers.explain import Explanation, UnknownPathError, exp
 from linkforge_compile.writers.pen import Pen
 from linkforge_compile.writers.provenance import compiled_folder, origin_of
 from linkforge_compile.writers.robot import spec_of
+from linkforge_compile.writers.stories import NameStory
 
-__all__ = ["Explanation", "Pen", "UnknownPathError", "explain", "spec_of", "write_spec"]
+__all__ = ["Explanation", "NameStory", "Pen", "UnknownPathError", "explain", "spec_of", "write_spec"]
 
 
 def write_spec(robot: Robot, *, banner: str | None = None, origins: bool = False) -> str:

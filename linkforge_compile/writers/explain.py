@@ -12,6 +12,7 @@ from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, write
 from linkforge_compile.writers.pen import Pen
 from linkforge_compile.writers.robot import spec_of
+from linkforge_compile.writers.stories import NameStory, stories
 
 _SHORT_FORMS = {"origin": "xyz", "box": "size", "sphere": "radius", "mesh": "file", "color": "rgba"}
 """What an object means of which only one value is written: `origin: [x, y, z]` is its `xyz`."""
@@ -34,7 +35,9 @@ class Explanation:
 
     `text` is what a spec writes for it, after its path, with the unit of a number. `place` is where it was written;
     where `is_written` is False, nothing was for the value itself, and `place` is the nearest thing around it that
-    was; None for a robot that was built in Python. `expression` is what was computed there, None if nothing.
+    was; None for a robot that was built in Python. `expression` is what was computed there, None if nothing, `names`
+    how the names in it got their values, and `origin` where the value was written that it hands on as it is, None for
+    one that it makes itself, or where `names` say so.
     `trail` lists the `use` that brought the file in, and so on outwards. `replaced` is where that was written which
     this value took the place of, as an override or as an entry's own word before a default; the last one first.
     """
@@ -43,6 +46,8 @@ class Explanation:
     is_written: bool = False
     place: Span | None = None
     expression: str | None = None
+    origin: Span | None = None
+    names: tuple[NameStory, ...] = ()
     trail: tuple[Span, ...] = ()
     replaced: tuple[Span, ...] = ()
 
@@ -77,9 +82,11 @@ def explain(robot: Robot, path: str) -> Explanation:
     node, is_written = _deepest(source.node, steps[last].key, keys)
     place = source.span if node is source.node else node.span
     if not is_written:
-        return Explanation(text, False, place, None, source.trail_to(place))
+        return Explanation(text, False, place, trail=source.trail_to(place))
+    expression = _expression(place)
+    names, origin = ((), None) if expression is None or not isinstance(node, YamlNode) else stories(node)
     replaced = _replaced(source.node, steps[last].key, keys)
-    return Explanation(text, True, place, _expression(place), source.trail_to(place), replaced)
+    return Explanation(text, True, place, expression, origin, names, source.trail_to(place), replaced)
 
 
 def _steps(node: YamlNode, path: str, before: str) -> tuple[_Step, ...]:

@@ -42,6 +42,7 @@ def test_a_value_is_told_with_its_place_its_expression_and_the_files_between(cel
         "     7 |     limits: {effort: $(strength), velocity: 1}}",
         "       |                      ^^^^^^^^^^^",
         "computed: $(strength)",
+        "  strength is 20 N*m, the default 20 N*m at arm.robot.yaml:3:24",
         "used at cell.robot.yaml:5:15",
         "     5 |   left: {use: arm.robot.yaml, parent: table}",
         "       |               ^^^^^^^^^^^^^^",
@@ -129,3 +130,126 @@ def test_a_code_that_is_none_is_wrong_usage(tmp_path: Path, words: tuple[str, ..
     run = linkforge("explain", *words, cwd=tmp_path)
     assert run.returncode == 2
     assert said in run.stderr
+
+
+NESTED = {
+    "hand.robot.yaml": """\
+linkforge: 1
+name: hand
+parameters: {width: {type: length, default: 0.1 m}}
+data: {kin: kin.yaml}
+variables: {half: $(width / 2)}
+links:
+  palm: {visual: {box: [$(width), $(half), 0.1]}, collision: visual, inertial: {mass: "$(kin.masses[1])"}}
+  f_$(i): {for: {i: 2}, visual: {sphere: 0.01, origin: ["$(i * half)", 0, 0]}}
+joints:
+  j_$(i): {for: {i: 2}, type: fixed, parent: palm, child: f_$(i)}
+""",
+    "kin.yaml": "masses: [3, 1.5]\n",
+    "arm.robot.yaml": """\
+linkforge: 1
+name: arm
+include: [more.yaml]
+parameters:
+  reach: {type: length, default: 0.8 m}
+links: {base: }
+modules:
+  hand: {use: hand.robot.yaml, parent: base, with: {width: $(reach)}}
+""",
+    "more.yaml": """\
+linkforge: 1
+variables: {twice: $(reach * 2)}
+links: {tip: {visual: {sphere: "$(twice / 4)"}}}
+joints: {tip_joint: {type: fixed, parent: base, child: tip}}
+""",
+    "cell.robot.yaml": """\
+linkforge: 1
+name: cell
+parameters: {arm_reach: 0.7 m}
+variants: {long: {arm_reach: 1.2 m}}
+links: {table: }
+modules:
+  left: {use: arm.robot.yaml, parent: table, with: {reach: $(arm_reach)}}
+""",
+}
+
+
+@pytest.fixture
+def nested(tmp_path: Path) -> Path:
+    for name, text in NESTED.items():
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+def computed(folder: Path, path: str, *options: str) -> list[str]:
+    """Return the lines that tell how a value was computed."""
+    lines = linkforge("explain", "cell.robot.yaml", path, *options, cwd=folder).stdout.splitlines()
+    start = next(number for number, line in enumerate(lines) if line.startswith("computed: "))
+    end = next(number for number, line in enumerate(lines) if line.startswith(("used at", "included at")))
+    return lines[start:end]
+
+
+def test_each_name_is_told_with_what_set_it_and_what_that_beat(nested: Path):
+    path = "links/left_hand_palm/visual/0/box/1"
+    assert computed(nested, path, "-p", "arm_reach=0.9", "--variant", "long") == [
+        "computed: $(half)",
+        "  half is 0.45 m, the variable $(width / 2) at hand.robot.yaml:5:19",
+        "    width is 0.9 m, 'with' $(reach) at arm.robot.yaml:8:60",
+        "      instead of the default 0.1 m at hand.robot.yaml:3:45",
+        "      reach is 0.9 m, 'with' $(arm_reach) at cell.robot.yaml:7:60",
+        "        instead of the default 0.8 m at arm.robot.yaml:5:34",
+        "        arm_reach is 0.9 m, from the command line: arm_reach=0.9",
+        "          instead of variant 'long' 1.2 m at cell.robot.yaml:4:30",
+        "          instead of the default 0.7 m at cell.robot.yaml:3:25",
+    ]
+
+
+def test_a_variant_and_a_default_in_an_included_file_are_told(nested: Path):
+    assert computed(nested, "links/left_tip/visual/sphere", "--variant", "long") == [
+        'computed: "$(twice / 4)"',
+        "  twice is 2.4 m, the variable $(reach * 2) at more.yaml:2:20",
+        "    reach is 1.2 m, 'with' $(arm_reach) at cell.robot.yaml:7:60",
+        "      instead of the default 0.8 m at arm.robot.yaml:5:34",
+        "      arm_reach is 1.2 m, variant 'long' 1.2 m at cell.robot.yaml:4:30",
+        "        instead of the default 0.7 m at cell.robot.yaml:3:25",
+    ]
+    assert computed(nested, "links/left_tip/visual/sphere")[-1] == (
+        "      arm_reach is 0.7 m, the default 0.7 m at cell.robot.yaml:3:25"
+    )
+
+
+def test_a_value_that_is_handed_on_from_data_is_told_where_it_stands(nested: Path):
+    assert computed(nested, "links/left_hand_palm/inertial/mass") == [
+        'computed: "$(kin.masses[1])"',
+        "  kin is a map, the content of kin.yaml, named at hand.robot.yaml:4:13",
+        "the value itself is written at kin.yaml:1:13",
+        "     1 | masses: [3, 1.5]",
+        "       |             ^^^",
+    ]
+
+
+def test_a_list_tells_the_names_of_its_parts_once_each(nested: Path):
+    lines = computed(nested, "links/left_hand_palm/visual/0/box")
+    assert [line.split(",")[0].strip() for line in lines if " is " in line] == [
+        "width is 0.7 m",
+        "reach is 0.7 m",
+        "arm_reach is 0.7 m",
+        "half is 0.35 m",
+    ]
+
+
+def test_a_name_of_for_is_told(nested: Path):
+    lines = computed(nested, "links/left_hand_f_1/visual/0/origin/xyz/0")
+    assert "  i is 1, one of 'for' 2 at hand.robot.yaml:8:21" in lines
+
+
+def test_what_an_override_hands_to_a_module_is_told_with_what_it_beat(nested: Path):
+    patch = "override: {modules: {hand: {with: {width: 0.3 m}}}}"
+    text = NESTED["cell.robot.yaml"].replace("parent: table", f"parent: table, {patch}")
+    (nested / "cell.robot.yaml").write_text(text)
+    assert computed(nested, "links/left_hand_palm/visual/0/box/0") == [
+        "computed: $(width)",
+        "  width is 0.3 m, 'with' 0.3 m at cell.robot.yaml:7:88",
+        "    instead of 'with' $(reach) at arm.robot.yaml:8:60",
+        "    instead of the default 0.1 m at hand.robot.yaml:3:45",
+    ]

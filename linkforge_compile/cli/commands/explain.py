@@ -15,7 +15,7 @@ from linkforge_compile.cli.telling import add_telling_options, tell
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.writers import Explanation
+    from linkforge_compile.writers import Explanation, NameStory
 
 _EXAMPLES = """\
 PATH is that of the value in the finished robot: the language's keys in their long form, and final names.
@@ -98,6 +98,10 @@ def _lines(explanation: Explanation) -> Iterator[str]:
         yield from told("written", explanation.place)
         if explanation.expression:
             yield f"computed: {explanation.expression}"
+            for name in explanation.names:
+                yield from _name(name, "  ")
+        if explanation.origin:
+            yield from told("the value itself is written", explanation.origin)
     else:
         yield "nothing is written for it"
         yield from told("what it belongs to is written", explanation.place)
@@ -107,3 +111,10 @@ def _lines(explanation: Explanation) -> Iterator[str]:
         yield from told("included", included)
     for use in explanation.trail:
         yield from told("used", use)
+
+
+def _name(name: NameStory, indent: str) -> Iterator[str]:
+    yield f"{indent}{name.name} is {name.value}, {name.setting}"
+    yield from (f"{indent}  instead of {beaten}" for beaten in name.instead_of)
+    for inner in name.names:
+        yield from _name(inner, f"{indent}  ")

@@ -1,18 +1,19 @@
 """LF30xx: files, parameters and modules."""
 
-from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.diagnostics.diagnostic import Blame, Code, Severity
 
 _E, _N = Severity.ERROR, Severity.NOTE
+_KIND, _WRITER = Blame.KIND, Blame.WRITER
 
 # LF300x: finding and reading files
-NO_SUCH_FILE = Code("LF3001", _E, "there is no file '{path}'")
+NO_SUCH_FILE = Code("LF3001", _E, "there is no file '{path}'", _WRITER)
 UNREADABLE_FILE = Code("LF3002", _E, "'{path}' cannot be read: {reason}")
-NOT_A_SPEC = Code("LF3003", _E, "a module is a .robot.yaml file, found '{path}'")
+NOT_A_SPEC = Code("LF3003", _E, "a module is a .robot.yaml file, found '{path}'", _WRITER)
 NOT_A_SPEC_YET = Code("LF3004", _E, "{kind} cannot be used as a module yet, only a .robot.yaml; found '{path}'")
 UNKNOWN_PACKAGE = Code(
-    "LF3005", _E, "no package named '{name}'; say where it is with 'packages' or --package {name}=FOLDER"
+    "LF3005", _E, "no package named '{name}'; say where it is with 'packages' or --package {name}=FOLDER", _WRITER
 )
-USE_OF_NOWHERE = Code("LF3006", _E, "'{path}' leads nowhere: {reason}")
+USE_OF_NOWHERE = Code("LF3006", _E, "'{path}' leads nowhere: {reason}", _WRITER)
 
 # LF301x: modules
 MODULE_WITHOUT_FILE = Code("LF3010", _E, "module '{name}' has no 'use'; write 'use: FILE.robot.yaml'")
@@ -27,11 +28,11 @@ TOO_MANY_MODULES = Code("LF3014", _E, "the robot is made of more than {limit} mo
 UNKNOWN_PARAMETER = Code("LF3020", _E, "no parameter named '{name}'")
 PARAMETER_NOT_SET = Code("LF3021", _E, "parameter '{name}' has no default and must be set; write '{remedy}'")
 NOT_JUDGED = Code("LF3022", _N, "nothing sets {names} here, so what depends on {pronoun} is not judged")
-PARAMETER_KIND = Code("LF3023", _E, "parameter '{parameter}' takes {expected}, found {found}")
-PARAMETER_TOO_SMALL = Code("LF3024", _E, "parameter '{parameter}' must be at least {bound}, found {found}")
-PARAMETER_TOO_LARGE = Code("LF3025", _E, "parameter '{parameter}' must be at most {bound}, found {found}")
-PARAMETER_CHOICE = Code("LF3026", _E, "parameter '{parameter}' is one of {choices}, found '{name}'")
-PARAMETER_PATTERN = Code("LF3027", _E, "parameter '{parameter}' must match '{pattern}', found {found}")
+PARAMETER_KIND = Code("LF3023", _E, "parameter '{parameter}' takes {expected}, found {found}", _KIND)
+PARAMETER_TOO_SMALL = Code("LF3024", _E, "parameter '{parameter}' must be at least {bound}, found {found}", _WRITER)
+PARAMETER_TOO_LARGE = Code("LF3025", _E, "parameter '{parameter}' must be at most {bound}, found {found}", _WRITER)
+PARAMETER_CHOICE = Code("LF3026", _E, "parameter '{parameter}' is one of {choices}, found '{name}'", _WRITER)
+PARAMETER_PATTERN = Code("LF3027", _E, "parameter '{parameter}' must match '{pattern}', found {found}", _WRITER)
 NOT_AN_ASSIGNMENT = Code("LF3028", _E, "a parameter is set by NAME=VALUE, found '{text}'")
 SET_TWICE = Code("LF3029", _E, "parameter '{name}' is set twice")
 
