@@ -80,14 +80,15 @@ def hung_by(mount: ModuleJoint, module: Instance, root: str | None, sink: Diagno
 
 
 def hang_on_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diagnostics) -> bool:
-    """Hang a compiled robot on the link `world`, made as its first unless it is declared; False for a fault."""
+    """Hang a compiled robot on the link `world`, its first, made unless it is declared; False for a fault."""
     if mount.joint is None or not _holds_root(mount, root, "", sink):
         return False
     if (other := robot.joints.get(mount.name)) is not None:
         tell_duplicate(sink, "joint", mount.name, mount.joint.source, other.source)
         return False
-    if WORLD not in robot.links:
-        robot.links = (Link(WORLD, source=mount.joint.source), *robot.links)
+    declared = robot.links.get(WORLD) if WORLD in robot.links else None
+    world = declared or Link(WORLD, source=mount.joint.source)
+    robot.links = (world, *(link for link in robot.links if link.name != WORLD))
     robot.joints = (mount.joint, *robot.joints)
     robot.gazebo_elements = robot.gazebo_elements.extended(mount.gazebo)
     return True

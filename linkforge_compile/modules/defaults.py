@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.repetition import REPEATED_DEFAULT
-from linkforge_compile.modules.normal_form import CHOICES, is_said, long_form
+from linkforge_compile.modules.normal_form import CHOICES, is_said, long_form, long_object
 from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 
@@ -91,6 +91,10 @@ def _with_shapes_filled(links: YamlMap, defaults: YamlMap) -> YamlMap:
         for key in ("visual", "collision"):
             shape = shapes().under("links").under(entry.name).under(key)
             default, said = defaults.get(key), link.get(key) if isinstance(link, YamlMap) else None
+            if isinstance(default, YamlMap) and isinstance(link, YamlMap) and isinstance(said, YamlScalar):
+                # A copy of the visuals takes the default of collisions as if it were written out.
+                link = long_object(link, shapes().under("links").under(entry.name))
+                said = link.get(key)
             if isinstance(default, YamlMap) and isinstance(link, YamlMap) and isinstance(said, YamlMap | YamlList):
                 filled = _each_filled(said, default, shape)
                 link = YamlMap({**link.entries, key: YamlEntry(link.entries[key].key, filled)}, link.span)

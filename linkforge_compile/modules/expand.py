@@ -12,6 +12,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     USE_CIRCLE,
     USE_TOO_DEEP,
 )
+from linkforge_compile.diagnostics.codes.schema import WRONG_KIND
 from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.assembly import Instance
@@ -28,7 +29,7 @@ from linkforge_compile.modules.uses import mesh_base, name_from, open_use
 from linkforge_compile.modules.variants import tell_unknown_variant, variants_of
 from linkforge_compile.schema.shapes import FREE, shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.syntax import YamlFault, YamlMap, YamlScalar
+from linkforge_compile.syntax import YamlFault, YamlMap, YamlScalar, is_null
 
 MAX_DEPTH = 50
 MAX_MODULES = 10_000
@@ -170,6 +171,8 @@ def _tree(use: _Use, tree: TreeEvaluator) -> YamlMap:
     if defaults is None:
         return computed
     filling = tree.part(without_repetition(defaults, tree.sink), shapes().under("defaults"), "defaults")
+    if not (filling is None or isinstance(filling, YamlMap | YamlFault) or is_null(filling)):
+        tree.sink.report(WRONG_KIND.at(filling.span, field="'defaults'", expected="a map", found=found(filling)))
     return with_defaults(computed, filling) if filling else computed
 
 

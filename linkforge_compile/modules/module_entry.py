@@ -36,9 +36,10 @@ class ModuleEntry:
 
 def read_entry(entry: YamlEntry, tree: TreeEvaluator, folder: Path | None, trail: tuple[Span, ...]) -> ModuleEntry:
     """Read an entry of a file that lies in `folder`; what is at fault is reported and as if it were not there."""
-    key = tree.key(entry.key)
-    name = key.text if key else entry.name
     written = entry.value
+    # The key of what is faulty stays as it is: its names may be those of the fault itself.
+    key = None if isinstance(written, YamlFault) else tree.key(entry.key)
+    name = key.text if key else entry.name
     body = tree.node(written, module_shape(), key=name) if isinstance(written, YamlScalar) else written
     if isinstance(body, YamlScalar) and body.value is None:
         body = YamlMap({}, entry.key.span)

@@ -27,6 +27,9 @@ from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import Quantity, parse_quantity
+
+_AXES: Mapping[str, tuple[int, int, int]] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +115,7 @@ class _Patch:
             return self.map(old if isinstance(old, YamlMap) else YamlMap({}, new.span), new, shape, field)
         if isinstance(new, YamlMap) and isinstance(old, YamlMap):
             return self.map(old, new, shape, field)
-        if old is not None and _is_same(old, new):
+        if old is not None and _is_same(*(_plain(one, field, shape) for one in (old, new))):
             self._sink.report(SAME_AS_BEFORE.at(patch.span, field=field))
         return new
 
@@ -170,7 +173,8 @@ class _Patch:
 
 def _items(base: YamlNode | None, shape: Shape) -> tuple[YamlNode, ...]:
     """Return the items of a list, or what stands for a list of one."""
-    whole = None if base is None else long_form(base, shape)
+    # A list of names counts as written, also where a map of them may stand.
+    whole = base if base is None or isinstance(base, YamlList) else long_form(base, shape)
     return whole.items if isinstance(whole, YamlList) else ()
 
 
@@ -191,6 +195,24 @@ def _deleted(before: YamlMap, after: YamlMap, patch: YamlMap, sections: tuple[st
 
 def _is_written_null(node: YamlNode) -> bool:
     return isinstance(node, YamlScalar) and node.value is None and bool(node.text)
+
+
+def _plain(node: YamlNode, field: str, shape: Shape) -> YamlNode:
+    """Return a node in the form in which two that mean the same are equal: an axis in numbers, numbers in SI units."""
+    if shape.is_free_part or shape.is_text:
+        return node
+    match node:
+        case YamlScalar(text=text) if field == "axis" and text.lstrip("-") in _AXES:
+            sign = -1 if text.startswith("-") else 1
+            numbers = tuple(sign * number for number in _AXES[text.lstrip("-")])
+            return YamlList(tuple(YamlScalar(str(number), number, node.span) for number in numbers), node.span)
+        case YamlScalar(value=str() as value) if quantity := parse_quantity(value):
+            return YamlScalar(node.text, quantity.value, node.span)
+        case YamlScalar(value=Quantity(value=value)):
+            return YamlScalar(node.text, value, node.span)
+        case YamlList():
+            return YamlList(tuple(_plain(item, field, shape.item or shape) for item in node), node.span)
+    return node
 
 
 def _is_same(one: YamlNode, other: YamlNode) -> bool:

@@ -99,7 +99,7 @@ def _unknown_key(key: YamlScalar, schema: Schema) -> Diagnostic:
     owner, known = str(schema["title"]), mapping(schema.get("properties", {}))
     own = [name for name in known if name not in COMMON_KEYS]
     near = [*known, *sorted(UNBUILT.get(owner, ()))]
-    hint = _HINTS.get(key.text, "")
+    hint = _HINTS_FOR_OWNER.get((owner, key.text)) or _HINTS.get(key.text, "")
     parts = {name: part for name, part in known.items() if name not in _NOT_HOMES}
     if not hint and (homes := [f"'{name}'" for name, part in parts.items() if key.text in _keys_within(part)]):
         hint = f"it belongs under {alternatives(homes)}"
@@ -108,6 +108,12 @@ def _unknown_key(key: YamlScalar, schema: Schema) -> Diagnostic:
     hinted = f"; {hint}" if hint else ""
     return UNKNOWN_KEY.at(key.span, name=key.text, owner=owner, hint=hinted, near=() if hint else near)
 
+
+_HINTS_FOR_OWNER = {
+    ("an override", "frames"): "a frame is a link and a joint here: write what is to change under 'links' or 'joints'",
+    ("an override", "parameters"): "parameters are set by 'with'",
+}
+"""What is meant by keys that other objects have."""
 
 _HINTS = {
     "geometry": "write the shape itself, such as 'box: [1, 1, 1]'",
@@ -160,10 +166,20 @@ def _wrong_word(misfit: Misfit) -> Iterator[Judgement]:
 
 def _wrong_kind(misfit: Misfit) -> Iterator[Judgement]:
     node, path, schema = misfit
+    way_out = _EXAMPLES.get(str(path[-1]), "") if path else ""
+    if isinstance(node, YamlScalar) and node.text.lower() in _TRUTHS and "true, false" in expected(schema):
+        way_out = f"; write {_TRUTHS[node.text.lower()]}"
     yield Judgement(
-        WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=found(node)),
+        WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=f"{found(node)}{way_out}"),
         path,
     )
+
+
+_EXAMPLES = {"for": "; write '{side: [left, right]}'"}
+"""What to write under keys of which it is easily forgotten."""
+
+_TRUTHS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
+"""What older YAML reads as true and false, and YAML 1.2 as text."""
 
 
 def _no_branch(misfit: Misfit) -> Iterator[Judgement]:

@@ -34,7 +34,7 @@ def test_alone_it_hangs_on_a_world_that_is_made_as_the_first_link():
 
 def test_a_declared_world_is_used():
     robot = compile_text(LEG.replace("{hip: , foot: }", "{hip: , foot: , world: }")).result()
-    assert robot.links.names == ("hip", "foot", "world")
+    assert robot.links.names == ("world", "hip", "foot")
     assert ends(robot)[0] == ("hip_joint", "world", "hip")
 
 

@@ -148,3 +148,21 @@ def test_a_default_keeps_its_own_place():
     made = assemble("defaults: {joint: {axis: q}}\njoints: {a: {type: continuous}}")
     axis = made.instance.tree.get("joints").get("a").get("axis")
     assert (axis.span.line, axis.span.column) == (3, 26)
+
+
+def test_a_copy_of_the_visuals_takes_the_default_of_collisions():
+    found = assemble("""
+        defaults: {collision: {origin: [0, 0, 1], name: hull}}
+        links:
+          arm: {visual: [{sphere: 1}, {box: [1, 1, 1], origin: [1, 0, 0], material: steel}], collision: visual}
+    """)
+    assert found.told == []
+    assert plain(found.instance.tree.get("links").get("arm").get("collision")) == [
+        {"sphere": 1, "origin": [0, 0, 1], "name": "hull"},
+        {"box": [1, 1, 1], "origin": {"xyz": [1, 0, 0]}, "name": "hull"},
+    ]
+
+
+def test_defaults_that_are_no_map_are_told():
+    found = assemble("variables: {list: [1]}\ndefaults: $(list)\nlinks: {arm: }\n")
+    assert found.told == ["'defaults' takes a map, found a list"]

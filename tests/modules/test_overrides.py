@@ -212,3 +212,36 @@ def test_gazebo_blocks_about_what_is_deleted_go_with_it(tmp_path):
     compilation = compile_file(tmp_path / "cell.robot.yaml")
     assert not compilation.diagnostics
     assert [element.reference for element in compilation.result().gazebo_elements] == ["a_base"]
+
+
+def test_a_position_reaches_lists_of_interfaces(tmp_path: Path):
+    arm = """
+        links: {base: }
+        ros2_control:
+          rig: {joints: {j: {state_interfaces: [position, velocity]}}, gpios: {io: {command_interfaces: [a, b]}}}
+    """
+    write(tmp_path, {"arm.robot.yaml": arm})
+    patch = "{rig: {joints: {j: {state_interfaces: {1: effort}}}, gpios: {io: {command_interfaces: {0: null}}}}}"
+    found = assemble(
+        f"modules: {{arm: {{use: arm.robot.yaml, override: {{ros2_control: {patch}}}}}}}\n", folder=tmp_path
+    )
+    assert found.told == []
+    rig = found.instance.modules[0].tree.get("ros2_control").get("rig")
+    assert plain(rig.get("joints")) == {"j": {"state_interfaces": ["position", "effort"]}}
+    assert plain(rig.get("gpios")) == {"io": {"command_interfaces": ["b"]}}
+
+
+@pytest.mark.parametrize(
+    ("patch", "is_same"),
+    [
+        ("axis: [1, 0, 0]", True),
+        ("axis: [-1, 0, 0]", False),
+        ("axis: -x", False),
+        ("limits: {effort: 1 N*m}", True),
+        ("origin: {xyz: [0, 0, 1]}", False),
+    ],
+)
+def test_what_is_there_already_is_told_in_whatever_form(change, patch: str, is_same: bool):
+    found = change(f"joints: {{wrist: {{{patch}}}}}")
+    assert [one for one in found.told if one.endswith("is so already: this overrides nothing")] == found.told
+    assert bool(found.told) is is_same

@@ -11,7 +11,10 @@ UNREADABLE_FILE = Code("LF3002", _E, "'{path}' cannot be read: {reason}")
 NOT_A_SPEC = Code("LF3003", _E, "a module is a .robot.yaml file, found '{path}'", _WRITER)
 NOT_A_SPEC_YET = Code("LF3004", _E, "{kind} cannot be used as a module yet, only a .robot.yaml; found '{path}'")
 UNKNOWN_PACKAGE = Code(
-    "LF3005", _E, "no package named '{name}'; say where it is with 'packages' or --package {name}=FOLDER", _WRITER
+    "LF3005",
+    _E,
+    "no package named '{name}'; say where it is with 'packages' of this file or --package {name}=FOLDER",
+    _WRITER,
 )
 USE_OF_NOWHERE = Code("LF3006", _E, "'{path}' leads nowhere: {reason}", _WRITER)
 
