@@ -199,7 +199,7 @@ def _is_written_null(node: YamlNode) -> bool:
 
 def _plain(node: YamlNode, field: str, shape: Shape) -> YamlNode:
     """Return a node in the form in which two that mean the same are equal: an axis in numbers, numbers in SI units."""
-    if shape.is_free_part or shape.is_text:
+    if shape.is_free_part or (shape.is_text and field != "axis"):
         return node
     match node:
         case YamlScalar(text=text) if field == "axis" and text.lstrip("-") in _AXES:

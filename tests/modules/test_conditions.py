@@ -2,6 +2,7 @@
 
 import pytest
 
+from linkforge_compile.diagnostics import Removed
 from linkforge_compile.modules import conditions
 from tests.modules.assembling import Assembled, assemble, plain, write
 
@@ -84,7 +85,7 @@ def test_disabled_names_are_remembered_with_the_place_of_their_when():
         parameters: {drive: false}
         links: {wheel_$(side): {for: {side: [left, right]}, when: $(drive)}}
     """)
-    removed = made.instance.removed
+    removed = made.instance.removed.names
     assert {name: (note.span.line, note.span.column) for name, note in removed.items()} == {
         "wheel_left": (4, 59),
         "wheel_right": (4, 59),
@@ -93,7 +94,7 @@ def test_disabled_names_are_remembered_with_the_place_of_their_when():
 
 def test_only_what_has_a_name_of_its_own_is_remembered_as_disabled():
     made = assemble("semantic: {disabled_collisions: {base: {tool: {when: false, value: Never}}}}")
-    assert made.instance.removed == {}
+    assert made.instance.removed == Removed()
 
 
 def test_for_and_when_are_plain_keys_in_free_parts():
@@ -150,4 +151,4 @@ def test_the_work_of_for_is_bounded(written: str):
 def test_a_file_without_repetition_is_not_walked_twice():
     made = assemble("links: {a: {visual: {sphere: 1}}}\nmetadata: {x: $(1 + 1)}")
     assert made.metadata == {"x": 2}
-    assert made.instance.removed == {}
+    assert made.instance.removed == Removed()

@@ -108,7 +108,7 @@ def test_a_deleted_link_takes_its_joint_pairs_and_spheres_with_it(change):
     assert made.at("semantic", "enabled_collisions") == {"hand": {}}
     assert made.at("semantic", "link_sphere_approximations") == {"base": []}
     assert made.at("semantic", "groups", "arm") == {"chain": {"base_link": "base", "tip_link": "cover"}}
-    assert set(made.instance.modules[0].removed) == {"cover", "lid", "eye"}
+    assert set(made.instance.modules[0].removed.names) == {"cover", "lid", "eye"}
 
 
 def test_expressions_and_repetition_see_the_overriding_files_names(change):
