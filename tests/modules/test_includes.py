@@ -62,7 +62,7 @@ def test_paths_are_relative_to_the_file_that_wrote_them(tmp_path):
         },
     )
     compilation = compile_file(tmp_path / "robot.yaml")
-    assert not compilation.diagnostics
+    assert not compilation.has_errors
     urdf = render_urdf(compilation.result())
     for path in ("meshes/base.stl", "looks/tip.stl", "shells/shell.stl", "own.stl", "looks/grip.stl"):
         assert f'filename="arms/{path}"' in urdf
