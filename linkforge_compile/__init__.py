@@ -21,7 +21,16 @@ if TYPE_CHECKING:
     from linkforge_compile.backends.source_map import SourceMap, render_srdf_with_map, render_urdf_with_map
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
-    from linkforge_compile.pipeline import Compilation, CompileError, check_file, check_text, compile_file, compile_text
+    from linkforge_compile.pipeline import (
+        Compilation,
+        CompileError,
+        Import,
+        check_file,
+        check_text,
+        compile_file,
+        compile_text,
+        import_urdf,
+    )
     from linkforge_compile.source import Span
     from linkforge_compile.writers import write_spec
 
@@ -30,6 +39,7 @@ __all__ = [
     "CompileError",
     "Diagnostic",
     "Diagnostics",
+    "Import",
     "Robot",
     "Severity",
     "SourceMap",
@@ -39,6 +49,7 @@ __all__ = [
     "check_text",
     "compile_file",
     "compile_text",
+    "import_urdf",
     "render_srdf",
     "render_srdf_with_map",
     "render_urdf",
@@ -51,6 +62,7 @@ _HOMES = {
     "CompileError": "pipeline",
     "Diagnostic": "diagnostics",
     "Diagnostics": "diagnostics",
+    "Import": "pipeline",
     "Robot": "core",
     "Severity": "diagnostics",
     "SourceMap": "backends.source_map",
@@ -59,6 +71,7 @@ _HOMES = {
     "check_text": "pipeline",
     "compile_file": "pipeline",
     "compile_text": "pipeline",
+    "import_urdf": "pipeline",
     "render_srdf": "backends",
     "render_srdf_with_map": "backends.source_map",
     "render_urdf": "backends",

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.checks import check
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Severity
+from linkforge_compile.diagnostics.codes.importing import LOSSES
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.diagnostics.ignores import heed
 from linkforge_compile.lowering import MeshSolids, lower
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Compilation",
     "CompileError",
+    "Import",
     "ListedParameter",
     "Listing",
     "Packages",
@@ -50,6 +52,7 @@ __all__ = [
     "check_variants",
     "compile_file",
     "compile_text",
+    "import_urdf",
     "parameters_of",
 ]
 
@@ -172,6 +175,47 @@ def parameters_of(path: str | Path) -> tuple[Listing | None, tuple[Diagnostic, .
     spec = loader.open(Path(path), sink)
     listing = list_parameters(spec, loader, sink) if spec else None
     return listing, sink.sorted()
+
+
+@dataclass(frozen=True, slots=True)
+class Import:
+    """What reading a robot that was written elsewhere gave: a spec, and what is to be told about it.
+
+    `text` is None where the file is not the robot that it is said to be.
+    """
+
+    text: str | None
+    diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def has_errors(self) -> bool:
+        return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
+
+    @property
+    def losses(self) -> tuple[Diagnostic, ...]:
+        """What of the robot is not in the spec."""
+        return tuple(diagnostic for diagnostic in self.diagnostics if diagnostic.code in LOSSES)
+
+
+def import_urdf(path: str | Path) -> Import:
+    """Read a URDF file as a spec that compiles to the same robot; its errors are told where the URDF has them."""
+    return with_room(lambda: _imported(Path(path)))
+
+
+def _imported(path: Path) -> Import:
+    from linkforge_compile.importers.urdf import read_urdf
+    from linkforge_compile.syntax import write
+
+    sink, loader = Diagnostics(), Loader()
+    file = loader.open_xml(path, sink)
+    imported = read_urdf(file, sink) if file else None
+    if file is None or imported is None:
+        return Import(None, sink.sorted())
+    # The tree has the spans of the file, so what is wrong with the robot is told there.
+    judged = Diagnostics()
+    _robot(SpecFile(file, imported.tree, path.parent), _Settings((), None, None, "gz"), loader, MeshSolids(), judged)
+    sink.report_all(fault for fault in judged if fault.severity is Severity.ERROR)
+    return Import(write(imported.tree, *imported.comments), sink.sorted())
 
 
 _Read: TypeAlias = Callable[[Loader, Diagnostics], SpecFile | None]

@@ -18,13 +18,14 @@ MAY_IMPORT = {
     "syntax": "source diagnostics units",
     "schema": "source diagnostics syntax units resources",
     "expressions": "source diagnostics units",
-    "modules": "source diagnostics units syntax schema expressions",
+    "importers": "source diagnostics units syntax",
+    "modules": "source diagnostics units syntax schema expressions importers",
     "core": "source units",
     "lowering": "source diagnostics units syntax modules core",
     "checks": "source diagnostics core",
     "backends": "source diagnostics units core resources",
     "writers": "source units syntax core modules",
-    "pipeline": "source diagnostics units syntax schema modules lowering checks backends core writers stack",
+    "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core writers stack",
     "cli": "source diagnostics core checks schema pipeline backends writers resources _version",
 }
 

@@ -7,9 +7,11 @@ import pytest
 
 from linkforge_compile.diagnostics import Code, codes
 from linkforge_compile.diagnostics.codes import REGISTER
+from tests.urdf_case import check_urdf_case, expected_in_xml
 from tests.yaml_case import check_case, expected
 
 BAD = sorted((Path(__file__).parent / "cases" / "bad").glob("*.yaml"))
+BAD_URDF = sorted((Path(__file__).parent / "cases" / "bad_urdf").glob("*.urdf"))
 
 FAMILIES = [module for module in vars(codes).values() if getattr(module, "__package__", None) == codes.__name__]
 
@@ -30,6 +32,8 @@ WITHOUT_A_CASE = {
     "LF6014": "lowering/test_mesh_inertia.py",
     "LF6025": "checks/test_meshes.py",
     "LF7104": "cli/test_compile.py",
+    "LF8003": "importers/test_xml.py",
+    "LF8004": "importers/test_xml.py",
 }
 
 
@@ -45,8 +49,19 @@ def test_a_case_is_named_after_a_code_that_it_expects(path: Path):
     assert code in {one.code for file in files for one in expected(file.name, file.read_text("utf-8", "replace"))}
 
 
+@pytest.mark.parametrize("path", BAD_URDF, ids=lambda path: path.name)
+def test_a_bad_urdf_is_told_at_its_line(path: Path):
+    check_urdf_case(path)
+
+
+@pytest.mark.parametrize("path", BAD_URDF, ids=lambda path: path.name)
+def test_a_urdf_is_named_after_a_code_that_it_expects(path: Path):
+    code = path.name.partition("_")[0]
+    assert code in {one.code for one in expected_in_xml(path.name, path.read_text("utf-8"))}
+
+
 def test_every_code_has_a_case():
-    shown = {path.name.partition("_")[0] for path in BAD}
+    shown = {path.name.partition("_")[0] for path in (*BAD, *BAD_URDF)}
     assert shown | set(WITHOUT_A_CASE) == set(REGISTER)
 
 

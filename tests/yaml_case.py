@@ -12,7 +12,7 @@ from pathlib import Path
 from textwrap import dedent
 from typing import NamedTuple
 
-from linkforge_compile import Compilation, Severity, compile_file, compile_text
+from linkforge_compile import Compilation, Import, Severity, compile_file, compile_text
 
 SEVERITIES = {"E": Severity.ERROR, "W": Severity.WARNING, "N": Severity.NOTE}
 EXPECTATION = re.compile(r"(?P<up>\^*)(?P<severity>[EWN])\[(?P<code>LF\d{4})\]:(?P<column>\d+) (?P<message>.+)")
@@ -47,7 +47,7 @@ def expected(file: str, text: str) -> Iterator[Told]:
             )
 
 
-def told(compilation: Compilation) -> set[Told]:
+def told(compilation: Compilation | Import) -> set[Told]:
     assert all(diagnostic.span for diagnostic in compilation.diagnostics), "a spec's fault without a place"
     return {
         Told(

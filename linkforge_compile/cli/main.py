@@ -19,6 +19,7 @@ _COMMANDS = {
     "expand": "print a spec as one flat file: no modules, expressions, loops or defaults left",
     "explain": "tell where a value of the finished robot comes from, or what a code means",
     "where": "tell what in a spec wrote a line of the URDF or SRDF",
+    "import": "write an existing URDF as a spec",
     "schema": "print the JSON Schema of specs, for editors",
     "matcher": "print the problem matcher for GitHub Actions",
 }
@@ -52,7 +53,8 @@ def _run(words: list[str]) -> int:
     from importlib import import_module
 
     name, *rest = words
-    command = import_module(f"linkforge_compile.cli.commands.{name}")
+    # `import` is a word of Python, and no name of a module.
+    command = import_module(f"linkforge_compile.cli.commands.{name.replace('import', 'import_')}")
     parser = _parser(f"linkforge {name}", _COMMANDS[name])
     command.add_arguments(parser)
     # Intermixed, so that `linkforge compile arm.robot.yaml -o build/ reach:=0.7` works as it does with ROS's tools.

@@ -53,10 +53,16 @@ def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
             physics,
             [visual for visual in visuals if visual],
             [collision for collision in collisions if collision],
+            collisions_first=_are_collisions_first(fields),
             source=fields.ref,
             **outer_extras_of(fields),
         )
     )
+
+
+def _are_collisions_first(link: Fields) -> bool:
+    shapes = [entry.name for entry in link.node if entry.name in ("visual", "collision")]
+    return shapes == ["collision", "visual"]
 
 
 def _physics(link: Fields) -> LinkPhysics:

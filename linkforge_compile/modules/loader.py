@@ -6,11 +6,13 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.files import TOO_MUCH_DATA
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
-from linkforge_compile.modules.file_text import MAX_BYTES, UnreadableError, file_text
+from linkforge_compile.importers import EncodingError, xml_text
+from linkforge_compile.modules.file_text import MAX_BYTES, UnreadableError, file_bytes, file_text
 from linkforge_compile.modules.includes import Whole, lay_together, reached
 from linkforge_compile.modules.noted import NotedSink
 from linkforge_compile.modules.packages import Package
@@ -50,6 +52,10 @@ class Used:
 
     text: str
     where: Span | None
+
+
+class _ReadText(Protocol):
+    def __call__(self, path: Path, *, only_regular: bool) -> str | None: ...
 
 
 class Loader:
@@ -95,6 +101,11 @@ class Loader:
             self._specs[real] = self._whole(source, path.parent, sink)
         whole = self._specs[real]
         return _spec(whole, path.parent, package) if whole else None
+
+    def open_xml(self, path: Path, sink: Diagnostics, used: Used | None = None) -> SourceFile | None:
+        """Read a text of XML in the encoding that it says; `used` says by what, None for the command line."""
+        text = _text(path, used or Used(str(as_typed(path)), None), sink, _xml_text)
+        return None if text is None else self._source(str(as_typed(path)), text, as_typed(path))
 
     def open_data(self, path: Path, sink: Diagnostics, tags: Tags, used: Used) -> YamlNode | None:
         """Read a file of data, which may be of any shape and hold `tags`; None where it cannot be had, as reported."""
@@ -148,10 +159,18 @@ def _spec(whole: Whole, folder: Path | None, package: Package | None) -> SpecFil
     return SpecFile(whole.file, whole.tree, folder, package, included)
 
 
-def _text(path: Path, used: Used, sink: Diagnostics) -> str | None:
+def _xml_text(path: Path, *, only_regular: bool) -> str | None:
+    content = file_bytes(path, MAX_BYTES, only_regular=only_regular)
+    try:
+        return None if content is None else xml_text(content)
+    except EncodingError as error:
+        raise UnreadableError(str(error)) from error
+
+
+def _text(path: Path, used: Used, sink: Diagnostics, read: _ReadText = file_text) -> str | None:
     # Whoever compiles a pipe named it himself; a `use` of one may be a stranger's, and would make us wait.
     try:
-        text = file_text(path, only_regular=used.where is not None)
+        text = read(path, only_regular=used.where is not None)
     except UnreadableError as error:
         sink.report(UNREADABLE_FILE.at(used.where, path=used.text, reason=error))
         return None

@@ -42,19 +42,21 @@ _BETWEEN_BRACKETS = re.compile(r"[\[\]{},]|:\?")
 _ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\r": "\\r"})
 
 
-def write(tree: YamlMap, comments: Comments = MappingProxyType({})) -> str:
+def write(tree: YamlMap, comments: Comments = MappingProxyType({}), endings: Comments = MappingProxyType({})) -> str:
     """Return a tree without faults as YAML of which `read` makes the same tree, spans aside.
 
-    Expressions stay what they are. Text with characters that no spec may hold is written, and refused when read.
+    `endings` are comments below the last entry or item, by the map or list that holds it, `tree` itself for the end
+    of the file. Expressions stay what they are. Text with characters that no spec may hold is written, and refused
+    when read.
     """
-    return "".join(f"{line}\n" for line in _Layout(comments).document(tree))
+    return "".join(f"{line}\n" for line in _Layout(comments, endings).document(tree))
 
 
 class _Layout:
     """Lays nodes out over lines; an `indent` is that of entries and items themselves."""
 
-    def __init__(self, comments: Comments) -> None:
-        self._comments = comments
+    def __init__(self, comments: Comments, endings: Comments) -> None:
+        self._comments, self._endings = comments, endings
 
     def document(self, tree: YamlMap) -> Iterator[str]:
         """Yield the lines of a file: its sections apart, and none in brackets, for there names are looked up."""
@@ -71,6 +73,9 @@ class _Layout:
                 yield from self._block(entry.value, _INDENT)
             else:
                 yield from self._value(key, entry.value, "")
+        if tree in self._endings:
+            yield ""
+            yield from _commented(self._endings[tree], "")
 
     def _block(self, node: YamlNode, indent: str) -> Iterator[str]:
         if isinstance(node, YamlMap):
@@ -81,6 +86,7 @@ class _Layout:
             for item in node:
                 yield from self._comment(item, indent)
                 yield from self._item(item, indent)
+        yield from _commented(self._endings.get(node, ""), indent)
 
     def _value(self, key: str, node: YamlNode, indent: str) -> Iterator[str]:
         """Yield the lines of an entry: on that of its key, or below it."""
@@ -120,7 +126,7 @@ class _Layout:
         return None
 
     def _map_in_brackets(self, node: YamlMap, levels: int) -> str | None:
-        if len(node) and (not levels or any(entry.key in self._comments for entry in node)):
+        if len(node) and (not levels or any(entry.key in self._comments for entry in node) or node in self._endings):
             return None
         values = [self._in_brackets(entry.value, levels - 1) for entry in node]
         if None in values:
@@ -129,14 +135,18 @@ class _Layout:
         return "{" + ", ".join(f"{key}: {value}" for key, value in zip(keys, values, strict=True)) + "}"
 
     def _list_in_brackets(self, node: YamlList, levels: int) -> str | None:
-        if len(node) and (not levels or any(item in self._comments for item in node)):
+        if len(node) and (not levels or any(item in self._comments for item in node) or node in self._endings):
             return None
         items = [self._in_brackets(item, levels - 1) for item in node]
         return None if None in items else f"[{', '.join(item or '' for item in items)}]"
 
     def _comment(self, node: YamlNode, indent: str) -> Iterator[str]:
-        for line in self._comments.get(node, "").splitlines():
-            yield f"{indent}# {line}".rstrip()
+        yield from _commented(self._comments.get(node, ""), indent)
+
+
+def _commented(text: str, indent: str) -> Iterator[str]:
+    for line in text.splitlines():
+        yield f"{indent}# {line}".rstrip()
 
 
 def _scalar_lines(start: str, node: YamlScalar, indent: str) -> Iterator[str]:

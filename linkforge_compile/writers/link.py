@@ -15,10 +15,12 @@ from linkforge_compile.writers.pen import Pen
 
 def written_link(pen: Pen, link: Link, materials: Mapping[str, Material], gazebo: YamlNode | None) -> YamlMap:
     """Return a link; `gazebo` is what a simulator is told about it beside its physics."""
+    visuals = _one_or_list(pen, [_visual(pen, visual, materials) for visual in link.visuals])
+    shapes = {"visual": visuals, "collision": _collisions(pen, link)}
     return pen.element(
         link,
-        visual=_one_or_list(pen, [_visual(pen, visual, materials) for visual in link.visuals]),
-        collision=_collisions(pen, link),
+        # Their order is that of the output.
+        **dict(reversed(shapes.items()) if link.collisions_first else shapes),
         inertial=_inertial(pen, link.inertial) if link.inertial else None,
         physics=_physics(pen, link.physics),
         gazebo=gazebo,

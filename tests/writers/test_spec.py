@@ -45,6 +45,12 @@ def test_a_link_takes_the_shortest_forms():
     """)
 
 
+def test_collisions_that_come_out_first_are_written_first():
+    ball = Sphere(0.1)
+    link = Link("ball", visuals=[Visual(ball)], collisions=[Collision(ball)], collisions_first=True)
+    assert spec(links=[link]) == "links:\n  ball: {collision: visual, visual: {sphere: 0.1}}\n"
+
+
 def test_what_differs_between_visual_and_collision_is_written_twice():
     visual, collision = Visual(Sphere(0.1)), Collision(Sphere(0.1), name="hull")
     assert spec(links=[Link("a", visuals=[visual], collisions=[collision])]) == lines("""

@@ -39,8 +39,9 @@ class InertialView(NamedTuple):
 
 
 class ShapeView(NamedTuple):
-    """`<visual>` or `<collision>`; None for a material that it lacks."""
+    """`<visual>` or `<collision>`, by its tag; None for a material that it lacks."""
 
+    tag: str
     attributes: Xml
     origin: Xml
     geometry: Xml
@@ -53,8 +54,7 @@ class LinkView(NamedTuple):
 
     attributes: Xml
     inertial: InertialView | None
-    visuals: tuple[ShapeView, ...]
-    collisions: tuple[ShapeView, ...]
+    shapes: tuple[ShapeView, ...]
     elements: Xml
 
 
@@ -64,8 +64,7 @@ def link_views(links: Iterable[Link], materials: Mapping[str, Material]) -> tupl
         LinkView(
             attributes(link, name=link.name),
             _inertial(link.inertial) if link.inertial else None,
-            tuple([_shape(visual, _material_of(visual, materials)) for visual in link.visuals]),
-            tuple([_shape(collision, None) for collision in link.collisions]),
+            _shapes(link, materials),
             elements(link),
         )
         for link in links
@@ -108,8 +107,15 @@ def _inertial(inertial: Inertial) -> InertialView:
     )
 
 
-def _shape(shape: Visual | Collision, material: MaterialView | None) -> ShapeView:
+def _shapes(link: Link, materials: Mapping[str, Material]) -> tuple[ShapeView, ...]:
+    visuals = [_shape("visual", visual, _material_of(visual, materials)) for visual in link.visuals]
+    collisions = [_shape("collision", collision, None) for collision in link.collisions]
+    return (*collisions, *visuals) if link.collisions_first else (*visuals, *collisions)
+
+
+def _shape(tag: str, shape: Visual | Collision, material: MaterialView | None) -> ShapeView:
     return ShapeView(
+        tag,
         attributes(shape, name=shape.name),
         origin(shape.origin),
         _geometry(shape.geometry),

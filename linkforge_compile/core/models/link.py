@@ -146,7 +146,8 @@ class Link(Renamable):
     """A rigid body, or a frame if `inertial` is None and it has no shapes: `<link name>`. It may be changed in place.
 
     `source` says where it was written, None if nowhere; it is not compared. `extra_attributes` and
-    `extra_elements` are as on `Element`.
+    `extra_elements` are as on `Element`. `collisions_first` says that the collisions are written before the visuals,
+    which to some readers changes colors; it is not compared.
 
     Raises:
         RobotValidationError: NAME_EMPTY for an empty name, INVALID_NAME for one with other characters than
@@ -159,6 +160,7 @@ class Link(Renamable):
     physics: LinkPhysics = LinkPhysics()
     visuals: Sequence[Visual] = ()
     collisions: Sequence[Collision] = ()
+    collisions_first: bool = field(default=False, compare=False, repr=False, kw_only=True)
     extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False, kw_only=True)
     extra_elements: Sequence[str] = field(default=(), repr=False, kw_only=True)
     source: SourceRef | None = field(default=None, compare=False, repr=False, kw_only=True)

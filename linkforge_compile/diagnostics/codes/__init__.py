@@ -9,6 +9,7 @@ from linkforge_compile.diagnostics.codes import (
     expressions,
     files,
     ignoring,
+    importing,
     model,
     modules,
     names,
@@ -21,7 +22,10 @@ from linkforge_compile.diagnostics.diagnostic import Code
 
 REGISTER: dict[str, Code] = {
     code.id: code
-    for family in (syntax, ignoring, schema, modules, files, repetition, expressions, names, model, physics, backends)
+    for family in (
+        *(syntax, ignoring, schema, modules, files, repetition, expressions),
+        *(names, model, physics, backends, importing),
+    )
     for code in vars(family).values()
     if isinstance(code, Code)
 }

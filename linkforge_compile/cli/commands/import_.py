@@ -1,0 +1,51 @@
+"""`linkforge import`: a URDF as a spec that a person would want to keep."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.one_spec import one_spec
+from linkforge_compile.cli.telling import add_telling_options, say, tell
+
+if TYPE_CHECKING:
+    import argparse
+
+_EXAMPLES = """\
+The spec compiles to the same robot. What the language has no word for is in its `extra`, as raw XML; what cannot be
+kept at all is told. Relative paths of meshes stay as they are, so keep the spec beside the URDF.
+
+examples:
+  linkforge import arm.urdf
+  linkforge import arm.urdf -o arm.robot.yaml --strict
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.usage = "linkforge import [options] ROBOT.urdf"
+    parser.epilog = _EXAMPLES
+    parser.add_argument("words", metavar="ROBOT.urdf", nargs="+", help="the robot; a xacro is expanded first")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
+    parser.add_argument("--strict", action="store_true", help="fail, writing nothing, where something cannot be kept")
+    add_telling_options(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    urdf = one_spec(arguments.words)
+    if arguments.output is not None and Path(arguments.output).resolve() == Path(urdf).resolve():
+        raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
+    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+    from linkforge_compile.pipeline import import_urdf
+
+    imported = import_urdf(urdf)
+    is_faulty = tell(imported.diagnostics, arguments) or imported.has_errors
+    if imported.text is None or (arguments.strict and (imported.losses or is_faulty)):
+        return FAULTY_SPEC
+    if arguments.output is None:
+        write_to_stdout(imported.text)
+    elif write_if_changed(Path(arguments.output), imported.text):
+        say(f"wrote {arguments.output}", arguments)
+    else:
+        say(f"{arguments.output} is up to date", arguments)
+    return FAULTY_SPEC if is_faulty else OK

@@ -1,0 +1,29 @@
+"""LF8xxx: what an imported file is not, and what of it does not come in as it was."""
+
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+
+_E, _W = Severity.ERROR, Severity.WARNING
+
+# LF800x: XML
+MALFORMED_XML = Code("LF8001", _E, "this is not XML: {problem}")
+DOCUMENT_TYPE = Code(
+    "LF8002", _E, "a document type is refused, for its entities can hold and fetch anything; delete it"
+)
+TOO_DEEP = Code("LF8003", _E, "elements are nested more than {limit} deep")
+TOO_MANY_ELEMENTS = Code("LF8004", _E, "the file has more than {limit} elements")
+NO_CHARACTER_OF_A_SPEC = Code("LF8005", _E, "a spec cannot hold the character {character}")
+
+# LF801x: URDF
+NOT_A_ROBOT = Code("LF8011", _E, "expected <robot>, found <{tag}>")
+ROBOT_WITHOUT_NAME = Code("LF8012", _E, "the robot has no name; write <robot name='...'>")
+STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro's, not URDF; expand the file first: xacro FILE > robot.urdf")
+
+# LF802x: what comes in, but not as its own kind
+KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML in 'extra': {reason}")
+
+# LF81xx: losses
+TEXT_LEFT_OUT = Code("LF8101", _W, "<{tag}> holds no text; '{text}' is left out")
+INSTRUCTION_LEFT_OUT = Code("LF8102", _W, "the processing instruction '{target}' is left out")
+
+LOSSES = frozenset({TEXT_LEFT_OUT, INSTRUCTION_LEFT_OUT})
+"""What `--strict` makes a failure of."""

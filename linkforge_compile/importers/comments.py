@@ -1,0 +1,90 @@
+"""Comments of an XML file, placed in the spec where what they stand above, behind or in has come to stand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from textwrap import dedent
+from typing import NamedTuple
+
+from linkforge_compile.importers.draft import Draft
+from linkforge_compile.importers.xml import XmlComment, XmlContent, XmlDocument, XmlElement
+from linkforge_compile.syntax import YamlList, YamlMap, YamlNode
+
+
+class Comments(NamedTuple):
+    """Comments as `write` takes them: above a key or an item, and at the end of a map."""
+
+    above: dict[YamlNode, str]
+    endings: dict[YamlNode, str]
+
+
+def placed_comments(document: XmlDocument, draft: Draft, tree: YamlMap) -> Comments:
+    """Return every comment of a document but those in elements that are kept raw, which have theirs in them."""
+    placing = _Placing(draft, tree)
+    above: YamlNode | None = next(iter(tree)).key
+    for item in document.content:
+        if isinstance(item, XmlComment):
+            placing.put(item, above)
+        elif item is document.root:
+            placing.comments_of(document.root, None)
+            above = None
+    return Comments(placing.above, placing.endings)
+
+
+class _Placing:
+    def __init__(self, draft: Draft, tree: YamlMap) -> None:
+        self.above: dict[YamlNode, str] = {}
+        self.endings: dict[YamlNode, str] = {}
+        self._draft, self._tree = draft, tree
+        # What was made and then said by a shorter form, or not at all, has no place.
+        self._present = set(_nodes(tree))
+
+    def comments_of(self, element: XmlElement, holder: YamlNode | None) -> None:
+        """Place the comments in an element; `holder` is the nearest key or item that the text has for it."""
+        for place, item in enumerate(element.content):
+            if isinstance(item, XmlComment):
+                self._comment(item, element, place, holder)
+            elif isinstance(item, XmlElement) and item not in self._draft.raw:
+                self.comments_of(item, self._key(item) or holder)
+
+    def put(self, comment: XmlComment, above: YamlNode | None, ending: YamlNode | None = None) -> None:
+        """Put a comment above a node, or at an end; that of the file where neither is given."""
+        comments, node = (self.above, above) if above else (self.endings, ending or self._tree)
+        text = _text(comment.text)
+        if text:
+            comments[node] = f"{comments[node]}\n{text}" if node in comments else text
+
+    def _comment(self, comment: XmlComment, element: XmlElement, place: int, holder: YamlNode | None) -> None:
+        if comment.follows and (before := self._nearest(element.content[place - 1 :: -1])):
+            self.put(comment, before)
+        elif behind := self._nearest(element.content[place + 1 :]):
+            self.put(comment, behind)
+        else:
+            body = self._draft.bodies.get(element)
+            has_end = isinstance(body, YamlMap) and len(body) > 0 and body in self._present
+            self.put(comment, None if has_end else holder, body if has_end else None)
+
+    def _nearest(self, content: Sequence[XmlContent]) -> YamlNode | None:
+        keys = (self._key(item) for item in content if isinstance(item, XmlElement))
+        return next((key for key in keys if key), None)
+
+    def _key(self, element: XmlElement) -> YamlNode | None:
+        key = self._draft.keys.get(element)
+        return key if key in self._present else None
+
+
+def _nodes(node: YamlNode) -> Iterator[YamlNode]:
+    yield node
+    if isinstance(node, YamlMap):
+        for entry in node:
+            yield entry.key
+            yield from _nodes(entry.value)
+    elif isinstance(node, YamlList):
+        for item in node:
+            yield from _nodes(item)
+
+
+def _text(comment: str) -> str:
+    """Return the lines of a comment without the space around them that belongs to the layout of its file."""
+    first, *others = comment.replace("\r\n", "\n").replace("\r", "\n").expandtabs(2).split("\n")
+    return "\n".join(line.rstrip() for line in (first.strip(), *dedent("\n".join(others)).split("\n"))).strip("\n")

@@ -1,0 +1,158 @@
+"""The draft of a spec: nodes with the spans of the XML that they say, and of which element each of them was made."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.importers.xml import XmlAttribute, XmlElement
+from linkforge_compile.source import Span
+from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
+from linkforge_compile.units import UNITS, WIDEST_ANGLE, Dimension, number_text
+
+_NUMBER = re.compile(r"[+-]?(?:[0-9]{1,400}(?:\.[0-9]{0,400})?|\.[0-9]{1,400})(?:[eE][+-]?[0-9]{1,4})?")
+_TIDY = re.compile(r"-?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?")
+"""How a person spells a number; other spellings are spelled anew."""
+
+_DEGREES = {Dimension.ANGLE: "deg", Dimension.ANGULAR_VELOCITY: "deg/s"}
+_MOST_DECIMALS = 3
+"""So many digits behind the point may an angle in degrees have: more is no round angle, but a coincidence."""
+
+
+class DeclinedError(Exception):
+    """The language has no form in which an element would come back as it is, so it stays raw; says why, and where."""
+
+    def __init__(self, reason: str, span: Span) -> None:
+        self.reason, self.span = reason, span
+        super().__init__(reason)
+
+
+class Draft:
+    """Makes the nodes of one spec.
+
+    `keys` has the node that stands for an element in the text, a key or an item of a list; `bodies` what is under
+    it; `raw` the elements that are kept as they stand, and `told` what is to be told of the import.
+    """
+
+    def __init__(self) -> None:
+        self.keys: dict[XmlElement, YamlNode] = {}
+        self.bodies: dict[XmlElement, YamlNode] = {}
+        self.raw: set[XmlElement] = set()
+        self.told: list[Diagnostic] = []
+        self._elements: dict[YamlNode, list[XmlElement]] = {}
+
+    # Scalars
+
+    def text(self, text: str, span: Span) -> YamlScalar:
+        """Return text in which nothing is an expression."""
+        escaped = text.replace("$(", "$$(")
+        return YamlScalar(escaped, escaped, span)
+
+    def word(self, text: str, span: Span) -> YamlScalar:
+        """Return text that a plugin reads: without quotes where that is the same text."""
+        escaped = text.replace("$(", "$$(")
+        value = scalar_value(escaped)
+        return YamlScalar(escaped, escaped if value is None else value, span)
+
+    def number(self, text: str, span: Span, unit: Dimension | None = None) -> YamlScalar | None:
+        """Return a number as it is written, None for what is none, or none that a double can hold.
+
+        An angle is in degrees where that is exactly the same double, and says `rad` where it would be taken for
+        degrees.
+        """
+        value = number_of(text)
+        if value is None:
+            return None
+        digits = text.strip() if _TIDY.fullmatch(text.strip()) else number_text(value)
+        if unit in _DEGREES and (degrees := _degrees(value, _DEGREES[unit])):
+            return YamlScalar(degrees, degrees, span)
+        if unit is Dimension.ANGLE and abs(value) > WIDEST_ANGLE:
+            return YamlScalar(f"{digits} rad", f"{digits} rad", span)
+        return YamlScalar(digits, scalar_value(digits), span)
+
+    # Lists and maps
+
+    def list_of(self, items: Iterable[YamlNode], span: Span) -> YamlList:
+        """Return a list; each item stands for the element that it was made from."""
+        kept = tuple(items)
+        for item in kept:
+            for element in self._elements.get(item, ()):
+                self.keys[element] = item
+        return YamlList(kept, span)
+
+    def map_of(self, entries: Mapping[str, YamlNode | None], span: Span) -> YamlMap:
+        """Return a map without the entries of None; each key stands for the element that its value was made from."""
+        made = {}
+        for name, node in entries.items():
+            if node is not None:
+                key = self.text(name, node.span)
+                made[key.text] = YamlEntry(key, node)
+                for element in self._elements.get(node, ()):
+                    self.keys[element] = key
+        return YamlMap(made, span)
+
+    def named(self, entries: Mapping[str, tuple[XmlAttribute, YamlNode]], span: Span) -> YamlMap | None:
+        """Return a map keyed by names that stand in the file, None for an empty one."""
+        made = {}
+        for name, (attribute, node) in entries.items():
+            key = self.text(name, attribute.span)
+            made[key.text] = YamlEntry(key, node)
+            for element in self._elements.get(node, ()):
+                self.keys[element] = key
+        return YamlMap(made, span) if made else None
+
+    def one_or_list(self, items: list[YamlNode]) -> YamlNode | None:
+        """Return nothing, one thing, or a list of them."""
+        if not items:
+            return None
+        return items[0] if len(items) == 1 else self.list_of(items, items[0].span)
+
+    def made(self, node: YamlNode, *elements: XmlElement) -> None:
+        """Note which elements a node says."""
+        self._elements.setdefault(node, []).extend(elements)
+        for element in elements:
+            self.bodies[element] = node
+
+    def stands_for(self, node: YamlNode, *others: YamlNode) -> None:
+        """Note that a node says what was made into others."""
+        self.made(node, *(element for other in others for element in self._elements.get(other, ())))
+
+
+def number_of(text: str) -> float | None:
+    """Return the number that the whole text is, None where it is none or beyond a double."""
+    stripped = text.strip()
+    if not _NUMBER.fullmatch(stripped):
+        return None
+    value = float(stripped)
+    return value if math.isfinite(value) else None
+
+
+def same(one: YamlNode | None, other: YamlNode | None) -> bool:
+    """Whether two nodes say the same: numbers by their value, all else by its text."""
+    match one, other:
+        case None, None:
+            return True
+        case YamlScalar(), YamlScalar():
+            numbers = [node.value for node in (one, other) if type(node.value) in (int, float)]
+            return numbers[0] == numbers[1] if len(numbers) == 2 else one.text == other.text
+        case YamlList(), YamlList():
+            return len(one) == len(other) and all(map(same, one, other))
+        case YamlMap(), YamlMap():
+            return one.entries.keys() == other.entries.keys() and all(
+                same(entry.value, other.entries[name].value) for name, entry in one.entries.items()
+            )
+        case _:
+            return False
+
+
+def _degrees(value: float, unit: str) -> str | None:
+    """Return a round angle in degrees that is exactly this many radians, None where there is none."""
+    if not value:
+        return None
+    for decimals in range(_MOST_DECIMALS + 1):
+        digits = number_text(round(math.degrees(value), decimals))
+        if UNITS[unit].to_si(digits) == value:
+            return f"{digits} {unit}"
+    return None

@@ -1,0 +1,46 @@
+"""The bytes of an XML file as text, in the encoding that the file says."""
+
+from __future__ import annotations
+
+import codecs
+import re
+
+_MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be"))
+_DECLARED = re.compile(rb"""<\?xml\s(?:(?!\?>).)*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""", re.DOTALL)
+_SEARCHED = 4096
+"""A declaration is looked for in so many bytes: some generators write a comment before it."""
+
+# Names as Python has them. Not every codec: there are those that are no encodings of text, and those that unpack.
+_KNOWN = frozenset(
+    (
+        *("utf-8", "utf-16", "utf-16-le", "utf-16-be", "ascii", "iso8859-1", "iso8859-2", "iso8859-15"),
+        *("cp1250", "cp1251", "cp1252", "koi8-r", "gb2312", "gbk", "gb18030", "big5", "shift_jis", "euc_jp", "euc_kr"),
+    )
+)
+
+
+class EncodingError(Exception):
+    """The bytes are no text in the encoding that they are said to be; says why."""
+
+
+def xml_text(data: bytes) -> str:
+    """Return the bytes of an XML file as text, without byte order mark; UTF-8 where the file says nothing."""
+    for mark, encoding in _MARKS:
+        if data.startswith(mark):
+            return _decoded(data.removeprefix(mark), encoding)
+    declared = _DECLARED.search(data[:_SEARCHED])
+    return _decoded(data, declared[1].decode("ascii") if declared else "utf-8")
+
+
+def _decoded(data: bytes, encoding: str) -> str:
+    try:
+        known = codecs.lookup(encoding).name
+    except LookupError:
+        known = ""
+    if known not in _KNOWN:
+        raise EncodingError(f"there is no encoding '{encoding}' of text here")
+    try:
+        return data.decode(known)
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise EncodingError(f"line {line} has the byte {data[error.start]:#04x}, which is not {encoding}") from error

@@ -1,0 +1,205 @@
+"""One element while it is read: what no reader takes of it stays in the spec as it stands in the file.
+
+So that nothing is lost by forgetting it: a reader takes the attributes and children that it has a form for, and
+`map` and `rest` give back all others as `extra` and `extra_attributes`. A reader that cannot say an element exactly
+raises DeclinedError, and its parent keeps the element as raw XML.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
+from linkforge_compile.importers.draft import DeclinedError, Draft
+from linkforge_compile.importers.xml import XmlAttribute, XmlElement
+from linkforge_compile.source import Span
+from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import Dimension
+
+Read = Callable[["Reading"], YamlNode | None]
+"""Reads an element: a node, or None for one that says only what goes without saying."""
+
+_MOST_SHOWN = 40
+_TAG_OR_COMMENT = re.compile(r"<!--.*?-->|<[^>]*>", re.DOTALL)
+
+_BROKEN_VALUE = re.compile(r"""=\s*(?:"[^"<]*[\r\n][^"]*"|'[^'<]*[\r\n][^']*')""")
+_INDENT = re.compile(r"^[ \t]+")
+
+
+class Reading:
+    """An element and what has been taken of it."""
+
+    def __init__(self, draft: Draft, element: XmlElement) -> None:
+        self.draft, self.element = draft, element
+        self._attributes = dict(element.attributes)
+        self._children = list(element.children)
+        self._text_is_taken = False
+
+    @property
+    def span(self) -> Span:
+        return self.element.span
+
+    # Attributes
+
+    def attribute(self, name: str) -> XmlAttribute:
+        """Take an attribute that an element of this kind must have."""
+        attribute = self._attributes.pop(name, None)
+        if attribute is None:
+            raise self.declined(f"it has no '{name}'")
+        return attribute
+
+    def word(self, name: str) -> YamlScalar | None:
+        """Take an attribute that is text; None where there is none."""
+        if name not in self._attributes:
+            return None
+        attribute = self._attributes.pop(name)
+        return self.draft.text(attribute.value, attribute.span)
+
+    def name(self, name: str = "name") -> YamlScalar:
+        """Take an attribute that names something, and must be there."""
+        attribute = self.attribute(name)
+        return self.draft.text(attribute.value, attribute.span)
+
+    def number(
+        self, name: str, unit: Dimension | None = None, *, default: float | None = None, above: float | None = None
+    ) -> YamlScalar | None:
+        """Take an attribute that is a number, greater than `above`; None where it is not there, or is the default."""
+        if name not in self._attributes:
+            return None
+        attribute = self._attributes.pop(name)
+        node = self.draft.number(attribute.value, attribute.span, unit)
+        if node is None:
+            raise DeclinedError(f"{name} is no finite number: '{attribute.value}'", attribute.span)
+        if above is not None and float(attribute.value) <= above:
+            raise DeclinedError(f"{name} must be above {above:g}, found {node.text}", attribute.span)
+        return None if default is not None and float(attribute.value) == default else node
+
+    def required_number(self, name: str, unit: Dimension | None = None, *, above: float | None = None) -> YamlScalar:
+        node = self.number(name, unit, above=above)
+        if node is None:
+            raise self.declined(f"it has no '{name}'")
+        return node
+
+    def numbers(self, name: str, count: int, unit: Dimension | None = None) -> YamlList | None:
+        """Take an attribute that is so many numbers; None where it is not there."""
+        if name not in self._attributes:
+            return None
+        attribute = self._attributes.pop(name)
+        nodes = [self.draft.number(text, attribute.span, unit) for text in attribute.value.split()]
+        if len(nodes) != count or None in nodes:
+            raise DeclinedError(f"{name} takes {count} numbers, found '{attribute.value}'", attribute.span)
+        return YamlList(tuple(node for node in nodes if node is not None), attribute.span)
+
+    # Children
+
+    def one(self, tag: str, read: Read) -> YamlNode | None:
+        """Take the first child of a tag, which is read; None where there is none, or it is declined."""
+        child = next((child for child in self._children if child.tag == tag), None)
+        nodes = self._read(child, read) if child else None
+        return nodes[0] if nodes else None
+
+    def each(self, tag: str, read: Read) -> list[YamlNode]:
+        """Take all children of a tag that are not declined."""
+        children = [child for child in self._children if child.tag == tag]
+        return [node for child in children for node in self._read(child, read) or () if node is not None]
+
+    def has(self, tag: str) -> bool:
+        """Whether there is a child of a tag that nobody has taken."""
+        return any(child.tag == tag for child in self._children)
+
+    def children(self) -> list[XmlElement]:
+        """The children that nobody has taken."""
+        return list(self._children)
+
+    def take(self, child: XmlElement, read: Read) -> tuple[YamlNode | None] | None:
+        """Read a child and take it; None where it is declined, which is told."""
+        return self._read(child, read)
+
+    def within(self, child: XmlElement, read: Callable[[Reading], YamlNode]) -> YamlNode:
+        """Take a child that must be said: where it is declined, so is this element."""
+        node = read(Reading(self.draft, child))
+        self._children.remove(child)
+        self.draft.made(node, child)
+        return node
+
+    def maybe(self, tag: str, read: Callable[[Reading], YamlNode]) -> YamlNode | None:
+        """Take the first child of a tag, if any; where it is declined, so is this element."""
+        return self.needed(tag, read) if self.has(tag) else None
+
+    def needed(self, tag: str, read: Callable[[Reading], YamlNode]) -> YamlNode:
+        """Take the first child of a tag, without which this element cannot be said."""
+        child = next((child for child in self._children if child.tag == tag), None)
+        if child is None:
+            raise self.declined(f"it has no <{tag}>")
+        return self.within(child, read)
+
+    def taken_text(self) -> str:
+        """Take the text that stands in the element."""
+        self._text_is_taken = True
+        return self.element.text
+
+    def _read(self, child: XmlElement, read: Read) -> tuple[YamlNode | None] | None:
+        mark = len(self.draft.told)
+        try:
+            node = read(Reading(self.draft, child))
+        except DeclinedError as declined:
+            # What was told of its parts, that they were kept raw or left out, is no longer so.
+            del self.draft.told[mark:]
+            self.draft.told.append(KEPT_RAW.at(declined.span, tag=child.tag, reason=declined.reason))
+            return None
+        self._children.remove(child)
+        if node is not None:
+            self.draft.made(node, child)
+        return (node,)
+
+    # What is left
+
+    def declined(self, reason: str) -> DeclinedError:
+        return DeclinedError(reason, self.span)
+
+    def spent(self) -> None:
+        """Decline the element unless all of it was taken: its form in the language has no place for more."""
+        for name, attribute in self._attributes.items():
+            raise DeclinedError(f"there is no place for its attribute '{name}'", attribute.span)
+        for child in self._children:
+            raise DeclinedError(f"there is no place for <{child.tag}> in it", child.span)
+        if not self._text_is_taken and self.element.text.strip():
+            raise self.declined("it holds text")
+
+    def is_spent(self) -> bool:
+        return not self._attributes and not self._children
+
+    def map(self, **entries: YamlNode | None) -> YamlMap:
+        """Return the object of the element: these entries, then what nobody has taken."""
+        return self.draft.map_of({**entries, **self.rest()}, self.span)
+
+    def rest(self) -> dict[str, YamlNode | None]:
+        """Return what nobody has taken as `extra` and `extra_attributes`; text has no place in them and is lost."""
+        text = " ".join(self.element.text.split())
+        if text and not self._text_is_taken:
+            shown = text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
+            self.draft.told.append(TEXT_LEFT_OUT.at(self.span, tag=self.element.tag, text=shown))
+        extra = [self._raw(child) for child in self._children]
+        attributes = {one.name: self.draft.word(one.value, one.span) for one in self._attributes.values()}
+        return {
+            "extra": self.draft.one_or_list(extra),
+            "extra_attributes": self.draft.map_of(attributes, self.span) if attributes else None,
+        }
+
+    def _raw(self, child: XmlElement) -> YamlNode:
+        node = self.draft.text(tidy(child.raw), child.span)
+        self.draft.raw.add(child)
+        self.draft.made(node, child)
+        return node
+
+
+def tidy(raw: str) -> str:
+    """Return an element as it stands in a file, moved to the left where that changes only the space between tags."""
+    texts = _TAG_OR_COMMENT.split(raw)
+    if "<![CDATA[" in raw or _BROKEN_VALUE.search(raw) or any("\n" in text and text.strip() for text in texts):
+        return raw
+    first, *others = [line.rstrip() for line in raw.replace("\r\n", "\n").replace("\r", "\n").split("\n")]
+    others = [_INDENT.sub(lambda space: space[0].expandtabs(2), line) for line in others if line]
+    margin = min((len(line) - len(line.lstrip(" ")) for line in others), default=0)
+    return "\n".join((first, *(line[margin:] for line in others)))

@@ -1,0 +1,89 @@
+"""Poses and shapes of URDF."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from linkforge_compile.importers.draft import number_of
+from linkforge_compile.importers.reading import Reading
+from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import Dimension
+
+
+def read_origin(origin: Reading) -> YamlNode | None:
+    """Read a pose: `[x, y, z]` where it turns nothing, None where it is the identity."""
+    xyz, rpy = origin.numbers("xyz", 3), origin.numbers("rpy", 3, Dimension.ANGLE)
+    xyz, rpy = _unless_zero(xyz), _unless_zero(rpy)
+    node = origin.map(xyz=xyz, rpy=rpy)
+    if not len(node):
+        return None
+    return xyz if xyz and len(node) == 1 else node
+
+
+def read_geometry(geometry: Reading) -> YamlMap:
+    """Read the one shape of a visual or collision, as a map of the one entry that says it."""
+    shapes = geometry.children()
+    if len(shapes) != 1:
+        raise geometry.declined(f"a geometry is one shape, found {len(shapes) or 'none'}")
+    [shape] = shapes
+    read = _READ.get(shape.tag)
+    if read is None:
+        raise geometry.declined(f"there is no shape named '{shape.tag}'")
+    node = geometry.within(shape, read)
+    geometry.spent()
+    return geometry.draft.map_of({shape.tag: node}, shape.span)
+
+
+def _box(box: Reading) -> YamlNode:
+    size = box.numbers("size", 3)
+    if size is None:
+        raise box.declined("it has no 'size'")
+    if any(_value(item) <= 0 for item in size):
+        raise box.declined(f"every side must be above 0, found '{box.element.get('size')}'")
+    box.spent()
+    return size
+
+
+def _sphere(sphere: Reading) -> YamlNode:
+    radius = sphere.required_number("radius", above=0)
+    return radius if sphere.is_spent() else sphere.map(radius=radius)
+
+
+def _round(body: Reading) -> YamlNode:
+    return body.map(radius=body.required_number("radius", above=0), length=body.required_number("length", above=0))
+
+
+def _mesh(mesh: Reading) -> YamlNode:
+    file, scale = mesh.name("filename"), mesh.numbers("scale", 3)
+    if not file.text.strip():
+        raise mesh.declined("it names no file")
+    node = mesh.map(file=file, scale=_scale(mesh, scale) if scale else None)
+    return file if len(node) == 1 else node
+
+
+def _scale(mesh: Reading, scale: YamlList) -> YamlNode | None:
+    """Return one number for three that are the same, None for 1."""
+    factors = {_value(item) for item in scale}
+    if 0 in factors:
+        raise mesh.declined(f"no scale may be 0, found '{mesh.element.get('scale')}'")
+    if len(factors) > 1:
+        return scale
+    return None if factors == {1.0} else scale.items[0]
+
+
+def _unless_zero(numbers: YamlList | None) -> YamlList | None:
+    return numbers if numbers and any(_value(item) for item in numbers) else None
+
+
+def _value(node: YamlNode) -> float:
+    """Return what a number says; anything but 0 for an angle in degrees."""
+    return (number_of(node.text) or 0.0) if isinstance(node, YamlScalar) and not isinstance(node.value, str) else 1.0
+
+
+_READ: Mapping[str, Callable[[Reading], YamlNode]] = {
+    "box": _box,
+    "sphere": _sphere,
+    "cylinder": _round,
+    "capsule": _round,
+    "mesh": _mesh,
+}

@@ -1,0 +1,81 @@
+"""Links of URDF."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from linkforge_compile.importers.draft import same
+from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.urdf.geometry import read_geometry, read_origin
+from linkforge_compile.importers.urdf.material import Palette
+from linkforge_compile.syntax import YamlMap, YamlNode
+
+_MOMENTS = ("ixx", "iyy", "izz")
+_PRODUCTS = ("ixy", "ixz", "iyz")
+
+
+def read_link(link: Reading, palette: Palette, gazebo: YamlNode | None) -> YamlMap:
+    """Read a link, whose name is taken; `gazebo` is what a simulator is told about it elsewhere in the file."""
+    visuals = link.each("visual", partial(_visual, palette=palette))
+    collisions = link.each("collision", _collision)
+    shapes = {"visual": link.draft.one_or_list(visuals), "collision": _collisions(link, visuals, collisions)}
+    tags = [child.tag for child in link.element.children if child.tag in shapes]
+    return link.map(
+        # Their order is that of the output.
+        **dict(reversed(shapes.items()) if tags[:1] == ["collision"] else shapes),
+        inertial=link.one("inertial", _inertial),
+        gazebo=gazebo,
+    )
+
+
+def _visual(visual: Reading, palette: Palette) -> YamlNode:
+    name, geometry = visual.word("name"), visual.needed("geometry", read_geometry)
+    origin, material = visual.one("origin", read_origin), visual.one("material", palette.used)
+    return visual.map(name=name, **_shape(geometry), origin=origin, material=material)
+
+
+def _collision(collision: Reading) -> YamlNode:
+    name, geometry = collision.word("name"), collision.needed("geometry", read_geometry)
+    return collision.map(name=name, **_shape(geometry), origin=collision.one("origin", read_origin))
+
+
+def _shape(geometry: YamlNode) -> dict[str, YamlNode]:
+    return {entry.name: entry.value for entry in geometry} if isinstance(geometry, YamlMap) else {}
+
+
+def _collisions(link: Reading, visuals: list[YamlNode], collisions: list[YamlNode]) -> YamlNode | None:
+    """Return the collisions; `visual` where they are the shapes of all visuals and say no more."""
+    bare = [_without_looks(visual) for visual in visuals if isinstance(visual, YamlMap)]
+    if not collisions or len(bare) != len(collisions) or not all(map(same, bare, collisions)):
+        return link.draft.one_or_list(collisions)
+    copy = link.draft.text("visual", collisions[0].span)
+    link.draft.stands_for(copy, *collisions)
+    return copy
+
+
+def _without_looks(visual: YamlMap) -> YamlMap:
+    return YamlMap({entry.name: entry for entry in visual if entry.name in _SHAPE_AND_PLACE}, visual.span)
+
+
+_SHAPE_AND_PLACE = ("box", "cylinder", "sphere", "capsule", "mesh", "origin")
+
+
+def _inertial(inertial: Reading) -> YamlNode:
+    mass, inertia = inertial.needed("mass", _mass), inertial.needed("inertia", _inertia)
+    return inertial.map(mass=mass, origin=inertial.one("origin", read_origin), inertia=inertia)
+
+
+def _mass(mass: Reading) -> YamlNode:
+    value = mass.required_number("value")
+    if value.text.startswith("-"):
+        raise mass.declined(f"the mass must be 0 or above [kg], found {value.text}")
+    mass.spent()
+    return value
+
+
+def _inertia(inertia: Reading) -> YamlNode:
+    moments = {key: inertia.required_number(key) for key in _MOMENTS}
+    for key in _PRODUCTS:
+        if inertia.element.get(key) is None:
+            raise inertia.declined(f"it has no '{key}'")
+    return inertia.map(**moments, **{key: inertia.number(key, default=0) for key in _PRODUCTS})

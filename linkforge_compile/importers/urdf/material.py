@@ -1,0 +1,89 @@
+"""Materials of URDF: each name once for the robot, whatever differs from it where it stands."""
+
+from __future__ import annotations
+
+from linkforge_compile.importers.draft import DeclinedError, Draft, same
+from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.xml import XmlAttribute, XmlElement
+from linkforge_compile.syntax import YamlMap, YamlNode
+
+Named = dict[str, tuple[XmlAttribute, YamlNode]]
+
+
+class Palette:
+    """The materials of a robot by name.
+
+    URDF declares a material for all visuals, or where it is first used; who names it without saying it, be it
+    before, means that one. `declared` takes the robot's own, `found` the first of each name in a visual.
+    """
+
+    def __init__(self) -> None:
+        self.materials: Named = {}
+
+    def declare(self, material: Reading) -> YamlNode:
+        """Read a material of the robot itself."""
+        name = material.attribute("name")
+        if name.value in self.materials:
+            raise DeclinedError(f"there is a material '{name.value}' already", name.span)
+        node = _definition(material)
+        self.materials[name.value] = name, node
+        return node
+
+    def find(self, draft: Draft, root: XmlElement) -> None:
+        """Take in what visuals say, for the names that the robot does not declare."""
+        for material in _materials_of_visuals(root):
+            name = material.attributes.get("name")
+            if name and name.value and name.value not in self.materials and any(material.children):
+                reading = Reading(draft, material)
+                reading.attribute("name")
+                try:
+                    self.materials[name.value] = name, _definition(reading)
+                except DeclinedError:
+                    continue  # told where the visual is read
+
+    def used(self, material: Reading) -> YamlNode:
+        """Read the material of a visual: a name, or the whole of one that is another than the robot's of this name."""
+        name = material.attribute("name")
+        known = self.materials.get(name.value)
+        if material.is_spent():
+            if known is None:
+                raise DeclinedError(f"no material named '{name.value}' has a color or a texture", name.span)
+            return material.draft.text(name.value, name.span)
+        node = _definition(material)
+        if known and same(known[1], node):
+            return material.draft.text(name.value, name.span)
+        said = material.draft.text(name.value, name.span) if name.value else None
+        return material.draft.map_of({"name": said, **_entries(node)}, material.span)
+
+
+def _definition(material: Reading) -> YamlMap:
+    color, texture = material.maybe("color", _color), material.one("texture", _texture)
+    if color is None and texture is None:
+        raise material.declined("it has neither a color nor a texture that the language can say")
+    return material.map(color=color, texture=texture)
+
+
+def _color(color: Reading) -> YamlNode:
+    rgba = color.numbers("rgba", 4)
+    if rgba is None:
+        raise color.declined("it has no 'rgba'")
+    if any(not 0 <= float(part) <= 1 for part in (color.element.get("rgba") or "").split()):
+        raise color.declined(f"its components must be from 0 to 1, found '{color.element.get('rgba')}'")
+    color.spent()
+    *rgb, opacity = rgba
+    return color.draft.list_of(rgb, rgba.span) if same(opacity, color.draft.number("1", rgba.span)) else rgba
+
+
+def _texture(texture: Reading) -> YamlNode:
+    file = texture.name("filename")
+    texture.spent()
+    return file
+
+
+def _entries(node: YamlMap) -> dict[str, YamlNode]:
+    return {entry.name: entry.value for entry in node}
+
+
+def _materials_of_visuals(root: XmlElement) -> list[XmlElement]:
+    visuals = [visual for link in root.children if link.tag == "link" for visual in link.children]
+    return [one for visual in visuals if visual.tag == "visual" for one in visual.children if one.tag == "material"]

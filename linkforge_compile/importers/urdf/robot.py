@@ -1,0 +1,93 @@
+"""A URDF document as the tree of a spec: its sections, each in the order of the file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.importing import NOT_A_ROBOT, ROBOT_WITHOUT_NAME, STILL_XACRO
+from linkforge_compile.importers.comments import Comments, placed_comments
+from linkforge_compile.importers.draft import DeclinedError, Draft
+from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.urdf.frame import frames_of
+from linkforge_compile.importers.urdf.joint import read_joint
+from linkforge_compile.importers.urdf.link import read_link
+from linkforge_compile.importers.urdf.material import Named, Palette
+from linkforge_compile.importers.xml import XmlElement, read_xml
+from linkforge_compile.source import SourceFile
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+
+
+class Imported(NamedTuple):
+    """A robot that was written elsewhere: the tree of its spec, with the spans of that file, and its comments."""
+
+    tree: YamlMap
+    comments: Comments
+
+
+def read_urdf(file: SourceFile, sink: Diagnostics) -> Imported | None:
+    """Read a URDF document; None where it is none, which is told.
+
+    All that it says is in the tree, in the language's own words or as raw XML, or it is told what is left out.
+    """
+    document = read_xml(file, sink)
+    if document is None:
+        return None
+    root = document.root
+    if root.tag != "robot":
+        sink.report(NOT_A_ROBOT.at(root.span, tag=root.tag))
+        return None
+    if xacro := _first_of_xacro(root):
+        sink.report(STILL_XACRO.at(xacro.span, tag=xacro.tag))
+        return None
+    if root.get("name") is None:
+        sink.report(ROBOT_WITHOUT_NAME.at(root.span))
+        return None
+    draft = Draft()
+    tree = _robot(Reading(draft, root))
+    draft.bodies[root] = tree
+    sink.report_all(draft.told)
+    return Imported(tree, placed_comments(document, draft, tree))
+
+
+def _robot(robot: Reading) -> YamlMap:
+    draft, palette = robot.draft, Palette()
+    name, version = robot.name(), robot.word("version")
+    robot.each("material", palette.declare)
+    palette.find(draft, robot.element)
+    links = _section(robot, "link", lambda link: read_link(link, palette, None))
+    names = {child.get("name") or "" for child in robot.element.children if child.tag == "joint"}
+    joints = _section(robot, "joint", lambda joint: read_joint(joint, names, None))
+    frames = frames_of(draft, links, joints)
+    return robot.map(
+        linkforge=YamlScalar("1", 1, robot.span),
+        name=name,
+        version=version,
+        materials=draft.named(palette.materials, robot.span),
+        links=draft.named(links, robot.span),
+        joints=draft.named(joints, robot.span),
+        frames=draft.named(frames, robot.span),
+    )
+
+
+def _section(robot: Reading, tag: str, read: Callable[[Reading], YamlNode]) -> Named:
+    """Read the children of a tag by their names; a name that is taken stays raw."""
+    section: Named = {}
+    for child in [child for child in robot.children() if child.tag == tag]:
+        robot.take(child, partial(_named, section, read))
+    return section
+
+
+def _named(section: Named, read: Callable[[Reading], YamlNode], part: Reading) -> YamlNode:
+    name = part.attribute("name")
+    if name.value in section:
+        raise DeclinedError(f"there is a {part.element.tag} '{name.value}' already", name.span)
+    node = read(part)
+    section[name.value] = name, node
+    return node
+
+
+def _first_of_xacro(root: XmlElement) -> XmlElement | None:
+    return next((child for child in root.children if child.tag.startswith("xacro:")), None)

@@ -1,0 +1,73 @@
+"""`linkforge import` on the command line."""
+
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile import compile_file
+from linkforge_compile.cli.main import main
+
+ARM = """<robot name="arm"><link name="base"/>{}</robot>"""
+
+
+@pytest.fixture
+def arm(tmp_path: Path):
+    def write(inside: str = "") -> str:
+        file = tmp_path / "arm.urdf"
+        file.write_text(ARM.format(inside), "utf-8")
+        return str(file)
+
+    return write
+
+
+def test_a_spec_comes_on_standard_output(arm, capfd: pytest.CaptureFixture[str]):
+    assert main(["import", arm()]) == 0
+    assert capfd.readouterr() == ("linkforge: 1\nname: arm\n\nlinks:\n  base: {}\n", "")
+
+
+def test_a_spec_is_written_and_compiles(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    spec = tmp_path / "arm.robot.yaml"
+    assert main(["import", arm(), "-o", str(spec)]) == 0
+    assert compile_file(spec).result().name == "arm"
+    assert main(["import", arm(), "-o", str(spec)]) == 0
+    assert capfd.readouterr().err.splitlines() == [f"wrote {spec}", f"{spec} is up to date"]
+
+
+def test_a_loss_is_told_and_is_a_failure_if_strict(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    spec = tmp_path / "arm.robot.yaml"
+    urdf = arm("some text")
+    assert main(["import", urdf, "-o", str(spec), "--strict"]) == 1
+    assert not spec.exists()
+    assert main(["import", urdf, "-o", str(spec)]) == 0
+    assert capfd.readouterr().err.count("LF8101") == 2
+
+
+def test_what_is_kept_raw_is_no_loss(arm, capfd: pytest.CaptureFixture[str]):
+    assert main(["import", arm('<link name="base"/>'), "--strict"]) == 0
+    assert "LF8021" in capfd.readouterr().err
+
+
+def test_a_robot_that_is_wrong_is_told_where_the_urdf_is(arm, capfd: pytest.CaptureFixture[str]):
+    urdf = arm('<joint name="j" type="fixed"><parent link="base"/><child link="tool"/></joint>')
+    assert main(["import", urdf]) == 1
+    told = capfd.readouterr()
+    assert f"{urdf}:1:101: error: no link named 'tool'" in told.err
+    assert "child: tool" in told.out
+
+
+def test_the_robot_itself_is_never_written_over(arm, capfd: pytest.CaptureFixture[str]):
+    urdf = arm()
+    assert main(["import", urdf, "-o", urdf]) == 2
+    assert "would replace" in capfd.readouterr().err
+
+
+def test_a_file_that_is_not_there_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    assert main(["import", str(tmp_path / "arm.urdf")]) == 1
+    assert "LF3001" in capfd.readouterr().err
+
+
+def test_a_file_in_another_encoding_than_it_says_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    urdf = tmp_path / "arm.urdf"
+    urdf.write_bytes(b'<?xml version="1.0" encoding="utf-8"?><robot name="\xff"/>')
+    assert main(["import", str(urdf)]) == 1
+    assert "line 1 has the byte 0xff, which is not utf-8" in capfd.readouterr().err

@@ -1,0 +1,318 @@
+"""A URDF comes in as a person would write it: short forms, defaults left out, numbers to the last digit."""
+
+from pathlib import Path
+from textwrap import dedent
+
+import pytest
+
+from linkforge_compile import Import, compile_text, import_urdf, render_urdf
+
+
+@pytest.fixture
+def read(tmp_path: Path):
+    """Import a URDF that is written in a test, whose robot is named `r`; nothing may be told of it."""
+
+    def read_urdf(text: str) -> str:
+        imported = imported_from(text, tmp_path)
+        assert not [str(one) for one in imported.diagnostics]
+        assert imported.text is not None
+        return imported.text.removeprefix("linkforge: 1\nname: r\n").strip("\n")
+
+    return read_urdf
+
+
+def imported_from(text: str, folder: Path) -> Import:
+    file = folder / "r.urdf"
+    file.write_text(f'<robot name="r">{text}</robot>', "utf-8")
+    return import_urdf(file)
+
+
+def spec(text: str) -> str:
+    return dedent(text).strip("\n")
+
+
+def compiled(text: str) -> str:
+    return render_urdf(compile_text(text).result())
+
+
+BOTH = '<link name="a"/><link name="b"><visual><geometry><box size="1 1 1"/></geometry></visual></link>'
+ENDS = '<parent link="a"/><child link="b"/>'
+
+
+def joint(read, text: str, kind: str = "revolute") -> str:
+    """Return what a joint between two links says, without its type and its ends."""
+    lines = read(f'{BOTH}<joint name="j" type="{kind}">{ENDS}{text}</joint>').partition("joints:\n")[2]
+    body = dedent(lines.partition("\n")[2]) if lines.startswith("  j:\n") else lines.strip().removeprefix("j: ")
+    return body.replace(f"type: {kind}, parent: a, child: b", "").replace(f"type: {kind}\nparent: a\nchild: b\n", "")
+
+
+LIMIT = '<limit lower="-1" upper="1" effort="2" velocity="3"/>'
+
+
+@pytest.mark.parametrize(
+    ("axis", "said"),
+    [
+        ("0 0 1", "z"),
+        ("0.0 -1.0 0", "-y"),
+        ("-0 0 1.000", "z"),
+        ("0 0 2", "[0, 0, 2]"),
+        ("0.7071 0 0.7071", "[0.7071, 0, 0.7071]"),
+    ],
+)
+def test_an_axis_is_a_letter_where_it_is_one(read, axis: str, said: str):
+    assert f"axis: {said}" in joint(read, f'<axis xyz="{axis}"/>{LIMIT}')
+
+
+def test_a_joint_without_axis_turns_about_x(read):
+    assert "axis: x" in joint(read, LIMIT)
+
+
+@pytest.mark.parametrize(
+    ("radians", "said"),
+    [
+        ("1.5707963267948966", "90 deg"),
+        ("-3.141592653589793", "-180 deg"),
+        ("0.7853981633974483", "45 deg"),
+        ("0.02181661564992912", "1.25 deg"),
+        ("1.5708", "1.5708"),
+        ("1.57079632679", "1.57079632679"),
+        ("0.1", "0.1"),
+        ("0.10000000001", "0.10000000001"),
+        ("3.14159265358979", "3.14159265358979"),
+        ("12.6", "12.6 rad"),
+    ],
+)
+def test_an_angle_is_in_degrees_only_where_it_is_the_same_double(read, radians: str, said: str):
+    limit = f'<limit lower="-20" upper="{radians}" effort="2" velocity="3"/>'
+    assert f"upper: {said}," in joint(read, f'<axis xyz="0 0 1"/>{limit}')
+
+
+def test_a_length_is_never_an_angle(read):
+    limit = '<limit lower="0" upper="1.5707963267948966" effort="2" velocity="3.141592653589793"/>'
+    assert "limits: {lower: 0, upper: 1.5707963267948966, effort: 2, velocity: 3.141592653589793}" in joint(
+        read, f'<axis xyz="0 0 1"/>{limit}', "prismatic"
+    )
+
+
+def test_the_parts_of_a_joint_leave_their_defaults_out(read):
+    parts = """
+        <origin xyz="0 0 1" rpy="0 0 0"/><axis xyz="0 0 1"/>
+        <dynamics damping="0.5" friction="0.0"/>
+        <mimic joint="k" multiplier="1.0" offset="0.2"/>
+        <safety_controller k_velocity="10" soft_upper_limit="0.5"/>
+        <calibration rising="0.1" reference_position="0.2"/>"""
+    said = read(
+        f"""{BOTH}<joint name="j" type="continuous">{ENDS}{parts}</joint><link name="c"/>
+        <joint name="k" type="continuous"><parent link="a"/><child link="c"/><axis xyz="0 0 1"/></joint>"""
+    )
+    assert "origin: [0, 0, 1]" in said
+    assert "dynamics: {damping: 0.5}" in said
+    assert "mimic: {joint: k, offset: 0.2}" in said
+    assert "safety_controller: {soft_upper_limit: 0.5, k_velocity: 10}" in said
+    assert "calibration: {rising: 0.1, extra_attributes: {reference_position: 0.2}}" in said
+
+
+def test_what_a_fixed_joint_has_left_over_stays(read):
+    said = joint(read, '<axis xyz="0 0 1"/><limit effort="1" velocity="2"/>', "fixed")
+    assert said == 'extra: [<axis xyz="0 0 1"/>, <limit effort="1" velocity="2"/>]'
+
+
+def test_unknown_attributes_and_elements_stay_where_they_were(read):
+    text = read("""
+      <link name="a" type="hand">
+        <inertial frame="body"><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0.0"/></inertial>
+        <collision>
+          <geometry><mesh filename="a.stl" convex="true"/></geometry>
+          <surface>
+            <friction><ode mu="$(mu)"/></friction>
+          </surface>
+        </collision>
+        <drake:proximity_properties/>
+      </link>""")
+    assert text == spec("""
+        links:
+          a:
+            collision:
+              mesh: {file: a.stl, extra_attributes: {convex: true}}
+              extra: |-
+                <surface>
+                  <friction><ode mu="$$(mu)"/></friction>
+                </surface>
+            inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}, extra_attributes: {frame: body}}
+            extra: <drake:proximity_properties/>
+            extra_attributes: {type: hand}""")
+
+
+def test_equal_shapes_are_said_once(read):
+    shape = '<origin xyz="0 0 {z}"/><geometry><cylinder radius="0.1" length="1"/></geometry>'
+    text = read(f"""
+      <link name="a"><visual>{shape.format(z="0.5")}</visual><collision>{shape.format(z="0.50")}</collision></link>
+      <link name="b"><visual>{shape.format(z="0.5")}</visual><collision>{shape.format(z="0.6")}</collision></link>
+      <joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>""")
+    assert text.count("collision: visual") == 1
+    assert "collision: {cylinder: {radius: 0.1, length: 1}, origin: [0, 0, 0.6]}" in text
+
+
+def test_collisions_before_visuals_stay_there(read):
+    shape = "<geometry><sphere radius='1'/></geometry>"
+    text = read(f"<link name='a'><collision>{shape}</collision><visual>{shape}</visual></link>")
+    assert text == "links:\n  a: {collision: visual, visual: {sphere: 1}}"
+    urdf = compiled(f"linkforge: 1\nname: r\n{text}\n")
+    assert urdf.index("<collision") < urdf.index("<visual")
+
+
+def test_a_named_collision_is_not_the_visual(read):
+    shape = "<geometry><sphere radius='1'/></geometry>"
+    text = read(f"<link name='a'><visual>{shape}</visual><collision name='c'>{shape}</collision></link>")
+    assert "collision: {name: c, sphere: 1}" in text
+
+
+def shown(material: str) -> str:
+    return f'<visual><geometry><sphere radius="1"/></geometry>{material}</visual>'
+
+
+def test_materials_are_said_once_wherever_they_are_declared(read):
+    green = '<material name="green"><color rgba="0 1 0 1"/></material>'
+    text = read(f"""
+      <material name="red"><color rgba="1 0 0 0.5"/></material>
+      <link name="a">
+        {shown('<material name="green"/>')}
+        {shown(green)}
+        {shown('<material name="red"/>')}
+        {shown(green.replace("0 1 0 1", "0.0 1 0 1"))}
+        {shown(green.replace("0 1 0", "0 0.5 0"))}
+        {shown('<material name=""><color rgba="0 0 1 1"/><texture filename="a.png"/></material>')}
+      </link>""")
+    assert text == spec("""
+        materials:
+          red: {color: [1, 0, 0, 0.5]}
+          green: {color: [0, 1, 0]}
+
+        links:
+          a:
+            visual:
+              - {sphere: 1, material: green}
+              - {sphere: 1, material: green}
+              - {sphere: 1, material: red}
+              - {sphere: 1, material: green}
+              - {sphere: 1, material: {name: green, color: [0, 0.5, 0]}}
+              - {sphere: 1, material: {color: [0, 0, 1], texture: a.png}}""")
+
+
+def test_a_material_of_a_collision_stays(read):
+    text = read("""<link name="a"><collision><geometry><box size="1 1 1"/></geometry>
+        <material name="red"/></collision></link>""")
+    assert 'collision: {box: [1, 1, 1], extra: <material name="red"/>}' in text
+
+
+def test_empty_links_at_the_end_are_frames(read):
+    text = read(f"""{BOTH}
+      <link name="tool"/>
+      <link name="camera"/>
+      <joint name="j" type="fixed">{ENDS}</joint>
+      <joint name="tool_joint" type="fixed"><parent link="b"/><child link="tool"/><origin xyz="0 0 1"/></joint>
+      <joint name="eye" type="fixed"><parent link="b"/><child link="camera"/></joint>""")
+    assert text.endswith(
+        spec("""
+        frames:
+          tool: {parent: b, origin: [0, 0, 1]}
+          camera: {parent: b, joint: eye}""")
+    )
+
+
+def test_comments_stand_where_they_stood(tmp_path: Path):
+    file = tmp_path / "r.urdf"
+    file.write_text(
+        dedent("""\
+        <?xml version="1.0"?>
+        <!-- by hand -->
+        <robot name="r">
+          <!--
+            The base:
+              heavy
+          -->
+          <link name="a">
+            <!-- how it looks -->
+            <visual>
+              <geometry>
+                <!-- rounded -->
+                <sphere radius="1"/>
+              </geometry>
+            </visual>
+            <inertial>
+              <mass value="2"/> <!-- weighed -->
+              <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>
+            </inertial>
+            <!-- <collision/> one day -->
+          </link>
+          <mujoco><!-- theirs --></mujoco>
+          <!-- the end -->
+        </robot>
+        <!-- really -->
+        """)
+    )
+    assert import_urdf(file).text == dedent("""\
+        # by hand
+        linkforge: 1
+        name: r
+
+        links:
+          # The base:
+          #   heavy
+          a:
+            # how it looks
+            visual:
+              # rounded
+              sphere: 1
+            inertial:
+              # weighed
+              mass: 2
+              inertia: {ixx: 1, iyy: 1, izz: 1}
+            # <collision/> one day
+
+        extra: <mujoco><!-- theirs --></mujoco>
+
+        # the end
+        # really
+        """)
+
+
+def test_the_order_in_each_section_is_the_authors(read):
+    text = read("""
+      <joint name="z" type="fixed"><parent link="c"/><child link="a"/><origin xyz="1 0 0"/></joint>
+      <link name="c"/>
+      <joint name="b" type="fixed"><parent link="c"/><child link="b"/></joint>
+      <link name="b"/>
+      <link name="a"/>""")
+    assert [line.strip().partition(":")[0] for line in text.splitlines() if line.startswith("  ")] == [
+        *("c", "b", "a", "z", "b"),
+    ]
+
+
+@pytest.mark.parametrize("name", ["true", "1", "null", "a.b/c", "0x10", "no", "größe"])
+def test_names_stay_names(read, name: str):
+    text = read(f'<link name="{name}"/>')
+    urdf = compiled(f"linkforge: 1\nname: r\n{text}\n")
+    assert f'<link name="{name}"/>' in urdf
+
+
+@pytest.mark.parametrize(
+    ("written", "out"),
+    [
+        ("0.1", "0.1"),
+        ("0.10000000001", "0.10000000001"),
+        ("1e-3", "0.001"),
+        ("+.5", "0.5"),
+        ("5.", "5"),
+        ("010", "10"),
+        ("-0.0", "0"),
+        ("4.9e-324", "5e-324"),
+        ("123456789012345678", "123456789012345680"),
+        ("0.30000000000000004", "0.30000000000000004"),
+    ],
+)
+def test_a_number_comes_back_to_the_same_double(read, written: str, out: str):
+    text = read(f'{BOTH}<joint name="j" type="fixed">{ENDS}<origin xyz="{written} 1 0"/></joint>')
+    urdf = compiled(f"linkforge: 1\nname: r\n{text}\n")
+    [xyz] = [line for line in urdf.splitlines() if "<origin" in line]
+    assert float(xyz.split('"')[1].split()[0]) == float(written) == float(out)

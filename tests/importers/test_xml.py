@@ -1,0 +1,143 @@
+"""Reading XML: places to the character, and nothing that a hostile file could make us do."""
+
+import time
+
+import pytest
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.importers import EncodingError, xml_text
+from linkforge_compile.importers import xml as reader
+from linkforge_compile.importers.xml import MOST_NESTED, XmlComment, XmlElement, read_xml
+from linkforge_compile.source import SourceFile, Span
+
+
+def document(text: str):
+    sink = Diagnostics()
+    read = read_xml(SourceFile("robot.urdf", text), sink)
+    assert not [str(one) for one in sink]
+    assert read
+    return read
+
+
+def codes(text: str) -> list[str]:
+    sink = Diagnostics()
+    assert read_xml(SourceFile("robot.urdf", text), sink) is None
+    return [diagnostic.code.id for diagnostic in sink]
+
+
+def elements(element: XmlElement):
+    yield element
+    for child in element.children:
+        yield from elements(child)
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_a_span_holds_what_is_written_there(end: str):
+    text = end.join(
+        (
+            '<robot name="größe">',
+            "  <!-- größe 一 --> <link",
+            "     name = 'a&amp;b'",
+            '     other="ö"/>  <link name="𝔘"><visual/></link></robot>',
+        )
+    )
+    root = document(text).root
+
+    def written(span: Span) -> str | None:
+        return span.text
+
+    links = list(root.children)
+    assert [written(link.span) for link in elements(root)] == ["<robot", "<link", "<link", "<visual"]
+    assert [written(one.span) for one in root.attributes.values()] == ["größe"]
+    assert {name: (one.value, written(one.span)) for name, one in links[0].attributes.items()} == {
+        "name": ("a&b", "a&amp;b"),
+        "other": ("ö", "ö"),
+    }
+    assert links[1].raw == '<link name="𝔘"><visual/></link>'
+    assert links[0].raw == text[text.index("<link") : text.index("  <link", text.index("<link") + 1)]
+
+
+def test_raw_text_ends_where_the_element_ends():
+    root = document("<robot name='r'><a><b/></a><c x='>'/><d></d ><e/></robot>").root
+    assert [child.raw for child in root.children] == ["<a><b/></a>", "<c x='>'/>", "<d></d >", "<e/>"]
+
+
+def test_a_comment_follows_what_ends_on_its_line():
+    content = document("<robot><a/> <!-- one --> <!-- two -->\n<!-- three --><b/><!-- four --></robot>").root.content
+    assert [(one.text.strip(), one.follows) for one in content if isinstance(one, XmlComment)] == [
+        ("one", True),
+        ("two", True),
+        ("three", False),
+        ("four", True),
+    ]
+
+
+@pytest.mark.parametrize(
+    "start",
+    [
+        "",
+        '<?xml version="1.0"?>',
+        '<?xml version="1.1" encoding="latin-1" standalone="no" ?>\n',
+        '\n\n<?xml version="1.0" encoding="utf-8"?>\n',
+        '<!-- made by a script\n--><?xml version="2.0" ?>',
+    ],
+)
+def test_a_declaration_may_be_late_and_of_any_version(start: str):
+    root = document(f'{start}<robot name="ö"/>').root
+    assert root.get("name") == "ö"
+    assert root.span.text == "<robot"
+
+
+@pytest.mark.parametrize(
+    ("data", "name"),
+    [
+        ('<robot name="ö"/>'.encode(), "ö"),
+        ('<robot name="ö"/>'.encode("utf-8-sig"), "ö"),
+        ('<robot name="ö"/>'.encode("utf-16"), "ö"),
+        ('<?xml version="1.0" encoding="ISO-8859-1"?><robot name="ö"/>'.encode("latin-1"), "ö"),
+        ('<?xml version="1.0" encoding="gb2312"?><robot name="机"/>'.encode("gb2312"), "机"),
+    ],
+)
+def test_a_file_is_read_in_the_encoding_that_it_says(data: bytes, name: str):
+    assert document(xml_text(data)).root.get("name") == name
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (b"<robot>\n\xff</robot>", "line 2 has the byte 0xff, which is not utf-8"),
+        (b'<?xml version="1.0" encoding="klingon"?><robot/>', "there is no encoding 'klingon' of text here"),
+        (b'<?xml version="1.0" encoding="zip"?><robot/>', "there is no encoding 'zip' of text here"),
+        (b'<?xml version="1.0" encoding="unicode_escape"?><robot/>', "there is no encoding 'unicode_escape'"),
+    ],
+)
+def test_bytes_that_are_no_text_are_refused(data: bytes, reason: str):
+    with pytest.raises(EncodingError, match=reason):
+        xml_text(data)
+
+
+def test_depth_is_bounded():
+    assert document("<a>" * MOST_NESTED + "</a>" * MOST_NESTED)
+    assert codes("<a>" * (MOST_NESTED + 1) + "</a>" * (MOST_NESTED + 1)) == ["LF8003"]
+
+
+def test_the_number_of_elements_is_bounded(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(reader, "MOST_ELEMENTS", 3)
+    assert document("<a><b/><b/></a>")
+    assert codes("<a><b/><b/><b/></a>") == ["LF8004"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<!DOCTYPE robot ["
+        + "".join(f'<!ENTITY e{n} "{f"&e{n - 1};" * 50}">' for n in range(1, 40))
+        + "]><r>&e39;</r>",
+        '<!DOCTYPE robot SYSTEM "file:///dev/random"><robot/>',
+        '<!DOCTYPE robot [<!ENTITY % p SYSTEM "http://10.255.255.1/x"> %p;]><robot/>',
+    ],
+)
+def test_entities_are_refused_before_they_do_anything(text: str):
+    began = time.perf_counter()
+    assert codes(text) == ["LF8002"]
+    assert time.perf_counter() - began < 1

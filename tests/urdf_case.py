@@ -1,0 +1,20 @@
+"""Expected diagnostics stand in the URDF itself, as comments on their line, in the form that yaml_case.py tells."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from linkforge_compile import import_urdf
+from tests.yaml_case import Told, expected, told
+
+_COMMENT = re.compile(r"<!-- (\^*[EWN]\[LF\d{4}\]:.*?) -->")
+
+
+def expected_in_xml(file: str, text: str) -> Iterator[Told]:
+    lines = (" ".join(f"# {found}" for found in _COMMENT.findall(line)) for line in text.split("\n"))
+    return expected(file, "\n".join(lines))
+
+
+def check_urdf_case(path: Path) -> None:
+    """Import a URDF file and compare what is told with what it expects."""
+    assert told(import_urdf(path)) == set(expected_in_xml(path.name, path.read_text("utf-8")))
