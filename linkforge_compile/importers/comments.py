@@ -45,19 +45,20 @@ class _Placing:
             if isinstance(item, XmlComment):
                 self._comment(item, element, place, holder)
             elif isinstance(item, XmlElement) and item not in self._draft.raw:
-                self.comments_of(item, self._key(item) or holder)
+                key = self._key(item)
+                self.comments_of(item, holder if key is None else key)
 
     def put(self, comment: XmlComment, above: YamlNode | None, ending: YamlNode | None = None) -> None:
         """Put a comment above a node, or at an end; that of the file where neither is given."""
-        comments, node = (self.above, above) if above else (self.endings, ending or self._tree)
+        comments, node = (self.endings, ending or self._tree) if above is None else (self.above, above)
         text = _text(comment.text)
         if text:
             comments[node] = f"{comments[node]}\n{text}" if node in comments else text
 
     def _comment(self, comment: XmlComment, element: XmlElement, place: int, holder: YamlNode | None) -> None:
-        if comment.follows and (before := self._nearest(element.content[place - 1 :: -1])):
+        if comment.follows and (before := self._nearest(element.content[place - 1 :: -1])) is not None:
             self.put(comment, before)
-        elif behind := self._nearest(element.content[place + 1 :]):
+        elif (behind := self._nearest(element.content[place + 1 :])) is not None:
             self.put(comment, behind)
         else:
             body = self._draft.bodies.get(element)
@@ -66,7 +67,7 @@ class _Placing:
 
     def _nearest(self, content: Sequence[XmlContent]) -> YamlNode | None:
         keys = (self._key(item) for item in content if isinstance(item, XmlElement))
-        return next((key for key in keys if key), None)
+        return next((key for key in keys if key is not None), None)
 
     def _key(self, element: XmlElement) -> YamlNode | None:
         key = self._draft.keys.get(element)

@@ -134,6 +134,18 @@ class Reading:
             raise self.declined(f"it has no <{tag}>")
         return self.within(child, read)
 
+    def text_number(self) -> YamlScalar:
+        """Take the number that the element holds."""
+        node = self.draft.number(self.taken_text(), self.span)
+        if node is None:
+            raise self.declined(f"it holds no finite number: '{self.element.text}'")
+        return node
+
+    def text_numbers(self) -> YamlList:
+        """Take the numbers that the element holds."""
+        nodes = [self.draft.number(text, self.span) for text in self.taken_text().split()]
+        return YamlList(tuple(node for node in nodes if node is not None), self.span)
+
     def taken_text(self) -> str:
         """Take the text that stands in the element."""
         self._text_is_taken = True

@@ -316,3 +316,66 @@ def test_a_number_comes_back_to_the_same_double(read, written: str, out: str):
     urdf = compiled(f"linkforge: 1\nname: r\n{text}\n")
     [xyz] = [line for line in urdf.splitlines() if "<origin" in line]
     assert float(xyz.split('"')[1].split()[0]) == float(written) == float(out)
+
+
+def test_gazebo_blocks_stand_beside_what_they_are_about(read):
+    text = read("""<link name="a"/>
+      <gazebo><static>true</static></gazebo>
+      <gazebo reference="a"><mu1>0.2</mu1><mu2>0.20</mu2><material>Gazebo/Red</material>
+        <sensor name="eye" type="camera"/>
+        <plugin name="p" filename="p.so"><ros><namespace>/x</namespace></ros><j>a</j><j>b</j></plugin></gazebo>
+      <gazebo reference="a"><plugin name="p" filename="p.so"><x/><y/><x>1</x></plugin></gazebo>
+      <gazebo reference="a"/>""")
+    assert text == spec("""
+        links:
+          a:
+            gazebo:
+              - mu1: 0.2
+                material: Gazebo/Red
+                properties: {mu2: 0.20}
+                plugins:
+                  p: {filename: p.so, parameters: {ros: {namespace: /x}, j: [a, b]}}
+                extra: <sensor name="eye" type="camera"/>
+              - plugins: {p: {filename: p.so, extra: [<x/>, <y/>, <x>1</x>]}}
+              - {}
+
+        gazebo: {static: true}""")
+
+
+def test_hardware_comes_in_by_its_names(read):
+    text = read("""<link name="a"/>
+      <ros2_control name="h" type="system" rw_rate="50">
+        <hardware><plugin>m/S</plugin><param name="id">007</param></hardware>
+        <gpio name="g"><state_interface name="in"><param name="initial_value">1.0</param></state_interface></gpio>
+        <gpio name="o"><command_interface name="out"/></gpio>
+        <transmission name="inner"/>
+      </ros2_control>""")
+    assert text == spec("""
+        links:
+          a: {}
+
+        ros2_control:
+          h:
+            hardware_plugin: m/S
+            parameters: {id: 007}
+            gpios:
+              g: {state_interfaces: {in: {initial_value: 1.0}}}
+              o: {command_interfaces: [out]}
+            extra: <transmission name="inner"/>
+            extra_attributes: {rw_rate: 50}""")
+
+
+def test_a_transmission_keeps_the_spelling_that_its_fields_cannot(read):
+    text = read(f"""{BOTH}<joint name="j" type="fixed">{ENDS}</joint>
+      <transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+        <joint name="j"><hardwareInterface>position</hardwareInterface></joint>
+        <actuator name="m"><hardwareInterface>effort</hardwareInterface>
+          <mechanicalReduction>50</mechanicalReduction><offset>1.0</offset></actuator></transmission>""")
+    assert text.partition("transmissions:\n")[2] == spec("""
+      t:
+        type: transmission_interface/SimpleTransmission
+        joints: {j: {}}
+        actuators:
+          m: {hardware_interfaces: [effort], mechanical_reduction: 50, extra: <offset>1.0</offset>}""").replace(
+        "\n", "\n  "
+    ).replace("t:", "  t:", 1)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from linkforge_compile.importers.draft import DeclinedError, number_of
 from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.urdf.gazebo import Blocks
 from linkforge_compile.importers.urdf.geometry import read_origin
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension
@@ -37,8 +38,8 @@ _AXES: Mapping[tuple[float | None, ...], str] = {
 }
 
 
-def read_joint(joint: Reading, joints: Collection[str], gazebo: YamlNode | None) -> YamlMap:
-    """Read a joint, whose name is taken; `gazebo` is what a simulator is told about it elsewhere in the file.
+def read_joint(joint: Reading, joints: Collection[str], blocks: Blocks) -> YamlMap:
+    """Read a joint, whose name is taken; `blocks` has what a simulator is told about it.
 
     `joints` are the names of all joints: what names another cannot be said.
     """
@@ -58,7 +59,7 @@ def read_joint(joint: Reading, joints: Collection[str], gazebo: YamlNode | None)
         mimic=joint.one("mimic", lambda mimic: _mimic(mimic, motion, joints)),
         safety_controller=_part(joint, "safety_controller", _safety_controller, motion),
         calibration=_part(joint, "calibration", _calibration, motion),
-        gazebo=gazebo,
+        gazebo=blocks.beside(joint.element.get("name") or ""),
     )
 
 

@@ -6,6 +6,7 @@ from functools import partial
 
 from linkforge_compile.importers.draft import same
 from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.urdf.gazebo import Blocks
 from linkforge_compile.importers.urdf.geometry import read_geometry, read_origin
 from linkforge_compile.importers.urdf.material import Palette
 from linkforge_compile.syntax import YamlMap, YamlNode
@@ -14,8 +15,8 @@ _MOMENTS = ("ixx", "iyy", "izz")
 _PRODUCTS = ("ixy", "ixz", "iyz")
 
 
-def read_link(link: Reading, palette: Palette, gazebo: YamlNode | None) -> YamlMap:
-    """Read a link, whose name is taken; `gazebo` is what a simulator is told about it elsewhere in the file."""
+def read_link(link: Reading, palette: Palette, blocks: Blocks) -> YamlMap:
+    """Read a link, whose name is taken; `blocks` has what a simulator is told about it."""
     visuals = link.each("visual", partial(_visual, palette=palette))
     collisions = link.each("collision", _collision)
     shapes = {"visual": link.draft.one_or_list(visuals), "collision": _collisions(link, visuals, collisions)}
@@ -24,7 +25,7 @@ def read_link(link: Reading, palette: Palette, gazebo: YamlNode | None) -> YamlM
         # Their order is that of the output.
         **dict(reversed(shapes.items()) if tags[:1] == ["collision"] else shapes),
         inertial=link.one("inertial", _inertial),
-        gazebo=gazebo,
+        gazebo=blocks.beside(link.element.get("name") or ""),
     )
 
 

@@ -12,9 +12,12 @@ from linkforge_compile.importers.comments import Comments, placed_comments
 from linkforge_compile.importers.draft import DeclinedError, Draft
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.urdf.frame import frames_of
+from linkforge_compile.importers.urdf.gazebo import Blocks
 from linkforge_compile.importers.urdf.joint import read_joint
 from linkforge_compile.importers.urdf.link import read_link
 from linkforge_compile.importers.urdf.material import Named, Palette
+from linkforge_compile.importers.urdf.ros2_control import read_ros2_control
+from linkforge_compile.importers.urdf.transmission import read_transmission
 from linkforge_compile.importers.xml import XmlElement, read_xml
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
@@ -57,10 +60,13 @@ def _robot(robot: Reading) -> YamlMap:
     name, version = robot.name(), robot.word("version")
     robot.each("material", palette.declare)
     palette.find(draft, robot.element)
-    links = _section(robot, "link", lambda link: read_link(link, palette, None))
+    blocks = Blocks(robot)
+    links = _section(robot, "link", lambda link: read_link(link, palette, blocks))
     names = {child.get("name") or "" for child in robot.element.children if child.tag == "joint"}
-    joints = _section(robot, "joint", lambda joint: read_joint(joint, names, None))
+    joints = _section(robot, "joint", lambda joint: read_joint(joint, names, blocks))
     frames = frames_of(draft, links, joints)
+    transmissions = _section(robot, "transmission", read_transmission)
+    controls = _section(robot, "ros2_control", read_ros2_control)
     return robot.map(
         linkforge=YamlScalar("1", 1, robot.span),
         name=name,
@@ -69,6 +75,9 @@ def _robot(robot: Reading) -> YamlMap:
         links=draft.named(links, robot.span),
         joints=draft.named(joints, robot.span),
         frames=draft.named(frames, robot.span),
+        transmissions=draft.named(transmissions, robot.span),
+        ros2_control=draft.named(controls, robot.span),
+        gazebo=blocks.rest(),
     )
 
 

@@ -1,0 +1,110 @@
+"""What plugins read: child elements as keys, where an element made of these keys is the same again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import groupby
+
+from linkforge_compile.importers.draft import number_of
+from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.xml import XmlElement
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import number_text
+
+
+def read_text(element: Reading) -> YamlScalar:
+    """Read an element that holds text and nothing else."""
+    node = element.draft.word(text_of(element.element), element.span)
+    element.taken_text()
+    element.spent()
+    return node
+
+
+def read_word(element: Reading) -> YamlScalar:
+    """Read an element that holds some text, and nothing else."""
+    node = read_text(element)
+    if not node.text.strip():
+        raise element.declined("it is empty")
+    return node
+
+
+def text_of(element: XmlElement) -> str:
+    """Return the text of an element; where it stands on lines of its own, without the space around it."""
+    text = element.text
+    stripped = text.strip()
+    around = (text.partition(stripped)[0], text.rpartition(stripped)[2]) if stripped else (text, "")
+    return stripped if any("\n" in space for space in around) else text
+
+
+def read_free(element: Reading) -> YamlNode:
+    """Read a free element: attributes as `_name`, its text as `_text`, and its children by their tags."""
+    if not element.element.attributes and not element.children():
+        return read_text(element)
+    entries: dict[str, YamlNode | None] = {}
+    for name in element.element.attributes:
+        taken = element.attribute(name)
+        entries[f"_{name}"] = element.draft.word(taken.value, taken.span)
+    if text := text_of(element.element).strip():
+        entries["_text"] = element.draft.word(text, element.span)
+    element.taken_text()
+    return element.draft.map_of({**entries, **free_children(element)}, element.span)
+
+
+def is_free(element: XmlElement) -> bool:
+    """Whether an element made of keys would be the same: no order lost, and no name that means something else."""
+    is_text_first = not element.text.strip() or not any(element.children) or _begins_with_text(element)
+    return "text" not in element.attributes and is_text_first and has_free_children(element)
+
+
+def has_free_children(element: XmlElement) -> bool:
+    """Whether the children of an element can be keys."""
+    tags = [tag for tag, _ in groupby(child.tag for child in element.children)]
+    return (
+        len(set(tags)) == len(tags)
+        and not any(tag.startswith("_") for tag in tags)
+        and all(map(is_free, element.children))
+    )
+
+
+def _begins_with_text(element: XmlElement) -> bool:
+    """Whether all text of an element stands before its children."""
+    first, *others = element.content
+    return isinstance(first, str) and not any(isinstance(one, str) and one.strip() for one in others)
+
+
+def free_children(owner: Reading) -> dict[str, YamlNode | None]:
+    """Take all children of a free element, each tag a key; a tag that repeats is a list."""
+    groups = [(tag, list(group)) for tag, group in groupby(owner.children(), lambda child: child.tag)]
+    return {tag: _one_or_several(owner, group) for tag, group in groups}
+
+
+def take_texts(owner: Reading, children: Iterable[XmlElement]) -> dict[str, YamlNode | None]:
+    """Take those of the children that hold text and nothing else, each tag a key; all others are left."""
+    several = _tags_that_repeat(owner.children())
+    plain = [one for one in children if not one.attributes and not any(one.children) and one.tag not in several]
+    return {one.tag: owner.within(one, read_text) for one in plain if not one.tag.startswith("_")}
+
+
+def exact_number(element: XmlElement) -> float | None:
+    """Return the number that an element holds, if it holds nothing else and is spelled as we would spell it."""
+    if element.attributes or any(element.children):
+        return None
+    text = element.text.strip()
+    value = number_of(text)
+    return value if value is not None and number_text(value) == text else None
+
+
+def _one_or_several(owner: Reading, group: list[XmlElement]) -> YamlNode | None:
+    nodes = [owner.within(child, read_free) for child in group]
+    if len(nodes) == 1:
+        return nodes[0]
+    return owner.draft.list_of(nodes, nodes[0].span)
+
+
+def _tags_that_repeat(children: list[XmlElement]) -> set[str]:
+    tags = [child.tag for child in children]
+    return {tag for tag in tags if tags.count(tag) > 1}
+
+
+def is_empty(node: YamlNode) -> bool:
+    return isinstance(node, YamlMap) and not len(node)

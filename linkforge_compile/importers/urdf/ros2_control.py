@@ -1,0 +1,117 @@
+"""ros2_control blocks of URDF."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from linkforge_compile.importers.draft import DeclinedError
+from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.urdf.free_part import is_empty, read_word, text_of
+from linkforge_compile.syntax import YamlMap, YamlNode
+
+_TYPES = ("system", "actuator", "sensor")
+_RESERVED = ("extra", "extra_attributes")
+"""Keys of an interface that no parameter of it can have."""
+
+Named = dict[str, YamlNode | None]
+
+
+def read_ros2_control(control: Reading) -> YamlMap:
+    """Read a block, whose name is taken."""
+    draft, kind = control.draft, control.name("type")
+    if kind.text not in _TYPES:
+        raise DeclinedError(f"there is no type named '{kind.text}'", kind.span)
+    hardware = control.needed("hardware", _hardware)
+    joints = _named(control, "joint", _commanded)
+    sensors, gpios = _named(control, "sensor", _sensor), _named(control, "gpio", _commanded)
+    if kind.text == "actuator" and len(joints) != 1:
+        raise control.declined(f"an actuator has one joint, found {len(joints)}")
+    if kind.text == "sensor" and any(
+        isinstance(one, YamlMap) and one.get("command_interfaces") for one in joints.values()
+    ):
+        raise control.declined("a sensor commands nothing, found a <command_interface>")
+    return control.map(
+        type=None if kind.text == "system" else kind,
+        **{entry.name: entry.value for entry in hardware} if isinstance(hardware, YamlMap) else {},
+        joints=draft.map_of(joints, control.span) if joints else None,
+        sensors=draft.map_of(sensors, control.span) if sensors else None,
+        gpios=draft.map_of(gpios, control.span) if gpios else None,
+    )
+
+
+def _commands(component: YamlNode | None) -> bool:
+    return isinstance(component, YamlMap) and component.get("command_interfaces") is not None
+
+
+def _hardware(hardware: Reading) -> YamlMap:
+    node = hardware.draft.map_of(
+        {"hardware_plugin": hardware.needed("plugin", read_word), "parameters": _parameters(hardware)}, hardware.span
+    )
+    hardware.spent()
+    return node
+
+
+def _commanded(component: Reading) -> YamlMap:
+    commands, states = _interfaces(component, "command_interface"), _interfaces(component, "state_interface")
+    if commands is None and states is None:
+        raise component.declined("it has neither a <command_interface> nor a <state_interface>")
+    return component.map(command_interfaces=commands, state_interfaces=states, parameters=_parameters(component))
+
+
+def _sensor(sensor: Reading) -> YamlMap:
+    return sensor.map(state_interfaces=_interfaces(sensor, "state_interface"), parameters=_parameters(sensor))
+
+
+def _interfaces(component: Reading, tag: str) -> YamlNode | None:
+    """Read interfaces: a list of their names, or a map where one of them has more to say."""
+    interfaces = _named(component, tag, _interface)
+    if not interfaces:
+        return None
+    draft, span = component.draft, component.span
+    if not all(is_empty(node) for node in interfaces.values() if node is not None):
+        return draft.map_of(interfaces, span)
+    names = []
+    for name, node in interfaces.items():
+        if node is not None:
+            names.append(draft.text(name, node.span))
+            draft.stands_for(names[-1], node)
+    return draft.list_of(names, span)
+
+
+def _interface(interface: Reading) -> YamlMap:
+    parameters = _take_parameters(interface)
+    if any(name in _RESERVED for name in parameters):
+        raise interface.declined("a parameter of it is named as a key of the language")
+    return interface.map(**parameters)
+
+
+def _parameters(owner: Reading) -> YamlNode | None:
+    parameters = _take_parameters(owner)
+    return owner.draft.map_of(parameters, owner.span) if parameters else None
+
+
+def _take_parameters(owner: Reading) -> Named:
+    return _named(owner, "param", _parameter)
+
+
+def _parameter(parameter: Reading) -> YamlNode:
+    node = parameter.draft.word(text_of(parameter.element), parameter.span)
+    parameter.taken_text()
+    parameter.spent()
+    return node
+
+
+def _named(owner: Reading, tag: str, read: Callable[[Reading], YamlNode]) -> Named:
+    """Take the children of a tag by their names; one without a name, or whose name is taken, stays raw."""
+    section: Named = {}
+
+    def read_named(child: Reading) -> YamlNode:
+        name = child.attribute("name")
+        if not name.value or name.value in section:
+            raise DeclinedError(f"there is a <{tag}> '{name.value}' already", name.span)
+        section[name.value] = node = read(child)
+        return node
+
+    for child in [child for child in owner.children() if child.tag == tag]:
+        owner.take(child, read_named)
+    return section

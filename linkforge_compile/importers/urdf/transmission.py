@@ -1,0 +1,66 @@
+"""Transmissions of URDF, in the form that ros2_control and its forerunner have had since ROS Hydro."""
+
+from __future__ import annotations
+
+import re
+
+from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.urdf.free_part import exact_number, read_word, take_texts
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+
+_NAME = re.compile(r"[\w.\-/]+")
+_COUNTS = {
+    "transmission_interface/SimpleTransmission": 1,
+    "transmission_interface/DifferentialTransmission": 2,
+    "transmission_interface/FourBarLinkageTransmission": 2,
+}
+"""How many joints, and how many actuators, these types have."""
+
+
+def read_transmission(transmission: Reading) -> YamlMap:
+    """Read a transmission, whose name is taken."""
+    kind = transmission.needed("type", read_word)
+    kind_text = kind.text if isinstance(kind, YamlScalar) else ""
+    ends = {tag: _ends(transmission, tag) for tag in ("joint", "actuator")}
+    count = _COUNTS.get(kind_text)
+    for tag, found in ends.items():
+        if not found or (count and len(found) != count):
+            raise transmission.declined(f"it has {len(found) or 'no'} <{tag}>, and takes {count or 'at least one'}")
+    parameters = take_texts(transmission, transmission.children())
+    return transmission.map(
+        type=kind,
+        joints=transmission.draft.map_of(ends["joint"], transmission.span),
+        actuators=transmission.draft.map_of(ends["actuator"], transmission.span),
+        parameters=transmission.draft.map_of(parameters, transmission.span) if parameters else None,
+    )
+
+
+def _ends(transmission: Reading, tag: str) -> dict[str, YamlNode | None]:
+    ends: dict[str, YamlNode | None] = {}
+    for child in [child for child in transmission.children() if child.tag == tag]:
+        name = child.get("name") or ""
+        if not _NAME.fullmatch(name) or name in ends:
+            raise transmission.declined(f"a <{tag}> in it is named '{name}', which is no name or is there already")
+        ends[name] = transmission.within(child, _end)
+    return ends
+
+
+def _end(end: Reading) -> YamlMap:
+    end.attribute("name")
+    interfaces = [end.within(child, read_word) for child in end.children() if child.tag == "hardwareInterface"]
+    if not interfaces:
+        raise end.declined("it has no <hardwareInterface>")
+    usual = [one.text for one in interfaces if isinstance(one, YamlScalar)] == ["position"]
+    return end.map(
+        hardware_interfaces=None if usual else end.draft.list_of(interfaces, interfaces[0].span),
+        mechanical_reduction=_number(end, "mechanicalReduction"),
+        offset=_number(end, "offset"),
+    )
+
+
+def _number(end: Reading, tag: str) -> YamlNode | None:
+    """Take a number that comes back as it is spelled, and is not 0; any other child is left."""
+    children = [child for child in end.children() if child.tag == tag]
+    if len(children) != 1 or (value := exact_number(children[0])) is None or value == 0:
+        return None
+    return end.within(children[0], lambda child: child.text_number())
