@@ -339,7 +339,8 @@ def test_gazebo_blocks_stand_beside_what_they_are_about(read):
               - plugins: {p: {filename: p.so, extra: [<x/>, <y/>, <x>1</x>]}}
               - {}
 
-        gazebo: {static: true}""")
+        gazebo:
+          static: true""")
 
 
 def test_hardware_comes_in_by_its_names(read):
