@@ -5,7 +5,7 @@ from linkforge_compile.expressions.functions import RESERVED_NAMES
 from linkforge_compile.expressions.parse import has_expression, parse_template
 from linkforge_compile.expressions.scope import FileFunction, Lazy, Scope
 from linkforge_compile.expressions.template import Expression, Template
-from linkforge_compile.expressions.types import FAULT, Fault, Value, as_text, kind_name
+from linkforge_compile.expressions.types import FAULT, Fault, PathText, Value, as_text, kind_name, seen_from_compiled
 
 __all__ = [
     "FAULT",
@@ -14,6 +14,7 @@ __all__ = [
     "Fault",
     "FileFunction",
     "Lazy",
+    "PathText",
     "Scope",
     "Template",
     "Value",
@@ -23,4 +24,5 @@ __all__ = [
     "has_expression",
     "kind_name",
     "parse_template",
+    "seen_from_compiled",
 ]

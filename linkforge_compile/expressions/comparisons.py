@@ -49,9 +49,14 @@ def _equality(left: Value, right: Value, taker: str, predicate: Predicate) -> bo
         if isinstance(value, tuple | Mapping):
             found = kind_name(value)
             raise RefusedError(codes.WRONG_KIND, operand=operand, taker=taker, expected="single values", found=found)
-    if type(left) is not type(right):
+    if _kind(left) is not _kind(right):
         raise RefusedError(codes.KINDS_DIFFER, taker=taker, left=kind_name(left), right=kind_name(right))
     return predicate(left, right)
+
+
+def _kind(value: Value) -> type:
+    """Return the type of a value; paths are text."""
+    return str if isinstance(value, str) else type(value)
 
 
 def _order(left: Value, right: Value, taker: str, predicate: Predicate) -> bool:

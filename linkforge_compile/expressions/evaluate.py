@@ -12,10 +12,10 @@ from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.access import field, item
 from linkforge_compile.expressions.comparisons import COMPARISONS
 from linkforge_compile.expressions.functions import CONSTANTS, FILE_FUNCTIONS, FUNCTIONS
-from linkforge_compile.expressions.operators import ARITHMETIC, MAX_TEXT, signed, truth
+from linkforge_compile.expressions.operators import ARITHMETIC, MAX_TEXT, is_too_long, signed, truth
 from linkforge_compile.expressions.scope import Scope
 from linkforge_compile.expressions.template import Expression, Template
-from linkforge_compile.expressions.types import FAULT, Fault, RefusedError, Value, as_text, kind_name
+from linkforge_compile.expressions.types import FAULT, Fault, RefusedError, Value, as_text, joined, kind_name
 
 T = TypeVar("T")
 
@@ -31,8 +31,8 @@ def evaluate(template: Template, scope: Scope, sink: Diagnostics) -> Value | Fau
     texts = [part if isinstance(part, str) else _evaluate_to_text(part, scope, sink) for part in template.parts]
     if None in texts:
         return FAULT
-    text = "".join(text for text in texts if text is not None)
-    if len(text) > MAX_TEXT:
+    text = joined(*(text for text in texts if text is not None))
+    if is_too_long(text):
         sink.report(codes.TEXT_TOO_LONG.at(template.span, limit=f"{MAX_TEXT:,}"))
         return FAULT
     return text

@@ -10,7 +10,14 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics.codes import expressions as codes
-from linkforge_compile.expressions.types import RefusedError, Value, dimension_name, kind_name
+from linkforge_compile.expressions.types import (
+    RefusedError,
+    Value,
+    dimension_name,
+    joined,
+    kind_name,
+    seen_from_compiled,
+)
 from linkforge_compile.units import Dimension, Quantity
 
 Number: TypeAlias = int | float
@@ -44,6 +51,11 @@ def shared_dimension(dimensions: Sequence[Dimension | None], taker: str) -> Dime
     return found[0] if found else None
 
 
+def is_too_long(text: str) -> bool:
+    """Whether a text is more than an expression may put together, as its file writes it or as the compiled one."""
+    return max(len(text), len(seen_from_compiled(text))) > MAX_TEXT
+
+
 def bounded(compute: Callable[[], Value], taker: str) -> Value:
     """Return a result unless it goes beyond what a double, or our patience with digits and text, can hold."""
     try:
@@ -55,7 +67,7 @@ def bounded(compute: Callable[[], Value], taker: str) -> Value:
             raise RefusedError(codes.RESULT_TOO_LARGE, taker=taker)
         case int() as size if size.bit_length() > MAX_INTEGER_BITS:
             raise RefusedError(codes.RESULT_TOO_LARGE, taker=taker)
-        case str() as text if len(text) > MAX_TEXT:
+        case str() as text if is_too_long(text):
             raise RefusedError(codes.TEXT_TOO_LONG, limit=f"{MAX_TEXT:,}")
     return value
 
@@ -107,7 +119,7 @@ class Arithmetic:
 
     def _result(self, left: Value, right: Value, taker: str) -> Value:
         if self.symbol == "+" and isinstance(left, str) and isinstance(right, str):
-            return left + right
+            return joined(left, right)
         (a, left_dimension), (b, right_dimension) = number(left, taker, 0), number(right, taker, 1)
         dimension = self.dimension(left_dimension, right_dimension, taker)
         try:

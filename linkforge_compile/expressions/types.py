@@ -13,6 +13,33 @@ Value: TypeAlias = None | bool | int | float | str | Quantity | tuple["Value", .
 """What a parameter, a variable or an expression may be; quantities are in SI units."""
 
 
+class PathText(str):
+    """Text with a path in it that is relative to the file of the expression; `from_compiled` is the compiled file's.
+
+    It stays one where more text is put to it, so a name may be made of it that only another name hands to its reader.
+    """
+
+    __slots__ = ("from_compiled",)
+    from_compiled: str
+
+    def __new__(cls, text: str, from_compiled: str) -> PathText:
+        path = super().__new__(cls, text)
+        path.from_compiled = from_compiled
+        return path
+
+
+def joined(*texts: str) -> str:
+    """Return texts put together, with the paths in them."""
+    text = "".join(texts)
+    has_paths = any(isinstance(part, PathText) for part in texts)
+    return PathText(text, "".join(map(seen_from_compiled, texts))) if has_paths else text
+
+
+def seen_from_compiled(text: str) -> str:
+    """Return text with the paths in it as the compiled file would write them."""
+    return text.from_compiled if isinstance(text, PathText) else text
+
+
 class Fault(Enum):
     """Stands where a value would, but that is faulty or unset, and this was reported where it belongs."""
 

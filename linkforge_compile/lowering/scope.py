@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -10,6 +9,7 @@ from linkforge_compile.core.models.material import Material
 from linkforge_compile.diagnostics import Gaps
 from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.modules.mesh_files import no_mesh
+from linkforge_compile.modules.uses import from_base
 from linkforge_compile.source import SourceFile, Span
 
 
@@ -27,19 +27,4 @@ class FileScope:
 
     def resource(self, path: str, where: Span) -> str:
         """Return a relative path, written at a place, as the compiled file would; any other path as written."""
-        base = self.mesh_bases.get(where.file)
-        if not base or "://" in path or path.startswith("/"):
-            return path
-        whole = base + path
-        package, separator, inside = _in_package(whole)
-        normal = posixpath.normpath(inside)
-        climbs_out = separator and normal.startswith("..")
-        return whole if climbs_out else package + separator + normal
-
-
-def _in_package(path: str) -> tuple[str, str, str]:
-    """Split `package://NAME/PATH` behind the name; "" and "" before a path of files."""
-    if not path.startswith("package://"):
-        return "", "", path
-    name, separator, inside = path.removeprefix("package://").partition("/")
-    return f"package://{name}", separator, inside
+        return from_base(path, self.mesh_bases.get(where.file, ""))

@@ -27,7 +27,7 @@ from linkforge_compile.modules.computed import judge_computed
 from linkforge_compile.modules.conditions import MAX_REPEATED, occurrences
 from linkforge_compile.modules.disabled import Disabled
 from linkforge_compile.modules.origins import ExpressionTrace, Setting
-from linkforge_compile.modules.values import node_of, plain_value, size_of
+from linkforge_compile.modules.values import node_of, passed_on, plain_value, size_of
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.source import ComputedSpan, SourceFile, Span
@@ -214,7 +214,7 @@ class TreeEvaluator:
         is_free = is_free or shape.is_free_part
         match node:
             case YamlScalar():
-                return judge_computed(self._scalar(node, is_free or shape.is_text), key, shape, self.sink)
+                return judge_computed(self._scalar(node, shape, is_free), key, shape, self.sink)
             case YamlList():
                 item = shape.item or (shape if shape.is_object else FREE)
                 return YamlList(tuple(self._items(node, item, key, is_free)), node.span)
@@ -306,12 +306,16 @@ class TreeEvaluator:
             return FAULT
         return evaluate(template, self.scope_of(scalar), self.sink)
 
-    def _scalar(self, scalar: YamlScalar, is_text: bool) -> YamlNode:
+    def _scalar(self, scalar: YamlScalar, shape: Shape, is_free: bool) -> YamlNode:
         value = self._computed(scalar)
+        is_text = is_free or shape.is_text
         if value is FAULT or (not is_text and self.expressions.tell_made_number(scalar, value, self.sink)):
             return YamlFault(scalar.span)
         admitted = self.expressions.admit(value, scalar.span, self.sink)
-        return node_of(value, self.place(scalar)) if admitted else YamlFault(scalar.span)
+        if not admitted:
+            return YamlFault(scalar.span)
+        # Nobody after this knows a path in what is passed on as text.
+        return node_of(passed_on(value) if is_free or shape.is_xml else value, self.place(scalar))
 
 
 def _looks_like_number(text: Value) -> bool:

@@ -56,7 +56,7 @@ def expand(
         tell_unknown_variant(variant, spec, sink)
         # Nobody knows what it would have set.
         arguments = replace(arguments, is_partial=True)
-    return _Expansion(spec, Shared(loader, unset, variant), sink).instance(_Use(spec, Given(arguments, sink)))
+    return _Expansion(spec, Shared(spec, loader, unset, variant), sink).instance(_Use(spec, Given(arguments, sink)))
 
 
 @dataclass(frozen=True, slots=True)

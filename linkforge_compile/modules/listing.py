@@ -57,7 +57,7 @@ class Listing(NamedTuple):
 def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listing:
     """List what a file declares; what is wrong with it is reported, that something is not set yet is not."""
     given = Given(Arguments(is_partial=True), sink)
-    names = FileNames(UseOfFile(spec, given), Shared(loader, Unset.NOTE), sink)
+    names = FileNames(UseOfFile(spec, given), Shared(spec, loader, Unset.NOTE), sink)
     given.tell_unknown(names.declared, Variants(variants_of(spec)), spec)
     return Listing(
         name=_text(spec.tree.get("name")),

@@ -17,7 +17,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     NOT_JUDGED,
     RESERVED_NAME,
 )
-from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Lazy, Scope, Value
+from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Lazy, PathText, Scope, Value
 from linkforge_compile.modules.data import data_of
 from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
 from linkforge_compile.modules.given import Given, Unset, parameter_value, tell_unset
@@ -27,7 +27,7 @@ from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.own_names import OwnNames
 from linkforge_compile.modules.parameters import Declaration, declarations
 from linkforge_compile.modules.paths import follow
-from linkforge_compile.modules.uses import rebased
+from linkforge_compile.modules.uses import from_base, mesh_base, rebased
 from linkforge_compile.modules.values import plain_value
 from linkforge_compile.modules.variants import Variants, variants_of
 from linkforge_compile.schema.shapes import shapes
@@ -44,6 +44,7 @@ _KINDS = {"parameters": "parameter", "variables": "variable", "data": "data name
 class Shared:
     """What all uses of all files in one compile share; `variant` is the one chosen for the compiled file."""
 
+    compiled: SpecFile
     loader: Loader
     unset: Unset = Unset.ERROR
     variant: str | None = None
@@ -65,6 +66,7 @@ class FileNames:
     def __init__(self, use: UseOfFile, shared: Shared, sink: Diagnostics) -> None:
         spec, given = use.spec, use.given
         self._spec = spec
+        self._path_base = "" if spec.folder is None else mesh_base(spec, shared.compiled)
         self._given = given
         self._loader = shared.loader
         self._packages: dict[str, Path] | None = None
@@ -137,7 +139,7 @@ class FileNames:
         if setting is not None:
             self.tree.settings[declaration.name] = setting
         if value is not None:
-            return value
+            return self._as_path(value) if declaration.kind is KINDS["file"] else value
         if declaration.is_faulty:
             return FAULT
         self._unset.append(declaration)
@@ -194,7 +196,14 @@ class FileNames:
 
     def _seen_from(self, part: SpecFile, name: str) -> Value | Fault:
         path = self.tree.scope.lookup(name, self._sink)
-        return rebased(path, self._spec.folder, part) if isinstance(path, str) else path
+        return self._as_path(path, rebased(path, self._spec.folder, part)) if isinstance(path, str) else path
+
+    def _as_path(self, value: Value | Fault, text: str | None = None) -> Value | Fault:
+        """Return a path of this file as one that can tell how the compiled file writes it; `text` is it as read."""
+        # An empty text is no path, and would have no length by which to bound what is put together of it.
+        if not isinstance(value, str) or not value:
+            return value
+        return PathText(value if text is None else text, from_base(value, self._path_base))
 
     def _is_name(self, key: YamlScalar, kind: str) -> bool:
         """Whether an expression can use the name; reports why not."""

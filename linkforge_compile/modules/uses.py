@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import posixpath
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -89,6 +90,25 @@ def mesh_base(module: SpecFile, compiled: SpecFile) -> str:
     if compiled.folder is None:
         return f"{module.folder.absolute().as_posix()}/"
     return _steps(module.folder, compiled.folder)
+
+
+def from_base(path: str, base: str) -> str:
+    """Return a path behind what `mesh_base` gives for its file, in the shortest form; no relative one as written."""
+    if not base or "://" in path or path.startswith("/"):
+        return path
+    whole = base + path
+    package, separator, inside = _behind_the_package(whole)
+    normal = posixpath.normpath(inside)
+    climbs_out = separator and normal.startswith("..")
+    return whole if climbs_out else package + separator + normal
+
+
+def _behind_the_package(path: str) -> tuple[str, str, str]:
+    """Split `package://NAME/PATH` behind the name; "" and "" before a path of files."""
+    if not path.startswith("package://"):
+        return "", "", path
+    name, separator, inside = path.removeprefix("package://").partition("/")
+    return f"package://{name}", separator, inside
 
 
 def name_from(spec: SpecFile, compiled: SpecFile) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from linkforge_compile.expressions import FAULT, Fault, Value, as_text
+from linkforge_compile.expressions import FAULT, Fault, Value, as_text, seen_from_compiled
 from linkforge_compile.source import Key, Span
 from linkforge_compile.syntax import ScalarValue, YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, parse_quantity
@@ -50,6 +50,18 @@ def node_of(value: Value, span: Span) -> YamlNode:
         }
         return YamlMap(entries, span)
     return _scalar(value, span)
+
+
+def passed_on(value: Value) -> Value:
+    """Return a value for a part that is passed on as text: with the paths in it as the compiled file writes them."""
+    match value:
+        case str():
+            return seen_from_compiled(value)
+        case tuple():
+            return tuple(map(passed_on, value))
+        case Mapping():
+            return {name: passed_on(item) for name, item in value.items()}
+    return value
 
 
 class Size(NamedTuple):

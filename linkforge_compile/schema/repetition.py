@@ -10,6 +10,9 @@ PLAIN = "plain"
 LONG_FORM = "the long form"
 """The title of what an entry or item may be that is no object: `{for: {i: 3}, value: joint_$(i)}`."""
 
+XML = "XML"
+"""The title of what is raw XML."""
+
 WORDS = ("for", "when", "value")
 
 RAW = ("extra", "extra_attributes", "extra_inside")

@@ -9,7 +9,7 @@ from typing import Final
 from linkforge_compile.schema.json_types import Schema, branches, mapping
 from linkforge_compile.schema.patches import POSITION
 from linkforge_compile.schema.registry import linked
-from linkforge_compile.schema.repetition import LONG_FORM, RAW, WORDS, has_names, is_list, is_plain, is_short_form
+from linkforge_compile.schema.repetition import LONG_FORM, RAW, WORDS, XML, has_names, is_list, is_plain, is_short_form
 
 
 class Shape:
@@ -34,6 +34,8 @@ class Shape:
         read_as = {kind for part in self._union if (kind := _read_as(part))}
         self.is_text: Final = "string" in read_as and "number" not in read_as
         """Whether a scalar that stands here is a name or other text, and no number."""
+        self.is_xml: Final = any(part.get("title") == XML for part in self._union)
+        """Whether raw XML may stand here."""
         self.has_names: Final = self._names is not None
         """Whether it may be a map keyed by names."""
         self.is_object: Final = self._object is not None and not self.has_names

@@ -133,7 +133,7 @@ def test_a_bare_angle_beyond_a_whole_turn_is_doubted():
     assert not assemble(text, "tilt=720 deg").told
 
 
-def test_a_file_is_relative_to_the_file_that_writes_it(tmp_path):
+def test_a_file_is_relative_to_the_file_that_writes_it_and_comes_out_relative_to_the_compiled_one(tmp_path):
     write(
         tmp_path,
         {
@@ -155,8 +155,8 @@ def test_a_file_is_relative_to_the_file_that_writes_it(tmp_path):
     spec = loader.open(tmp_path / "robot.robot.yaml", sink)
     instance = expand(spec, arguments_from_text((), sink), loader, sink)
     assert [metadata_of(module) for module in instance.modules] == [
-        {"shell": "../meshes/a.stl"},
-        {"shell": "own.stl"},
+        {"shell": "meshes/a.stl"},
+        {"shell": "arms/own.stl"},
         {"shell": "package://p/a.stl"},
         {"shell": (tmp_path / "meshes/a.stl").as_posix()},
     ]

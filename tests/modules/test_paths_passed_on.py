@@ -1,0 +1,86 @@
+"""Paths among the parameters, where they are passed on as text: written as the compiled file would."""
+
+from linkforge_compile import compile_file
+from tests.modules.assembling import assemble, metadata_of, write
+
+ARM = """
+    parameters: {config: {type: file}, gains: {type: file, default: gains.yaml}, folder: {type: file, default: conf}}
+    variables: {both: {own: $(gains), inside: "$(folder)/a.yaml"}, sum: $(folder + '/b.yaml')}
+"""
+
+
+def test_a_path_in_a_part_that_is_passed_on_is_relative_to_the_compiled_file(tmp_path):
+    arm = f"""{ARM}
+    links: {{base: }}
+    extra: <config>$(config)</config>
+    extra_attributes: {{gains: $(gains)}}
+    gazebo:
+      plugins:
+        control:
+          filename: lib.so
+          parameters:
+            file: [$(gains), $(both.inside), $(sum), --params=$(gains)]
+            map: $(both)
+            at: $(path(gains))
+    """
+    write(tmp_path, {"arms/arm.robot.yaml": arm})
+    use = "use: arms/arm.robot.yaml, parent: base, with: {config: own/c.yaml}"
+    write(tmp_path, {"robot.robot.yaml": f"links: {{base: }}\nmodules: {{arm: {{{use}}}}}"})
+    robot = compile_file(tmp_path / "robot.robot.yaml").result()
+    [plugin] = [plugin for block in robot.gazebo_elements for plugin in block.plugins]
+    assert plugin.parameters == {
+        "file": ("arms/gains.yaml", "arms/conf/a.yaml", "arms/conf/b.yaml", "--params=arms/gains.yaml"),
+        "map": {"own": "arms/gains.yaml", "inside": "arms/conf/a.yaml"},
+        "at": str(tmp_path / "arms" / "gains.yaml"),
+    }
+    assert robot.extra_elements == ("<config>own/c.yaml</config>",)
+    assert robot.extra_attributes == (("gains", "arms/gains.yaml"),)
+
+
+def test_it_is_so_through_an_include_and_through_the_text_of_another_module(tmp_path):
+    write(
+        tmp_path,
+        {
+            "arms/arm.robot.yaml": f"""{ARM}
+    links: {{base: }}
+    include: [parts/control.yaml]
+    modules: {{hand: {{use: ../hands/hand.robot.yaml, parent: base, with: {{text: $(gains)}}}}}}
+    """,
+            "hands/hand.robot.yaml": "parameters: {text: {type: string}}\nlinks: {palm: }\nmetadata: {text: $(text)}",
+        },
+    )
+    control = "linkforge: 1\nmetadata: {gains: $(gains), config: $(config), sum: $(sum)}\n"
+    (tmp_path / "arms" / "parts").mkdir()
+    (tmp_path / "arms" / "parts" / "control.yaml").write_text(control)
+    use = "{use: arms/arm.robot.yaml, with: {config: package://tables/c.yaml}}"
+    found = assemble(f"modules: {{arm: {use}}}", folder=tmp_path)
+    assert found.told == []
+    [arm] = found.instance.modules
+    paths = {"gains": "arms/gains.yaml", "config": "package://tables/c.yaml", "sum": "arms/conf/b.yaml"}
+    assert metadata_of(arm) == paths
+    assert metadata_of(arm.modules[0]) == {"text": "arms/gains.yaml"}
+
+
+def test_an_expression_sees_the_path_as_it_was_written(tmp_path):
+    module = """
+        parameters: {table: {type: file, default: small.yaml}}
+        variables: {is_small: $(table == 'small.yaml'), read: $(content.mass)}
+        data: {content: $(table)}
+        metadata: {is_small: $(is_small), mass: $(read), length: $(len(table))}
+    """
+    write(tmp_path, {"arms/arm.robot.yaml": module})
+    (tmp_path / "arms" / "small.yaml").write_text("mass: 3\n")
+    found = assemble("modules: {arm: {use: arms/arm.robot.yaml}}", folder=tmp_path)
+    assert found.told == []
+    assert metadata_of(found.instance.modules[0]) == {"is_small": True, "mass": 3, "length": 10}
+
+
+def test_text_that_grows_by_the_way_to_a_file_is_bounded(tmp_path):
+    far = "/".join(["a" * 100] * 10)
+    doubled = ", ".join(f"x{n}: $(x{n - 1})$(x{n - 1})" for n in range(1, 10))
+    module = (
+        f"parameters: {{p: {{type: file, default: q}}}}\nvariables: {{x0: $(p), {doubled}}}\nmetadata: {{x: $(x9)}}"
+    )
+    write(tmp_path, {f"{far}/arm.robot.yaml": module})
+    found = assemble(f"modules: {{arm: {{use: {far}/arm.robot.yaml}}}}", folder=tmp_path)
+    assert found.told == ["the text grows beyond 65,536 characters"]
