@@ -104,17 +104,20 @@ def compile_file(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    output: str | Path | None = None,
 ) -> Compilation:
     """Compile a spec file; a required parameter without a value is an error.
 
     `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults. `gazebo`
-    is the simulator, Gazebo Sim or Classic, whose limits are told; give it to `render_urdf` as well.
+    is the simulator, Gazebo Sim or Classic, whose limits are told; give it to `render_urdf` as well. `output` is the
+    folder that the URDF is for: relative paths of meshes that lead nowhere from there are told; None for not known.
 
     Raises:
         ValueError: for another `gazebo` than `gz` or `classic`.
 
     """
-    return _compile(_file(path), _Settings(parameters, packages, variant, gazebo))
+    folder = Path(output) if output is not None else None
+    return _compile(_file(path), _Settings(parameters, packages, variant, gazebo, output=folder))
 
 
 def compile_text(
@@ -229,6 +232,7 @@ class _Settings(NamedTuple):
     variant: str | None
     gazebo: Gazebo
     unset: Unset = Unset.ERROR
+    output: Path | None = None
 
     def arguments(self, sink: Diagnostics) -> Arguments:
         if isinstance(self.parameters, Mapping):
@@ -274,4 +278,8 @@ def _robot(spec: SpecFile, settings: _Settings, loader: Loader, meshes: MeshSoli
         sink.report_all(check(lowered.robot, lowered.gaps))
         sink.report_all(urdf_limits(lowered.robot, gazebo=settings.gazebo))
         sink.report_all(srdf_limits(lowered.robot))
+        if settings.output is not None:
+            from linkforge_compile.backends.relative_paths import lost_on_the_way
+
+            sink.report_all(lost_on_the_way(lowered.robot, settings.output))
     return lowered.robot

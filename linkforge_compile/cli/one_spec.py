@@ -30,14 +30,19 @@ def one_spec(specs: list[str]) -> str:
     raise UsageError(f"takes one spec, found {len(specs)}: {', '.join(specs)}{remedy}")
 
 
-def compile_spec(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Compilation:
-    """Compile a spec, `-` for standard input, with the options that every command on a spec has."""
+def compile_spec(
+    spec: str, assignments: list[str], arguments: argparse.Namespace, output: Path | None = None
+) -> Compilation:
+    """Compile a spec, `-` for standard input, with the options that every command on a spec has.
+
+    `output` is the folder that the URDF of a file is for, None where that is not known.
+    """
     from linkforge_compile.pipeline import compile_file, compile_text
 
     if spec == "-":
         text = _standard_input()
         return compile_text(text, name=STDIN, folder=Path.cwd(), **_settings(assignments, arguments))
-    return compile_file(spec, **_settings(assignments, arguments))
+    return compile_file(spec, output=output, **_settings(assignments, arguments))
 
 
 def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Compilation:

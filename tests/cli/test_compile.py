@@ -107,6 +107,23 @@ def test_sensors_are_written_as_the_simulator_reads_them(pendulum: Path):
         assert ("LF7104" in linkforge("check", spec.name, *words, cwd=pendulum).stderr) is bool(told)
 
 
+def test_meshes_beside_the_spec_are_told_where_the_urdf_goes_elsewhere(pendulum: Path):
+    """LF7006."""
+    (pendulum / "meshes").mkdir()
+    (pendulum / "meshes" / "rod.stl").write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
+    mesh = "  rod: {visual: {mesh: meshes/rod.stl}, collision: visual}\n"
+    (pendulum / "rod.robot.yaml").write_text(f"linkforge: 1\nname: rod\nlinks:\n{mesh}")
+    told = linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
+    expected = (
+        "'meshes/rod.stl' leads nowhere from 'build', where the URDF goes, for it lies beside the spec; "
+        "write 'package://NAME/PATH', or the URDF into '.' [LF7006]"
+    )
+    assert f"rod.robot.yaml:4:24: warning: {expected}" in told
+    assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "robot.urdf", cwd=pendulum).stderr
+    (pendulum / "build" / "meshes").symlink_to(pendulum / "meshes")
+    assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
+
+
 def test_a_spec_comes_from_standard_input(pendulum: Path):
     run = linkforge("compile", "-", cwd=pendulum, stdin=PENDULUM)
     assert run.returncode == 0

@@ -59,7 +59,8 @@ def run(arguments: argparse.Namespace) -> int:
     targets = _targets(spec, arguments.output, arguments.format)
     if arguments.source_map:
         _require_files(targets.values())
-    compilation = compile_spec(spec, assignments, arguments)
+    urdf = targets.get("urdf")
+    compilation = compile_spec(spec, assignments, arguments, urdf.parent if urdf else None)
     if tell(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     return _write(compilation.robot, spec, targets, arguments)

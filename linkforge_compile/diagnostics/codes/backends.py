@@ -23,6 +23,12 @@ TWO_MATERIALS = Code(
     Severity.WARNING,
     "there are different materials named '{name}', and most viewers show them all as the first; give each its name",
 )
+MESH_BESIDE_THE_SPEC = Code(
+    "LF7006",
+    Severity.WARNING,
+    "'{path}' leads nowhere from '{folder}', where the URDF goes, for it lies beside the spec; "
+    "write 'package://NAME/PATH', or the URDF into '{back}'",
+)
 NO_JOINT_TO_SENSE = Code(
     "LF7101",
     Severity.WARNING,

@@ -1,0 +1,53 @@
+"""Relative paths of meshes, which mean the file beside the URDF, wherever that is written."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from linkforge_compile.core.models.geometry import Mesh
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics.codes.backends import MESH_BESIDE_THE_SPEC
+
+_SHOWN = 3
+
+
+def lost_on_the_way(robot: Robot, folder: Path) -> Iterator[Diagnostic]:
+    """Yield, once for all, the meshes that lie where the spec says, while from `folder`, for the URDF, nothing does.
+
+    Those that lie in neither place are told as missing, and one that lies in both, as a build may copy it, is found.
+    """
+    spec = robot.source.span.file.path if robot.source and robot.source.span else None
+    if spec is None:
+        return
+    lost = [
+        mesh
+        for path, mesh in _relative_meshes(robot).items()
+        if _is_file(spec.parent / path) and not _is_file(folder / path)
+    ]
+    if lost:
+        first, *others = lost
+        notes = [Note(f"nor '{mesh.resource}'", mesh.source.at("file") if mesh.source else None) for mesh in others]
+        more = [Note(f"nor {len(others) - _SHOWN} more")] if len(others) > _SHOWN else []
+        back = Path(os.path.relpath(spec.parent)).as_posix()
+        facts = {"path": first.resource, "folder": folder.as_posix(), "back": back}
+        yield MESH_BESIDE_THE_SPEC.at(first.source, "file", notes=notes[:_SHOWN] + more, **facts)
+
+
+def _relative_meshes(robot: Robot) -> dict[str, Mesh]:
+    links = robot.links
+    geometries = [visual.geometry for link in links for visual in link.visuals]
+    geometries += [collision.geometry for link in links for collision in link.collisions]
+    meshes = (geometry for geometry in geometries if isinstance(geometry, Mesh))
+    relative = (mesh for mesh in meshes if "://" not in mesh.resource and not Path(mesh.resource).is_absolute())
+    first: dict[str, Mesh] = {}
+    for mesh in relative:
+        first.setdefault(mesh.resource, mesh)
+    return first
+
+
+def _is_file(path: Path) -> bool:
+    # os.path answers for names that no file can have, where pathlib raises.
+    return os.path.isfile(path)  # noqa: PTH113
