@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
     from linkforge_compile.core.models.srdf import SemanticRobotDescription
     from linkforge_compile.lowering.unprefixed import PassedOn
+    from linkforge_compile.syntax import YamlMap
 
 PartKey: TypeAlias = tuple[str, Hashable]
 """What no two parts of a robot may share: a kind, "link", and the name or whatever else tells its parts apart."""
@@ -59,7 +60,8 @@ def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = Non
         return Lowered(None, (), Gaps(prefixes=("",)))
     meshes = meshes or MeshSolids()
     reader = MeshReader(instance.find_mesh, meshes)
-    fold = _Fold(lower_file(instance.tree, instance.mesh_bases, instance.trail, sink, reader), instance.removed, sink)
+    file = lower_file(instance.tree, instance.mesh_bases, instance.trail, sink, reader)
+    fold = _Fold(file, instance, sink)
     for module in instance.modules:
         fold.add(module, lower(module, sink, meshes))
     lowered = fold.finished(hangs_alone=instance.entry is None)
@@ -72,10 +74,10 @@ def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = Non
 class _Fold:
     """A robot while modules are being joined to it."""
 
-    def __init__(self, file: LoweredFile, removed: Removed, sink: Diagnostics) -> None:
+    def __init__(self, file: LoweredFile, instance: Instance, sink: Diagnostics) -> None:
         self._robot = file.robot
         self._states = file.states
-        self._gaps = file.gaps | Gaps(removed=removed)
+        self._gaps = file.gaps | Gaps(removed=instance.removed)
         self._sink = sink
         self._unmerged: list[Robot] = []
         self._parts = dict(_parts(file.robot))
@@ -83,7 +85,8 @@ class _Fold:
         self._owners: dict[PartKey, Instance] = {}
         self._held = {joint.child for joint in file.robot.joints}
         self._mounts = list(file.mounts)
-        self._passed_on = _passed_on(file.robot)
+        # Only a module takes a prefix.
+        self._passed_on = _passed_on(file.robot, instance.tree) if instance.entry else None
         self._under_a_prefix: list[Diagnostic] = []
 
     def add(self, module: Instance, lowered: Lowered) -> None:
@@ -234,13 +237,13 @@ class _Fold:
         return False
 
 
-def _passed_on(robot: Robot) -> PassedOn | None:
-    """Return what a file says that takes no prefix; None for one that says nothing of the kind."""
-    if not (robot.sensors or robot.transmissions or robot.ros2_controls or robot.gazebo_elements):
+def _passed_on(robot: Robot, tree: YamlMap | None) -> PassedOn | None:
+    """Return what a file says that takes no prefix; None for one that was not read."""
+    if tree is None:
         return None
     from linkforge_compile.lowering.unprefixed import passed_on
 
-    return passed_on(robot)
+    return passed_on(robot, tree)
 
 
 def _parts(robot: Robot) -> Iterator[tuple[PartKey, SourceRef | None]]:

@@ -1,7 +1,8 @@
-"""What a module's prefix does not reach: names that plugins read in their parameters, and absolute topics."""
+"""What a module's prefix does not reach: names that plugins read in parameters or raw XML, and absolute topics."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
@@ -10,6 +11,14 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.model import ABSOLUTE_TOPIC, UNPREFIXED_NAME
 from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
+
+_RAW_TAG = re.compile(r"<(?P<tag>[\w:.-]+)(?P<attributes>[^<>]*)>(?P<text>[^<>]*)")
+_RAW_VALUE = re.compile(r"""([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
+_NAMED_FOR_ITSELF = ("visual", "collision", "material")
+"""Elements whose own name may well be that of their link."""
+
+_FORMATS_WITHOUT_EXPRESSIONS = (".urdf", ".xacro")
 
 
 class Text(NamedTuple):
@@ -26,28 +35,32 @@ class PassedOn(NamedTuple):
     absolute_topics: tuple[Text, ...]
 
 
-def passed_on(robot: Robot) -> PassedOn:
-    """Find what no prefix reaches in the robot of one file, before its modules join it."""
-    texts = (
+def passed_on(robot: Robot, tree: YamlNode) -> PassedOn:
+    """Find what no prefix reaches in the robot of one file and in its tree, before its modules join it."""
+    texts = [
         Text(text, source.at("parameters", *path))
         for source, parameters in _parameters(robot)
         for path, text in _texts(parameters)
         if source
-    )
+    ]
     topics = (
         Text(sensor.topic, sensor.source.at("topic"))
         for sensor in robot.sensors
         if sensor.source and sensor.topic and sensor.topic.startswith("/")
     )
-    return PassedOn(tuple(texts), tuple(topics))
+    return PassedOn((*texts, *_raw_texts(tree)), tuple(topics))
 
 
 def warnings_under_a_prefix(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
     """Yield what there is to tell once the file takes a prefix; the robot is the file with its modules."""
     for kind, names in (("link", robot.links), ("joint", robot.joints)):
-        for text, where in passed.plugin_texts:
+        # A raw text may say one name often.
+        for text, where in dict.fromkeys(passed.plugin_texts):
             if text in names:
-                yield UNPREFIXED_NAME.at(where, name=text, kind=kind)
+                remedy = f"write '$({kind}('{text}'))'"
+                if where.file.name.lower().endswith(_FORMATS_WITHOUT_EXPRESSIONS):
+                    remedy = "change it with 'override' where this file is used"
+                yield UNPREFIXED_NAME.at(where, name=text, kind=kind, remedy=remedy)
     for topic, where in passed.absolute_topics:
         yield ABSOLUTE_TOPIC.at(where, topic=topic)
 
@@ -71,3 +84,26 @@ def _texts(part: FreePart, *path: str | int) -> Iterator[tuple[tuple[str | int, 
     inner = part.items() if isinstance(part, Mapping) else enumerate(part)
     for key, value in inner:
         yield from _texts(value, *path, key)
+
+
+def _raw_texts(node: YamlNode) -> Iterator[Text]:
+    """Yield what the raw XML of a tree says in attributes and elements."""
+    if isinstance(node, YamlMap):
+        for entry in node:
+            if entry.name != "extra":
+                yield from _raw_texts(entry.value)
+                continue
+            for item in entry.value.items if isinstance(entry.value, YamlList) else (entry.value,):
+                if isinstance(item, YamlScalar):
+                    yield from (Text(text, item.span) for text in _said_in(item.text))
+    elif isinstance(node, YamlList):
+        for inner in node:
+            yield from _raw_texts(inner)
+
+
+def _said_in(raw: str) -> Iterator[str]:
+    for tag in _RAW_TAG.finditer(raw):
+        yield tag["text"].strip()
+        for name, double, single in _RAW_VALUE.findall(tag["attributes"]):
+            if name != "name" or tag["tag"] not in _NAMED_FOR_ITSELF:
+                yield double or single

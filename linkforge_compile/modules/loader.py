@@ -14,7 +14,7 @@ from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE
 from linkforge_compile.importers import EncodingError, xml_text
 from linkforge_compile.modules.file_text import MAX_BYTES, UnreadableError, file_bytes, file_text
 from linkforge_compile.modules.includes import Whole, lay_together, reached
-from linkforge_compile.modules.noted import NotedSink
+from linkforge_compile.modules.noted import NotedSink, used_from
 from linkforge_compile.modules.packages import Package
 from linkforge_compile.modules.paths import as_typed, names_in
 from linkforge_compile.modules.places import judge_places
@@ -32,7 +32,8 @@ class SpecFile:
 
     `folder` is where its relative paths start, with symbolic links as they were walked; None for a text that
     lies nowhere. `package` is the one through whose `package://` it was reached, and all that it uses from there.
-    `included` are the files that were laid into the tree, each as if it stood by itself.
+    `included` are the files that were laid into the tree, each as if it stood by itself. `packages` are folders of
+    packages that its user declares for it, since it is written in a format that cannot declare any.
     """
 
     file: SourceFile
@@ -40,6 +41,7 @@ class SpecFile:
     folder: Path | None
     package: Package | None = None
     included: Mapping[SourceFile, SpecFile] = field(default_factory=dict)
+    packages: Mapping[str, Path] = field(default_factory=dict)
 
     def writer(self, where: Span) -> SpecFile:
         """Return the one of the files that are this one in which a place lies: its relative paths start there."""
@@ -87,18 +89,19 @@ class Loader:
     def open(
         self, path: Path, sink: Diagnostics, *, package: Package | None = None, used: Used | None = None
     ) -> SpecFile | None:
-        """Read a spec file; `used` says by which `use`, None for the compiled file.
+        """Read a spec file, or a URDF as one; `used` says by which `use`, None for the compiled file.
 
         None where it cannot be read, which is reported at the `use`, or is no spec, which is reported inside it.
         """
         # Paths are compared by what they lead to and shown as they were reached.
         real = os.path.realpath(path)
         if real not in self._specs:
-            text = _text(path, used or Used(str(as_typed(path)), None), sink)
+            is_urdf = path.suffix.lower() == ".urdf"
+            text = _text(path, used or Used(str(as_typed(path)), None), sink, _xml_text if is_urdf else file_text)
             if text is None:
                 return None
             source = self._source(str(as_typed(path)), text, as_typed(path))
-            self._specs[real] = self._whole(source, path.parent, sink)
+            self._specs[real] = _urdf(source, sink, used) if is_urdf else self._whole(source, path.parent, sink)
         whole = self._specs[real]
         return _spec(whole, path.parent, package) if whole else None
 
@@ -140,6 +143,14 @@ class Loader:
         source = SourceFile(name, text, path, order=len(self._sources), included=included)
         self._sources.append(source)
         return source
+
+
+def _urdf(source: SourceFile, sink: Diagnostics, used: Used | None) -> Whole | None:
+    """Read a URDF as a spec; what is wrong with it is told where it has it, with its first use."""
+    from linkforge_compile.importers.urdf import read_urdf
+
+    imported = read_urdf(source, used_from(sink, (used.where,) if used and used.where else ()))
+    return Whole(source, imported.tree) if imported else None
 
 
 def _tree(source: SourceFile, sink: Diagnostics) -> YamlMap | None:

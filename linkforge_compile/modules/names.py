@@ -97,7 +97,7 @@ class FileNames:
         """The folders that the file declares for packages, those that lead somewhere."""
         if self._packages is None:
             # None of them is found by way of another one: that may be the way back.
-            self._packages = {}
+            self._packages = dict(self._spec.packages)
             self._packages.update(self._declared_packages())
         return self._packages
 

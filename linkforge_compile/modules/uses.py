@@ -6,7 +6,7 @@ import os
 import posixpath
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -18,7 +18,8 @@ from linkforge_compile.modules.paths import follow
 from linkforge_compile.source import Span
 
 _SPEC_ENDINGS = (".yaml", ".yml")
-_ENDINGS_TO_COME = {".urdf": "URDF", ".xacro": "xacro", ".srdf": "SRDF"}
+_URDF_ENDING = ".urdf"
+_ENDINGS_TO_COME = {".xacro": "xacro"}
 _SCHEME = re.compile(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
 _PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
 
@@ -50,13 +51,14 @@ _ZERO_BYTE = "no path holds a zero byte"
 def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:
     """Read the file that a `use` names; None where there is none, which is reported there."""
     lowered = site.text.lower()
-    if not lowered.endswith(_SPEC_ENDINGS):
+    if not lowered.endswith((*_SPEC_ENDINGS, _URDF_ENDING)):
         coming = next((kind for ending, kind in _ENDINGS_TO_COME.items() if lowered.endswith(ending)), None)
         code = NOT_A_SPEC_YET if coming else NOT_A_SPEC
         sink.report(code.at(site.where, kind=coming, path=site.text))
         return None
     target = locate(site, loader, sink)
-    return loader.open(target.path, sink, package=target.package, used=site.used) if target else None
+    spec = loader.open(target.path, sink, package=target.package, used=site.used) if target else None
+    return replace(spec, packages=site.packages) if spec and lowered.endswith(_URDF_ENDING) else spec
 
 
 def locate(site: UseSite, loader: Loader, sink: Diagnostics) -> Target | None:

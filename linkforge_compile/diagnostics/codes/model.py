@@ -129,9 +129,7 @@ ATTRIBUTE_OF_OWNER = Code(
 )
 LIST_IN_LIST = Code("LF5702", _E, "a list repeats the tag '{field}', so it cannot hold another list")
 TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is said twice")
-UNPREFIXED_NAME = Code(
-    "LF5704", _W, "'{name}' is a {kind} of this file and takes the prefix, but not here; write '$({kind}('{name}'))'"
-)
+UNPREFIXED_NAME = Code("LF5704", _W, "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}")
 ABSOLUTE_TOPIC = Code(
     "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
 )

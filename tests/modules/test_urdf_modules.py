@@ -1,0 +1,170 @@
+"""A robot in URDF as a module, unchanged: mounted, prefixed, overridden, and told of where it stands."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from linkforge_compile import Compilation, compile_file, render_urdf
+from tests.consumers import check_urdf, mujoco_model, pinocchio_model
+from tests.importers.robots import CORPUS
+
+BOX = '<box size="0.1 0.1 0.1"/>'
+GRIPPER = """\
+<robot name="gripper">
+  <link name="palm">
+    <visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>
+    <inertial><mass value="0.5"/><inertia ixx="0.001" iyy="0.001" izz="0.001" ixy="0" ixz="0" iyz="0"/></inertial>
+  </link>
+  <link name="finger"/>
+  <joint name="slide" type="prismatic">
+    <parent link="palm"/><child link="finger"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.04" effort="20" velocity="0.1"/>
+  </joint>
+  <link name="pad"/>
+  <joint name="slide_mimic" type="prismatic">
+    <parent link="palm"/><child link="pad"/><axis xyz="-1 0 0"/>
+    <limit lower="0" upper="0.04" effort="20" velocity="0.1"/><mimic joint="slide"/>
+  </joint>
+  <gazebo reference="finger"><mu1>0.9</mu1></gazebo>
+</robot>
+"""
+
+
+def compiled(folder: Path, modules: str, gripper: str = GRIPPER, **options: object) -> Compilation:
+    (folder / "vendor").mkdir()
+    (folder / "vendor" / "gripper.urdf").write_text(gripper, "utf-8")
+    spec = folder / "cell.robot.yaml"
+    spec.write_text(f"linkforge: 1\nname: cell\nlinks: {{table: }}\nmodules:\n  {modules}\n", "utf-8")
+    return compile_file(spec, **options)  # type: ignore[arg-type]  # passed on as they are
+
+
+def told(compilation: Compilation) -> list[str]:
+    return [str(diagnostic) for diagnostic in compilation.diagnostics]
+
+
+def test_its_names_take_the_prefix_and_its_paths_stay_beside_it(tmp_path):
+    gripper = GRIPPER.replace(BOX, '<mesh filename="meshes/palm.stl"/>')
+    robot = compiled(tmp_path, "left: {use: vendor/gripper.urdf, parent: table, origin: [0, 0, 1]}", gripper).result()
+    assert [link.name for link in robot.links] == ["table", "left_palm", "left_finger", "left_pad"]
+    assert robot.joint("left_slide_mimic").mimic.joint == "left_slide"
+    assert robot.joint("left_joint").origin.xyz.z == 1
+    assert [block.reference for block in robot.gazebo_elements] == ["left_finger"]
+    assert robot.link("left_palm").visuals[0].geometry.resource == "vendor/meshes/palm.stl"
+
+
+def test_one_file_serves_two_uses_each_with_its_own_override(tmp_path):
+    robot = compiled(
+        tmp_path,
+        "left: {use: vendor/gripper.urdf, parent: table, override: {joints: {slide: {limits: {effort: 5}}}}}\n"
+        "  right: {use: vendor/gripper.urdf, parent: table, override: {links: {pad: null}}}",
+    ).result()
+    assert [robot.joint(f"{side}_slide").limits.effort for side in ("left", "right")] == [5, 20]
+    assert "left_pad" in robot.links
+    assert "right_pad" not in robot.links
+
+
+def test_a_name_that_is_not_in_it_is_told_with_what_is(tmp_path):
+    [line] = told(
+        compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table, override: {joints: {slid: {axis: y}}}}")
+    )
+    assert "did you mean 'slide'" in line
+
+
+def test_it_has_no_parameters(tmp_path):
+    [diagnostic] = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table, with: {stroke: 1}}").diagnostics
+    assert diagnostic.message == "no parameter named 'stroke'"
+    assert [note.message for note in diagnostic.notes] == ["this file declares no parameters"]
+
+
+def test_what_is_wrong_with_it_is_told_in_it_with_its_use(tmp_path):
+    gripper = GRIPPER.replace('link="finger"/><axis', 'link="fingre"/><axis')
+    compilation = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper)
+    diagnostic = next(one for one in compilation.diagnostics if "fingre" in one.message)
+    assert Path(diagnostic.span.file.name).name == "gripper.urdf"
+    assert (diagnostic.span.line, diagnostic.span.column) == (8, 39)
+    assert diagnostic.notes[-1].message == "used here"
+    assert Path(diagnostic.notes[-1].span.file.name).name == "cell.robot.yaml"
+
+
+def test_what_is_no_xml_is_told_in_it_with_its_use(tmp_path):
+    [diagnostic] = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", "<robot name='g'>").diagnostics
+    assert diagnostic.code.id == "LF8001"
+    assert [note.message for note in diagnostic.notes] == ["used here"]
+
+
+def test_what_the_language_refuses_stays_raw(tmp_path):
+    gripper = GRIPPER.replace(
+        '<link name="pad"/>', '<link name="pad"><visual><geometry><sphere radius="0"/></geometry></visual></link>'
+    )
+    compilation = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper)
+    assert [diagnostic.code.id for diagnostic in compilation.diagnostics] == ["LF8021"]
+    assert '<sphere radius="0"/>' in render_urdf(compilation.result())
+
+
+def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_told_once(tmp_path):
+    raw = '<sensing><of link="finger"/><again>finger</again><visual name="palm"/></sensing>'
+    gripper = GRIPPER.replace("</robot>", f"{raw}</robot>")
+    [diagnostic] = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper).diagnostics
+    assert diagnostic.code.id == "LF5704"
+    assert diagnostic.message == (
+        "'finger' is a link of this file and takes the prefix, but not here; "
+        "change it with 'override' where this file is used"
+    )
+    assert Path(diagnostic.span.file.name).name == "gripper.urdf"
+
+
+def test_nothing_is_told_of_raw_names_that_stay(tmp_path):
+    gripper = GRIPPER.replace("</robot>", '<sensing link="finger"/></robot>')
+    compilation = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table, prefix: ''}", gripper)
+    assert not compilation.diagnostics
+
+
+def test_its_packages_are_those_of_the_file_that_uses_it(tmp_path):
+    """A URDF cannot say where a package is: the inertia of its mesh is found by what the spec says."""
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "palm.stl").write_text("solid broken", "utf-8")
+    gripper = GRIPPER.replace(BOX, '<mesh filename="package://parts/palm.stl"/>')
+    override = "override: {links: {palm: {inertial: {density: 1000, inertia: null}}}}"
+    compilation = compiled(
+        tmp_path, f"g: {{use: vendor/gripper.urdf, parent: table, {override}}}\npackages: {{parts: parts}}", gripper
+    )
+    assert tmp_path / "parts" / "palm.stl" in {path.resolve() for path in compilation.files}
+
+
+def test_a_urdf_compiles_and_is_checked_alone(tmp_path):
+    path = tmp_path / "gripper.urdf"
+    path.write_text(GRIPPER.replace('lower="0"', 'lower="1"'), "utf-8")
+    diagnostics = compile_file(path).diagnostics
+    assert {diagnostic.span.file.name for diagnostic in diagnostics} == {str(path)}
+    assert any("lower" in diagnostic.message for diagnostic in diagnostics)
+
+
+@pytest.mark.parametrize("name", ["ur_ur5e", "lbr_iiwa7", "turtlebot3_burger"])
+def test_a_vendor_s_robot_moves_as_it_does_alone(name: str, tmp_path: Path):
+    """Behind a mount and a prefix every frame of the robot is where the vendor's own file has it."""
+    vendor = CORPUS / f"{name}.urdf"
+    if not vendor.exists():
+        pytest.skip("the corpus is not at hand")
+    spec = tmp_path / "cell.robot.yaml"
+    spec.write_text(
+        f"linkforge: 1\nname: cell\nlinks: {{floor: }}\n"
+        f"modules: {{it: {{use: {vendor}, parent: floor, origin: [1, 2, 3]}}}}\n"
+    )
+    urdf = render_urdf(compile_file(spec).result())
+    assert check_urdf(urdf) == "floor"
+    mujoco_model(urdf)
+    pinocchio = pytest.importorskip("pinocchio")
+    alone, mounted = pinocchio_model(vendor.read_text("utf-8")), pinocchio_model(urdf)
+    alone_data, mounted_data = alone.createData(), mounted.createData()
+    generator = np.random.default_rng(1)
+    assert mounted.nq == alone.nq
+    for _ in range(5):
+        angles = pinocchio.integrate(alone, pinocchio.neutral(alone), generator.uniform(-1, 1, alone.nv))
+        pinocchio.framesForwardKinematics(alone, alone_data, angles)
+        pinocchio.framesForwardKinematics(mounted, mounted_data, angles)
+        for frame in alone.frames[1:]:
+            ours = mounted_data.oMf[mounted.getFrameId(f"it_{frame.name}", frame.type)]
+            theirs = alone_data.oMf[alone.getFrameId(frame.name, frame.type)]
+            assert np.allclose(ours.translation, theirs.translation + np.array([1, 2, 3]), atol=1e-12)
+            assert np.allclose(ours.rotation, theirs.rotation, atol=1e-12)
