@@ -16,7 +16,7 @@ def render(template: str, view: object, *, pretty: bool, banner: str | None) -> 
     """Return the XML document that a template makes of a view of the robot, which it calls `robot`.
 
     `banner` becomes a comment above it, None or empty for none. The last character is a line end; without `pretty`
-    it is the only one.
+    it is the only one, but for those in comments and texts of raw XML.
 
     Raises:
         RobotGeneratorError: for text that XML cannot hold.

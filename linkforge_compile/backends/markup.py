@@ -1,7 +1,8 @@
 """Text as XML: escaped, and laid out.
 
 Whatever leaves this module is one tag a line, or one element with its text a line: line ends inside of texts
-become character references, so that a document can be indented, or not, without touching what it says.
+become character references, and in raw XML signs that stand for them until all lines are where they belong; so that
+a document can be indented, or not, without touching what it says.
 """
 
 from __future__ import annotations
@@ -26,6 +27,10 @@ _MARKED = re.compile(f'[&<>"\t\n\r{_FORBIDDEN}]')
 _REFERENCES = str.maketrans(
     {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
 )
+
+_MARKED_IN_TEXT = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", "\r": "&#13;"})
+_LINE_END, _LESS_THAN = "\x01", "\x02"
+_STAND_INS = str.maketrans({"\n": _LINE_END, "<": _LESS_THAN})
 
 _NAME_START = (
     r"A-Z_a-z\xc0-\xd6\xd8-\xf6\xf8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f\u2c00-\u2fef"
@@ -83,6 +88,27 @@ def escaped(text: str) -> str:
     return text.translate(_REFERENCES)
 
 
+def verbatim_text(text: str) -> Xml:
+    """Return text between tags that keeps its lines: what is on one here `restored` breaks up again.
+
+    Raises:
+        RobotGeneratorError: for a character that XML 1.0 cannot hold.
+
+    """
+    require_writable(text)
+    return Xml(text.translate(_MARKED_IN_TEXT).translate(_STAND_INS))
+
+
+def verbatim_comment(text: str) -> Xml:
+    """Return a comment as it stands, on one line until it is `restored`; no tag in it is taken for one."""
+    return Xml(f"<{f'!--{text}-->'.translate(_STAND_INS)}")
+
+
+def restored(text: str) -> str:
+    """Return a document, or a line of one, with the lines that its raw XML had."""
+    return text.replace(_LINE_END, "\n").replace(_LESS_THAN, "<")
+
+
 def require_writable(text: str) -> None:
     """Refuse a character that XML 1.0 cannot hold.
 
@@ -115,7 +141,8 @@ def lay_out(text: str, *, pretty: bool) -> str:
     """Indent a rendered document by two spaces a level, or put it on one line.
 
     An element without content closes itself.
-    A line is an opening tag, a closing tag, or something whole; blank lines are what a template left out.
+    A line is an opening tag, a closing tag, or something whole; blank lines are what a template left out. Comments
+    and texts of raw XML keep their lines either way; while a map is recorded, whoever takes its marks out breaks them.
     """
     if MARK in text:
         from linkforge_compile.backends.inside import with_insides
@@ -134,7 +161,8 @@ def lay_out(text: str, *, pretty: bool) -> str:
             lines.append("  " * depth + whole if pretty else whole)
         opened = not closes and is_opening(line)
         depth += opened
-    return ("\n" if pretty else "").join(lines)
+    whole_text = ("\n" if pretty else "").join(lines)
+    return whole_text if is_recording() else restored(whole_text)
 
 
 def is_closing(line: str) -> bool:

@@ -6,7 +6,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.backends.marks import mark, mark_of_line
-from linkforge_compile.backends.markup import Xml, escaped, is_xml_name, require_writable, spelled
+from linkforge_compile.backends.markup import (
+    Xml,
+    escaped,
+    is_xml_name,
+    require_writable,
+    spelled,
+    verbatim_comment,
+    verbatim_text,
+)
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.source import SourceRef
 
@@ -35,14 +43,16 @@ class Node(NamedTuple):
 
 
 def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -> Xml:
-    """Return raw XML laid out; names, prefixes and values as written. Blank text between tags is layout.
+    """Return raw XML laid out; names, prefixes, values, texts and comments as written.
 
-    The text was written under `path` of what `source` points to.
+    White space alone between tags is layout, unless the element says `xml:space="preserve"` or CDATA marks it as text.
+    CDATA becomes text. The text was written under `path` of what `source` points to.
 
     Prefixes need no declaration here: it usually stands on `<robot>`.
 
     Raises:
-        RobotGeneratorError: for XML that is not well-formed, and for text outside of elements.
+        RobotGeneratorError: for XML that is not well-formed, for text outside of elements, and for a processing
+            instruction, which most readers refuse.
 
     """
     require_writable(text)
@@ -116,7 +126,7 @@ def _lines(content: Sequence[Content]) -> Iterator[str]:
 
 def _inline(item: Content) -> str:
     if isinstance(item, str):
-        return item if isinstance(item, Xml) else escaped(item)
+        return item if isinstance(item, Xml) else verbatim_text(item)
     return f"{item.start}>{''.join(map(_inline, item.content))}</{item.tag}>" if item.content else f"{item.start}/>"
 
 
@@ -127,6 +137,8 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     document = Node("", (), [])
     open_nodes = [document]
 
+    keeps_space = [False]
+
     def begin(tag: str, attributes: list[str]) -> None:
         if len(open_nodes) > _MOST_NESTED:
             raise RobotGeneratorError(f"raw XML is nested more than {_MOST_NESTED} elements deep")
@@ -134,17 +146,26 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
         node = Node(tag, pairs, [], mark_of_line(source, path, parser.CurrentLineNumber))
         open_nodes[-1].content.append(node)
         open_nodes.append(node)
+        space = dict(pairs).get("xml:space")
+        keeps_space.append(keeps_space[-1] if space is None else space == "preserve")
 
     def end(_: str) -> None:
         content = open_nodes.pop().content
-        if all(not _is_text(item) or not str(item).strip() for item in content):
+        if not keeps_space.pop() and all(not _is_text(item) or not str(item).strip() for item in content):
             content[:] = [item for item in content if not _is_text(item)]
 
     def characters(text: str) -> None:
         open_nodes[-1].content.append(text)
 
     def comment(text: str) -> None:
-        open_nodes[-1].content.append(Xml(f"<!--{' '.join(text.splitlines())}-->"))
+        open_nodes[-1].content.append(verbatim_comment(text))
+
+    def begin_cdata() -> None:
+        keeps_space[-1] = True
+
+    def instruction(target: str, _: str) -> None:
+        reason = "most readers of URDF refuse a file with one"
+        raise RobotGeneratorError(f"raw XML holds the processing instruction '<?{target}'; {reason}")
 
     parser = expat.ParserCreate("utf-8")
     parser.ordered_attributes = True
@@ -153,6 +174,8 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     parser.EndElementHandler = end
     parser.CharacterDataHandler = characters
     parser.CommentHandler = comment
+    parser.StartCdataSectionHandler = begin_cdata
+    parser.ProcessingInstructionHandler = instruction
     try:
         # Wrapped, so that any number of elements is one document and a DOCTYPE is a fault.
         parser.Parse(f"<extra>{text}</extra>", True)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.backends.marks import MARK, Marks, Place, recording
+from linkforge_compile.backends.markup import restored
 from linkforge_compile.backends.srdf import render_srdf
 from linkforge_compile.backends.urdf import render_urdf
 
@@ -90,8 +91,10 @@ def _unmarked(text: str, marks: Marks) -> Mapped:
         elif content:
             own = own or around.get(indent - 2, ())[:1]
             around[indent] = own[:1]
-        lines.append(line)
-        segments.append(own)
+        for part in restored(line).split("\n"):
+            lines.append(part)
+            segments.append(own)
+            own = own[-1:] and (own[-1]._replace(column=1),)
     return Mapped("\n".join(lines), SourceMap(tuple(segments)))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TypeVar
 
@@ -12,6 +12,7 @@ from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.access import field, item
 from linkforge_compile.expressions.comparisons import COMPARISONS
 from linkforge_compile.expressions.functions import CONSTANTS, FILE_FUNCTIONS, FUNCTIONS
+from linkforge_compile.expressions.in_xml import in_xml
 from linkforge_compile.expressions.operators import ARITHMETIC, MAX_TEXT, is_too_long, signed, truth
 from linkforge_compile.expressions.scope import Scope
 from linkforge_compile.expressions.template import Expression, Template
@@ -20,10 +21,11 @@ from linkforge_compile.expressions.types import FAULT, Fault, RefusedError, Valu
 T = TypeVar("T")
 
 
-def evaluate(template: Template, scope: Scope, sink: Diagnostics) -> Value | Fault:
+def evaluate(template: Template, scope: Scope, sink: Diagnostics, *, is_xml: bool = False) -> Value | Fault:
     """Return the value of the expression that is the whole text, else the text with the values of its expressions.
 
-    FAULT where one is at fault, which is reported, or uses a name that is FAULT, which was reported.
+    In a text that is XML, the values of those around which there is more are text of it and no markup. FAULT where
+    one is at fault, which is reported, or uses a name that is FAULT, which was reported.
     """
     match template.parts:
         case (Expression() as whole,):
@@ -31,11 +33,19 @@ def evaluate(template: Template, scope: Scope, sink: Diagnostics) -> Value | Fau
     texts = [part if isinstance(part, str) else _evaluate_to_text(part, scope, sink) for part in template.parts]
     if None in texts:
         return FAULT
-    text = joined(*(text for text in texts if text is not None))
+    text = joined(*(_in_xml(template, texts) if is_xml else (text for text in texts if text is not None)))
     if is_too_long(text):
         sink.report(codes.TEXT_TOO_LONG.at(template.span, limit=f"{MAX_TEXT:,}"))
         return FAULT
     return text
+
+
+def _in_xml(template: Template, texts: Sequence[str | None]) -> Iterator[str]:
+    written = ""
+    for part, text in zip(template.parts, texts, strict=True):
+        if isinstance(part, str):
+            written += part
+        yield part if isinstance(part, str) else in_xml(text or "", written)
 
 
 def handed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, ...]] | None:

@@ -21,7 +21,12 @@ Read = Callable[["Reading"], YamlNode | None]
 """Reads an element: a node, or None for one that says only what goes without saying."""
 
 _MOST_SHOWN = 40
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_LINE_END = "\x01"  # no XML holds it
 _TAG_OR_COMMENT = re.compile(r"<!--.*?-->|<[^>]*>", re.DOTALL)
+
+# Comments and CDATA are found as well, for what looks like one in them is none.
+_INSTRUCTION = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>", re.DOTALL)
 
 _BROKEN_VALUE = re.compile(r"""=\s*(?:"[^"<]*[\r\n][^"]*"|'[^'<]*[\r\n][^']*')""")
 _INDENT = re.compile(r"^[ \t]+")
@@ -200,18 +205,28 @@ class Reading:
         }
 
     def _raw(self, child: XmlElement) -> YamlNode:
-        node = self.draft.text(tidy(child.raw), child.span)
+        node = self.draft.text(tidy(without_instructions(child.raw)), child.span)
         self.draft.raw.add(child)
         self.draft.made(node, child)
         return node
 
 
+def without_instructions(raw: str) -> str:
+    """Return an element without its processing instructions, which are told as left out and no spec can write."""
+    return _INSTRUCTION.sub(lambda found: "" if found[0].startswith("<?") else found[0], raw) if "<?" in raw else raw
+
+
 def tidy(raw: str) -> str:
-    """Return an element as it stands in a file, moved to the left where that changes only the space between tags."""
+    """Return an element as it stands in a file, moved to the left where that changes only the space between tags.
+
+    Comments stay as they are, wherever their lines begin.
+    """
     texts = _TAG_OR_COMMENT.split(raw)
     if "<![CDATA[" in raw or _BROKEN_VALUE.search(raw) or any("\n" in text and text.strip() for text in texts):
         return raw
-    first, *others = [line.rstrip() for line in raw.replace("\r\n", "\n").replace("\r", "\n").split("\n")]
+    lines = raw.replace("\r\n", "\n").replace("\r", "\n")
+    whole_comments = _COMMENT.sub(lambda comment: comment[0].replace("\n", _LINE_END), lines)
+    first, *others = [line.rstrip() for line in whole_comments.split("\n")]
     others = [_INDENT.sub(lambda space: space[0].expandtabs(2), line) for line in others if line]
     margin = min((len(line) - len(line.lstrip(" ")) for line in others), default=0)
-    return "\n".join((first, *(line[margin:] for line in others)))
+    return "\n".join((first, *(line[margin:] for line in others))).replace(_LINE_END, "\n")

@@ -300,14 +300,14 @@ class TreeEvaluator:
     def _tell_same_key(self, key: YamlScalar, first: YamlEntry) -> None:
         self.sink.report(SAME_KEY.at(key.span, name=key.text, notes=[Note("the first is here", first.key.span)]))
 
-    def _computed(self, scalar: YamlScalar) -> Value | Fault:
+    def _computed(self, scalar: YamlScalar, *, is_xml: bool = False) -> Value | Fault:
         template = self.expressions.template(scalar, self.sink)
         if template is None:
             return FAULT
-        return evaluate(template, self.scope_of(scalar), self.sink)
+        return evaluate(template, self.scope_of(scalar), self.sink, is_xml=is_xml)
 
     def _scalar(self, scalar: YamlScalar, shape: Shape, is_free: bool) -> YamlNode:
-        value = self._computed(scalar)
+        value = self._computed(scalar, is_xml=shape.is_xml)
         is_text = is_free or shape.is_text
         if value is FAULT or (not is_text and self.expressions.tell_made_number(scalar, value, self.sink)):
             return YamlFault(scalar.span)

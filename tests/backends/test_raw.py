@@ -2,8 +2,12 @@
 
 import pytest
 
+from linkforge_compile.backends import render_urdf
 from linkforge_compile.backends.raw import parameter_elements, raw_elements
+from linkforge_compile.core import Robot
 from linkforge_compile.core.exceptions import RobotGeneratorError
+
+KEPT_SPACE = '<a xml:space="preserve"> <b> </b> <c xml:space="default"/></a>'
 
 
 @pytest.mark.parametrize(
@@ -16,10 +20,14 @@ from linkforge_compile.core.exceptions import RobotGeneratorError
         ("<a> 1 2 </a>", "<a> 1 2 </a>"),
         ("<a>\n  <b>\n <c/></b></a>", "<a>\n<b>\n<c/>\n</b>\n</a>"),
         ("<a>some <b>bold</b> text<c/></a>", "<a>some <b>bold</b> text<c/></a>"),
-        ("<a>two\nlines</a>", "<a>two&#10;lines</a>"),
+        ("<a> &#32; </a>", "<a/>"),
+        ("<a><![CDATA[ ]]></a>", "<a> </a>"),
+        ("<a xml:space='preserve'> <b> </b> <c xml:space='default'> </c></a>", KEPT_SPACE),
+        ('<a>"q" &quot;\ttab</a>', '<a>"q" "\ttab</a>'),
         ("<a><![CDATA[x < y]]></a>", "<a>x &lt; y</a>"),
         ("<a>&#169;&amp;</a>", "<a>©&amp;</a>"),
-        ("<a><!-- two\n lines --><b/></a>", "<a>\n<!-- two  lines -->\n<b/>\n</a>"),
+        ("<a><!-- one --><b/></a>", "<a>\n<!-- one -->\n<b/>\n</a>"),
+        ("<!-- before --><a/>", "<!-- before -->\n<a/>"),
         ("<drake:note xmlns:x='u' x:y=''/>", '<drake:note xmlns:x="u" x:y=""/>'),
         ("", ""),
     ],
@@ -28,9 +36,50 @@ def test_raw_xml_keeps_what_it_says_and_takes_our_layout(raw: str, lines: str):
     assert raw_elements(raw) == lines
 
 
+COMMENTED = """\
+<a>
+  <!-- two
+   lines, <b></b> and </a> -->
+  <text>
+    1 2
+    3 4
+  </text>
+  <b>text<!-- <c></c>
+  --></b>
+</a>
+"""
+
+
+@pytest.mark.parametrize("pretty", [True, False])
+def test_comments_and_texts_of_several_lines_stay_as_they_are(pretty: bool):
+    kept = ["<!-- two\n   lines, <b></b> and </a> -->", "<text>\n    1 2\n    3 4\n  </text>"]
+    document = render_urdf(Robot("r", extra_elements=[COMMENTED]), pretty=pretty)
+    assert all(text in document for text in (*kept, "<b>text<!-- <c></c>\n  --></b>"))
+
+
+def test_a_line_end_of_windows_is_one_as_in_every_reader():
+    assert raw_elements("<a>1\r\n2&#13;</a>") == raw_elements("<a>1\n2&#13;</a>")
+    assert "<a>1\n2&#13;</a>" in render_urdf(Robot("r", extra_elements=["<a>1\r\n2&#13;</a>"]))
+
+
+def test_a_processing_instruction_is_refused_with_the_reason():
+    with pytest.raises(RobotGeneratorError, match=r"'<\?sort'; most readers of URDF refuse a file with one"):
+        raw_elements("<a><?sort by name?></a>")
+
+
 @pytest.mark.parametrize(
     "raw",
-    ["<a>", "</extra><evil/><extra>", "<a b=1/>", "<a>&lol;</a>", "<!DOCTYPE a []><a/>", "text", "<a/> tail", "\x00"],
+    [
+        "<a>",
+        "</extra><evil/><extra>",
+        "<a b=1/>",
+        "<a>&lol;</a>",
+        "<!DOCTYPE a []><a/>",
+        "text",
+        "<?a b?>",
+        "<a/> tail",
+        "\x00",
+    ],
 )
 def test_raw_xml_that_is_none_is_refused(raw: str):
     with pytest.raises(RobotGeneratorError):

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from jsonschema import Draft7Validator
 from lxml import etree
 
-from linkforge_compile import Robot, compile_file, render_srdf, render_urdf
+from linkforge_compile import Robot, compile_file, compile_text, render_srdf, render_urdf
 from linkforge_compile.backends.map_file import NoMapError, map_text, read_map
 from linkforge_compile.backends.source_map import Mapped, SourceMap, render_srdf_with_map, render_urdf_with_map
 from linkforge_compile.source import Span
@@ -321,3 +321,25 @@ def test_what_is_no_map_is_refused(text: str):
 def test_a_hostile_map_is_refused(text: str):
     with pytest.raises(NoMapError):
         read_map(text)
+
+
+def test_lines_that_raw_xml_keeps_lead_to_their_element_and_later_ones_to_their_own():
+    robot = compile_text("""
+linkforge: 1
+name: r
+extra: |
+  <note>
+    <!-- first
+  second -->
+    <text>1
+  2</text>
+  </note>
+links:
+  base:
+""").result()
+    mapped = render_urdf_with_map(robot)
+    assert mapped.text == render_urdf(robot)
+    lines = mapped.text.splitlines()
+    assert written(mapped.map, lines.index("second -->") + 1).line == 5
+    assert written(mapped.map, lines.index("2</text>") + 1).line == 8
+    assert written(mapped.map, lines.index("  </note>") + 1).line == 5

@@ -380,3 +380,14 @@ def test_a_transmission_keeps_the_spelling_that_its_fields_cannot(read):
           m: {hardware_interfaces: [effort], mechanical_reduction: 50, extra: <offset>1.0</offset>}""").replace(
         "\n", "\n  "
     ).replace("t:", "  t:", 1)
+
+
+def test_what_is_kept_raw_keeps_its_comments_and_is_told_of_its_instructions(tmp_path: Path):
+    comment = "<!-- one\n       two <?x y?> -->"
+    told = imported_from(
+        f"<link name='a'/>\n    <mine>\n        {comment}\n        <?sort by name?><a/>\n    </mine>", tmp_path
+    )
+    assert [one.code.id for one in told.diagnostics] == ["LF8102"]
+    assert told.text is not None
+    [raw] = compile_text(told.text).result().extra_elements
+    assert raw == f"<mine>\n    {comment}\n    <a/>\n</mine>"
