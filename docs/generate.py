@@ -13,12 +13,15 @@ from pathlib import Path
 
 import yaml
 
+from linkforge_compile.bounds import Limit
 from linkforge_compile.core.meshes.read import MAX_TRIANGLES
+from linkforge_compile.diagnostics.render import MOST_SHOWN
+from linkforge_compile.diagnostics.sink import MAX_TOLD
 from linkforge_compile.expressions import grammar, operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.lowering import mesh_solids
-from linkforge_compile.modules import conditions, evaluate_tree, file_text, includes, patterns
-from linkforge_compile.modules.expand import MAX_DEPTH, MAX_MODULES
+from linkforge_compile.modules import file_text, includes, patterns
+from linkforge_compile.modules.expand import MAX_DEPTH
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import definitions
 from linkforge_compile.schema.repetition import LONG_FORM, WORDS
@@ -217,13 +220,9 @@ def _bounds() -> str:
     bounds: dict[str, int | str] = {
         "size of a spec or data file": f"{file_text.MAX_BYTES // mebibyte} MiB",
         "depth of nested lists and maps": reader.MAX_DEPTH,
-        "values that aliases may make of a file, and values of a data file": reader.MAX_NODES,
         "modules within modules": MAX_DEPTH,
-        "modules in all": MAX_MODULES,
         "files included from included files": includes.MAX_DEPTH,
         "included files in all": includes.MAX_INCLUDES,
-        "entries that `for` may write": conditions.MAX_REPEATED,
-        "values that expressions may make": evaluate_tree.MAX_COMPUTED_NODES,
         "characters of one expression": parse.MAX_LENGTH,
         "depth of one expression": grammar.MAX_DEPTH,
         "bits of a whole number": operators.MAX_INTEGER_BITS,
@@ -234,6 +233,9 @@ def _bounds() -> str:
         "size of a mesh file that is read": f"{mesh_solids.MAX_BYTES // mebibyte} MiB",
         "triangles of such a mesh": MAX_TRIANGLES,
     }
+    shared = {limit.counted.replace("'for'", "`for`"): limit.most for limit in Limit}
+    told = {"errors that are told, and warnings": MAX_TOLD, "diagnostics that the command shows as text": MOST_SHOWN}
+    bounds = {**shared, **bounds, **told}
     rows = [[what, f"{most:,}" if isinstance(most, int) else most] for what, most in bounds.items()]
     return _table(("what", "at most"), rows)
 

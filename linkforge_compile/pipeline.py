@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.checks import check
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Severity
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Gaps, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.diagnostics.ignores import heed
@@ -164,19 +164,31 @@ def check_variants(
     path: str | Path, *, parameters: Parameters = (), packages: Packages | None = None, gazebo: Gazebo = "gz"
 ) -> dict[str | None, Compilation]:
     """Check a spec file with its defaults (None) and with each of its variants, by name."""
-    spec = Loader().open(Path(path), Diagnostics())
-    variants = (None, *(variants_of(spec) if spec else ()))
+    variants = (None, *_variants(Path(path)))
     return {
         name: check_file(path, parameters=parameters, packages=packages, variant=name, gazebo=gazebo)
         for name in variants
     }
 
 
+def _variants(path: Path) -> Iterable[str]:
+    """Return the names of a spec's variants, none where it cannot be read: then its check says so."""
+    try:
+        spec = Loader().open(path, Diagnostics())
+    except BeyondLimitError:
+        return ()
+    return variants_of(spec) if spec else ()
+
+
 def parameters_of(path: str | Path) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
     """List the parameters and variants of a spec file, None where it cannot be read, and what is wrong with them."""
     sink, loader = Diagnostics(), Loader()
-    spec = loader.open(Path(path), sink)
-    listing = list_parameters(spec, loader, sink) if spec else None
+    listing = None
+    try:
+        spec = loader.open(Path(path), sink)
+        listing = list_parameters(spec, loader, sink) if spec else None
+    except BeyondLimitError as beyond:
+        sink.end(beyond)
     return listing, sink.sorted()
 
 
@@ -206,19 +218,29 @@ def import_urdf(path: str | Path) -> Import:
 
 
 def _imported(path: Path) -> Import:
+    sink = Diagnostics()
+    try:
+        text = _imported_text(path, sink)
+    except BeyondLimitError as beyond:
+        sink.end(beyond)
+        text = None
+    return Import(text, sink.sorted())
+
+
+def _imported_text(path: Path, sink: Diagnostics) -> str | None:
     from linkforge_compile.importers.urdf import read_urdf
     from linkforge_compile.syntax import write
 
-    sink, loader = Diagnostics(), Loader()
+    loader = Loader()
     file = loader.open_xml(path, sink)
     imported = read_urdf(file, sink) if file else None
     if file is None or imported is None:
-        return Import(None, sink.sorted())
+        return None
     # The tree has the spans of the file, so what is wrong with the robot is told there.
     judged = Diagnostics()
     _robot(SpecFile(file, imported.tree, path.parent), _Settings((), None, None, "gz"), loader, MeshSolids(), judged)
     sink.report_all(fault for fault in judged if fault.severity is Severity.ERROR)
-    return Import(write(imported.tree, *imported.comments), sink.sorted())
+    return write(imported.tree, *imported.comments)
 
 
 _Read: TypeAlias = Callable[[Loader, Diagnostics], SpecFile | None]
@@ -257,9 +279,13 @@ def _compiled(read: _Read, settings: _Settings) -> Compilation:
     require_dialect(settings.gazebo)
     sink = Diagnostics()
     loader = Loader({name: Path(folder) for name, folder in (settings.packages or {}).items()})
-    spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them
     meshes = MeshSolids()
-    robot = _robot(spec, settings, loader, meshes, sink) if spec else None
+    robot = None
+    try:
+        spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them
+        robot = _robot(spec, settings, loader, meshes, sink) if spec else None
+    except BeyondLimitError as beyond:
+        sink.end(beyond)
     is_whole = not any(diagnostic.code is NOT_JUDGED for diagnostic in sink)
     if sink.has_errors or not is_whole:
         robot = None

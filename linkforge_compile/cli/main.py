@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile._version import __version__
-from linkforge_compile.cli.exits import INTERRUPTED, OK, WRONG_USAGE, UsageError
+from linkforge_compile.cli.exits import FAULTY_SPEC, INTERRUPTED, OK, WRONG_USAGE, UsageError
 
 if TYPE_CHECKING:
     import argparse
@@ -40,6 +40,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # `linkforge compile … | head`: the reader has what it wanted.
         _silence_stdout()
         return OK
+    except MemoryError:
+        # Of the machine, or of a limit that its owner set: the bounds of specs take less than 512 MB.
+        print("linkforge: there is not enough memory for this spec", file=sys.stderr)
+        return FAULTY_SPEC
     except Exception as fault:
         # The last stand: whatever gets here is our fault, not the user's, and is told as such.
         from linkforge_compile.cli.internal_fault import confess

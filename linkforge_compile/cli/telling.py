@@ -97,9 +97,9 @@ def written(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) 
 
 
 def _text(diagnostics: tuple[Diagnostic, ...], color: str) -> str:
-    from linkforge_compile.diagnostics.render import render_text
+    from linkforge_compile.diagnostics.render import render_first
 
-    text = render_text(diagnostics, colour=is_coloured(sys.stderr, color))
+    text = render_first(tuple(diagnostics), colour=is_coloured(sys.stderr, color))
     if not diagnostics or sys.stderr is None or not sys.stderr.isatty():
         return text
     worst = next((one for one in diagnostics if one.severity is Severity.ERROR), diagnostics[0])

@@ -2,6 +2,19 @@
 
 from linkforge_compile.diagnostics.diagnostic import Blame, Code, Diagnostic, Note, Severity, Where
 from linkforge_compile.diagnostics.gaps import Gaps, Removed
-from linkforge_compile.diagnostics.sink import Diagnostics
+from linkforge_compile.diagnostics.sink import MAX_TOLD, BeyondLimitError, Diagnostics, too_many_errors
 
-__all__ = ["Blame", "Code", "Diagnostic", "Diagnostics", "Gaps", "Note", "Removed", "Severity", "Where"]
+__all__ = [
+    "MAX_TOLD",
+    "BeyondLimitError",
+    "Blame",
+    "Code",
+    "Diagnostic",
+    "Diagnostics",
+    "Gaps",
+    "Note",
+    "Removed",
+    "Severity",
+    "Where",
+    "too_many_errors",
+]

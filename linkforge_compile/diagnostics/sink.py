@@ -2,10 +2,38 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import TypeAlias
 
-from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
+from linkforge_compile.diagnostics.codes.bounds import MORE_WARNINGS, TOO_MANY_ERRORS
+from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
 from linkforge_compile.source import Span
+
+MAX_TOLD = 1_000
+"""How many errors are told of one compile, and how many warnings and notes."""
+
+MAX_AT_ONE_PLACE = 3
+"""How often one kind of fault is told of one place; a `for` may give it in each of ten thousand rounds."""
+
+MAX_REPORTED = 10_000
+"""How many faults are looked at, those that are counted only among them."""
+
+_Place: TypeAlias = tuple[str, Span]
+
+
+class BeyondLimitError(Exception):
+    """The compile ends here: what `diagnostic` tells leaves nothing to go on with in bounded time."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        self.diagnostic = diagnostic
+        super().__init__(str(diagnostic))
+
+
+def too_many_errors(where: Span | None) -> BeyondLimitError:
+    """Return what to raise at the error that is one too many."""
+    return BeyondLimitError(TOO_MANY_ERRORS.at(where))
 
 
 class Diagnostics:
@@ -17,10 +45,37 @@ class Diagnostics:
 
     def __init__(self) -> None:
         self._reported: dict[tuple[str, Span | None, str], Diagnostic] = {}
+        self._errors = 0
+        # By their hashes, as a message may be long, and only their number is told.
+        self._seen: set[int] = set()
+        self._at: defaultdict[_Place, set[int]] = defaultdict(set)
+        self._left_out = 0
 
     def report(self, diagnostic: Diagnostic) -> None:
+        """Keep a diagnostic, or count it where enough were told; raise BeyondLimitError where there is no end."""
         key = (diagnostic.code.id, diagnostic.span, diagnostic.message)
-        self._reported.setdefault(key, diagnostic)
+        number = hash(key)
+        if number in self._seen:
+            return
+        self._seen.add(number)
+        is_error = diagnostic.severity is Severity.ERROR
+        if is_error and (self._errors >= MAX_TOLD or len(self._seen) > MAX_REPORTED):
+            raise too_many_errors(diagnostic.span)
+        if diagnostic.span is not None:
+            at = self._at[diagnostic.code.id, diagnostic.span]
+            at.add(number)
+            if len(at) > MAX_AT_ONE_PLACE:
+                return
+        if not is_error and len(self._reported) - self._errors >= MAX_TOLD:
+            self._left_out += 1
+            return
+        self._errors += is_error
+        self._reported[key] = diagnostic
+
+    def end(self, beyond: BeyondLimitError) -> None:
+        """Keep what ended the compile, however much was told before."""
+        diagnostic = beyond.diagnostic
+        self._reported[diagnostic.code.id, diagnostic.span, diagnostic.message] = diagnostic
 
     def report_all(self, diagnostics: Iterable[Diagnostic]) -> None:
         for diagnostic in diagnostics:
@@ -38,4 +93,14 @@ class Diagnostics:
 
     def sorted(self) -> tuple[Diagnostic, ...]:
         """Return all of them in the order of the files, and of the places in each file."""
-        return tuple(sorted(self, key=lambda diagnostic: diagnostic.order))
+        last = {(one.code.id, one.span): one for one in self}
+        told = [self._counted(one) if last[one.code.id, one.span] is one else one for one in self]
+        if self._left_out:
+            told.append(MORE_WARNINGS.at(None, count=f"{self._left_out:,}"))
+        return tuple(sorted(told, key=lambda diagnostic: diagnostic.order))
+
+    def _counted(self, last: Diagnostic) -> Diagnostic:
+        """Return the last diagnostic of its kind at its place with how many more there are."""
+        if last.span is None or (more := len(self._at[last.code.id, last.span]) - MAX_AT_ONE_PLACE) <= 0:
+            return last
+        return replace(last, notes=(*last.notes, Note(f"and {more:,} more like this at the same place")))

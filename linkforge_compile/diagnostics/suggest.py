@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import islice
+
+_MOST_COMPARED = 500
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
@@ -11,6 +14,10 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
     from difflib import get_close_matches
 
     pool = dict.fromkeys(candidates)
+    if len(pool) > _MOST_COMPARED:
+        # Each comparison takes some microseconds; a misspelling mostly keeps the length and the first letter.
+        like = (one for one in pool if abs(len(one) - len(name)) < 3 and one[:1].casefold() == name[:1].casefold())
+        pool = dict.fromkeys(islice(like, _MOST_COMPARED))
     if not name or not pool:
         return None
     folded = {candidate.casefold(): candidate for candidate in reversed(pool)}

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TypeVar
 
+from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.access import field, item
@@ -19,6 +20,12 @@ from linkforge_compile.expressions.template import Expression, Template
 from linkforge_compile.expressions.types import FAULT, Fault, RefusedError, Value, as_text, joined, kind_name
 
 T = TypeVar("T")
+
+_CHARACTERS_A_STEP = 4
+"""How long the text of an expression is for each step that computing it takes, roughly."""
+
+_STEPS_OF_A_FAULT = 50
+"""What it takes to tell of an expression that it has no value, where a `for` makes it fail each time."""
 
 
 def evaluate(template: Template, scope: Scope, sink: Diagnostics, *, is_xml: bool = False) -> Value | Fault:
@@ -37,6 +44,7 @@ def evaluate(template: Template, scope: Scope, sink: Diagnostics, *, is_xml: boo
     if is_too_long(text):
         sink.report(codes.TEXT_TOO_LONG.at(template.span, limit=f"{MAX_TEXT:,}"))
         return FAULT
+    scope.budget.spend(Limit.CHARACTERS_MADE, len(text), template.span)
     return text
 
 
@@ -73,6 +81,7 @@ def _evaluate_to_text(expression: Expression, scope: Scope, sink: Diagnostics) -
 
 
 def _evaluate(expression: Expression, scope: Scope, sink: Diagnostics) -> Value | Fault:
+    scope.budget.spend(Limit.STEPS, len(expression.text) // _CHARACTERS_A_STEP + 1, expression.place.span)
     unknown = [name for name in expression.names if name.id not in scope]
     for name in unknown:
         sink.report(codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, near=[*scope, *CONSTANTS]))
@@ -81,6 +90,7 @@ def _evaluate(expression: Expression, scope: Scope, sink: Diagnostics) -> Value 
     try:
         return _Evaluation(expression, scope, sink).value(expression.tree)
     except _FaultError:
+        scope.budget.spend(Limit.STEPS, _STEPS_OF_A_FAULT, expression.place.span)
         return FAULT
 
 
@@ -113,7 +123,7 @@ class _Evaluation:
             case ast.UnaryOp(op=sign, operand=operand):
                 return self._apply(partial(signed, sign), node, operand)
             case ast.BinOp(left=left, op=operator, right=right):
-                return self._apply(ARITHMETIC[type(operator)], node, left, right)
+                return self._apply(self._counted(ARITHMETIC[type(operator)]), node, left, right)
             case ast.BoolOp(op=ast.And(), values=conditions):
                 return all(self._truth(condition, "'and'") for condition in conditions)
             case ast.BoolOp(values=conditions):
@@ -154,7 +164,7 @@ class _Evaluation:
     def _called(self, call: ast.Call, function: ast.Name, arguments: list[ast.expr]) -> Value:
         if function.id in FILE_FUNCTIONS:
             return self._asked_of_the_file(function, arguments[0])
-        return self._apply(FUNCTIONS[function.id], call, *arguments)
+        return self._apply(self._counted(FUNCTIONS[function.id]), call, *arguments)
 
     def _asked_of_the_file(self, name: ast.Name, argument: ast.expr) -> Value:
         text = self._apply(partial(_text, f"{name.id}()"), name, argument)
@@ -175,10 +185,24 @@ class _Evaluation:
         left_node, left = node.left, self.value(node.left)
         for operator, right_node in zip(node.ops, node.comparators, strict=True):
             right = self.value(right_node)
-            if not self._settle(COMPARISONS[type(operator)], node, (left_node, right_node), (left, right)):
+            compare = self._counted(COMPARISONS[type(operator)])
+            if not self._settle(compare, node, (left_node, right_node), (left, right)):
                 return False
             left_node, left = right_node, right
         return True
+
+    def _counted(self, operation: Callable[..., T]) -> Callable[..., T]:
+        """Return an operation that counts the items of the lists and the characters of the texts that it takes."""
+
+        def counting(*values: Value) -> T:
+            for value in values:
+                if isinstance(value, tuple):
+                    self._scope.budget.spend(Limit.STEPS, len(value), self._expression.place.span)
+                elif isinstance(value, str):
+                    self._scope.budget.spend(Limit.CHARACTERS_MADE, len(value), self._expression.place.span)
+            return operation(*values)
+
+        return counting
 
     def _apply(self, operation: Callable[..., T], node: ast.expr, *operands: ast.expr) -> T:
         return self._settle(operation, node, operands, [self.value(operand) for operand in operands])

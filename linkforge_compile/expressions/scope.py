@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.types import FAULT, Fault, Value
@@ -41,8 +42,13 @@ class Scope:
         values: Mapping[str, Value | Fault | Lazy],
         outer: Scope | None = None,
         functions: Mapping[str, FileFunction] | None = None,
+        budget: Budget | None = None,
     ) -> None:
-        """`functions` are those that only the file around an expression can compute."""
+        """`functions` are those that only the file around an expression can compute.
+
+        `budget` counts what is computed with these names: that of the outer scope, or a new one, unless given.
+        """
+        self.budget: Budget = budget or (outer.budget if outer else Budget())
         self._values = dict(values)
         self._outer = outer
         self._functions = functions or {}

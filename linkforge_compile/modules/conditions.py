@@ -13,7 +13,6 @@ from linkforge_compile.diagnostics.codes.repetition import (
     FOR_NAME_TAKEN,
     KEY_WITHOUT_NAME,
     LONG_FORM,
-    TOO_MUCH_REPEATED,
 )
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value
 from linkforge_compile.modules.origins import Setting
@@ -23,9 +22,6 @@ from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, Ya
 
 if TYPE_CHECKING:
     from linkforge_compile.modules.evaluate_tree import TreeEvaluator
-
-MAX_REPEATED = 1_000_000
-"""How many nodes the `for` of all files together may write again."""
 
 Occurrence: TypeAlias = "tuple[TreeEvaluator, YamlNode]"
 """A node without its `for` and `when`, and what computes it: in its scope are the `for` names with their values."""
@@ -110,27 +106,27 @@ def _repeated(
     if condition is not None and not tree.names_in(condition) & repeated.entries.keys():
         is_there = _is_there(condition, tree)
         if is_there is False and thing:
-            for copy in _copies(repeated, tree.silent, 0) or ():
+            for copy in _copies(repeated, tree.silent, YamlFault(body.span)) or ():
                 tree.disabled.add(thing.key, body, thing.title, condition.span, copy)
         if is_there is not True:
             yield from [(tree, YamlFault(body.span))] if is_there is FAULT else []
             return
         condition = None
-    copies = _copies(repeated, tree, tree.expressions.size(body))
+    copies = _copies(repeated, tree, body)
     if copies is None:
         yield tree, YamlFault(body.span)
     for copy in copies or ():
         yield from _once(body, condition, thing, copy)
 
 
-def _copies(repeated: YamlMap, tree: TreeEvaluator, size: int) -> list[TreeEvaluator] | None:
+def _copies(repeated: YamlMap, tree: TreeEvaluator, body: YamlNode) -> list[TreeEvaluator] | None:
     """Return what computes each combination, the first name varying slowest; None for a fault, which is reported.
 
-    `size` is that of what is repeated: of all copies together, and of their names, there is only so much.
+    `body` is what is repeated: of all copies together, and of their names, there is only so much.
     """
     combinations: list[tuple[dict[str, Value], dict[str, Setting]]] = [({}, {})]
     for number, entry in enumerate(repeated, start=1):
-        cost = number + (size if number == len(repeated) else 0)
+        written = body if number == len(repeated) else YamlFault(body.span)
         longer = []
         for names, settings in combinations:
             around = tree.inside(names, settings)
@@ -139,11 +135,7 @@ def _copies(repeated: YamlMap, tree: TreeEvaluator, size: int) -> list[TreeEvalu
                 return None
             is_made = isinstance(values, range)
             for place, value in enumerate(values):
-                admitted = tree.expressions.may_repeat(cost)
-                if admitted is None:
-                    tree.sink.report(TOO_MUCH_REPEATED.at(entry.key.span, limit=f"{MAX_REPEATED:,}"))
-                if not admitted:
-                    return None
+                tree.expressions.repeat(written, number, entry.key.span)
                 setting = Setting("one of 'for'", entry.value, around, (place,), is_made)
                 longer.append(({**names, entry.name: value}, {**settings, entry.name: setting}))
         combinations = longer

@@ -7,6 +7,7 @@ from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TEXT_NOT_NUMBER, TREE_TOO_LARGE
 from linkforge_compile.diagnostics.codes.repetition import RESERVED_KEY
@@ -24,7 +25,7 @@ from linkforge_compile.expressions import (
     parse_template,
 )
 from linkforge_compile.modules.computed import judge_computed
-from linkforge_compile.modules.conditions import MAX_REPEATED, occurrences
+from linkforge_compile.modules.conditions import occurrences
 from linkforge_compile.modules.disabled import Disabled
 from linkforge_compile.modules.origins import ExpressionTrace, Setting
 from linkforge_compile.modules.values import node_of, passed_on, plain_value, size_of
@@ -34,12 +35,6 @@ from linkforge_compile.source import ComputedSpan, SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
 from linkforge_compile.units import parse_quantity
 
-MAX_COMPUTED_NODES = 1_000_000
-"""How many nodes the expressions of all files together may give."""
-
-MAX_COMPUTED_TEXT = 64_000_000
-"""How many characters the expressions of all files together may give."""
-
 MAX_COMPUTED_DEPTH = 100
 """How deep the lists and maps of one value may lie in one another: every later stage walks them by recursion."""
 
@@ -47,16 +42,14 @@ _NEGATED = re.compile(r"-\s*\$\(\s*([A-Za-z_][\w.]*)\s*\)")
 
 
 class Expressions:
-    """What all uses of all files of one compile share: each expression parsed once, and how much they gave so far."""
+    """What all uses of all files of one compile share: each expression parsed once, and what they take counted."""
 
-    def __init__(self) -> None:
+    def __init__(self, budget: Budget) -> None:
+        self.budget = budget
         self._templates: dict[YamlScalar, Template | None] = {}
         self._live: dict[YamlList | YamlMap, bool] = {}
         self._changing: dict[YamlList | YamlMap, bool] = {}
-        self._sizes: dict[YamlList | YamlMap, int] = {}
-        self._computed_nodes = 0
-        self._computed_text = 0
-        self._repeated_nodes = 0
+        self._sizes: dict[YamlList | YamlMap, tuple[int, int]] = {}
 
     def template(self, scalar: YamlScalar, sink: Diagnostics) -> Template | None:
         """Return a scalar's text with its expressions parsed; None where they cannot be, which is reported once."""
@@ -95,40 +88,39 @@ class Expressions:
             self._changing[node] = changing
         return changing
 
-    def size(self, node: YamlNode) -> int:
-        """Return how many nodes a node is, itself counted."""
-        if not isinstance(node, YamlList | YamlMap):
-            return 1
+    def size(self, node: YamlNode) -> tuple[int, int]:
+        """Return how many nodes a node is, tags of raw XML among them, and how many characters its scalars have."""
+        if isinstance(node, YamlScalar):
+            return 1 + node.text.count("<"), len(node.text)
+        if isinstance(node, YamlFault):
+            return 1, 0
         if node not in self._sizes:
             parts = node if isinstance(node, YamlList) else (entry.value for entry in node)
-            self._sizes[node] = 1 + sum(self.size(part) for part in parts)
+            sizes = [(1, 0), *map(self.size, parts)]
+            self._sizes[node] = sum(nodes for nodes, _ in sizes), sum(characters for _, characters in sizes)
         return self._sizes[node]
 
-    def may_repeat(self, nodes: int) -> bool | None:
-        """Count nodes that a `for` writes again; None for those that go beyond the bound, False for all behind."""
-        within = self._repeated_nodes <= MAX_REPEATED
-        self._repeated_nodes += nodes
-        return within and (True if self._repeated_nodes <= MAX_REPEATED else None)
+    def repeat(self, node: YamlNode, names: int, where: Span) -> None:
+        """Count a node that one round of a `for` writes, with a value for each name of the `for`."""
+        self.budget.spend(Limit.ROUNDS, 1, where)
+        self.write_again(node, where, names)
+
+    def write_again(self, node: YamlNode, where: Span, names: int = 0) -> None:
+        """Count a node that is written once more, with the values of so many names."""
+        nodes, characters = self.size(node)
+        self.budget.spend(Limit.VALUES, nodes + names, where)
+        self.budget.spend(Limit.CHARACTERS_MADE, characters, where)
 
     def admit(self, value: Value, where: Span, sink: Diagnostics) -> bool:
-        """Count what a value makes; False for the one that goes beyond a bound, which is reported, and all behind."""
-        size = size_of(value, MAX_COMPUTED_NODES)
+        """Count what a value makes; False for one that lies too deep in itself, which is reported."""
+        size = size_of(value, max(0, self.budget.left(Limit.VALUES)))
         if size.depth > MAX_COMPUTED_DEPTH:
             limit = f"{MAX_COMPUTED_DEPTH} lists and maps inside each other"
             sink.report(TREE_TOO_LARGE.at(where, limit=limit))
             return False
-        was_beyond = self._limit_passed
-        self._computed_nodes += size.nodes
-        self._computed_text += size.characters
-        if self._limit_passed and not was_beyond:
-            sink.report(TREE_TOO_LARGE.at(where, limit=self._limit_passed))
-        return not self._limit_passed
-
-    @property
-    def _limit_passed(self) -> str | None:
-        if self._computed_nodes > MAX_COMPUTED_NODES:
-            return f"{MAX_COMPUTED_NODES:,} values"
-        return f"{MAX_COMPUTED_TEXT:,} characters" if self._computed_text > MAX_COMPUTED_TEXT else None
+        self.budget.spend(Limit.VALUES, size.nodes, where)
+        self.budget.spend(Limit.CHARACTERS_MADE, size.characters, where)
+        return True
 
     def tell_made_number(self, node: YamlNode, value: Value, sink: Diagnostics) -> bool:
         """Report text that an expression inside it makes look like a number or quantity; True where it does.
@@ -144,6 +136,10 @@ class Expressions:
         remedy = f"write '$(-{negated[1]})'" if negated else "make the whole one expression, such as '$(-a)'"
         sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=remedy))
         return True
+
+
+class _Silence(Diagnostics):
+    """Takes what nobody is to be told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +176,9 @@ class TreeEvaluator:
     @property
     def silent(self) -> TreeEvaluator:
         """One that reports nothing, for what is not part of the robot."""
-        return replace(self, sink=Diagnostics(), expressions=Expressions())
+        if isinstance(self.sink, _Silence):
+            return self
+        return replace(self, sink=_Silence(), expressions=Expressions(self.expressions.budget))
 
     def names_in(self, node: YamlNode) -> frozenset[str]:
         """Return the names that the expressions of a scalar use."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
+from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import (
     MODULES_NOT_MAP,
-    TOO_MANY_MODULES,
     USE_CIRCLE,
     USE_TOO_DEEP,
 )
@@ -17,7 +17,7 @@ from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.modules.defaults import with_defaults, without_repetition
-from linkforge_compile.modules.evaluate_tree import TreeEvaluator
+from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
 from linkforge_compile.modules.given import Given, Unset
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.mesh_files import MakeSite, mesh_finder
@@ -29,10 +29,9 @@ from linkforge_compile.modules.uses import mesh_base, name_from, open_use
 from linkforge_compile.modules.variants import tell_unknown_variant, variants_of
 from linkforge_compile.schema.shapes import FREE, shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.syntax import YamlFault, YamlMap, YamlScalar, is_null
+from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlScalar, is_null
 
 MAX_DEPTH = 50
-MAX_MODULES = 10_000
 
 _LEFT_OUT = frozenset({"parameters", "variables", "data", "variants", "packages", "modules", "defaults"})
 
@@ -56,7 +55,8 @@ def expand(
         tell_unknown_variant(variant, spec, sink)
         # Nobody knows what it would have set.
         arguments = replace(arguments, is_partial=True)
-    return _Expansion(spec, Shared(spec, loader, unset, variant), sink).instance(_Use(spec, Given(arguments, sink)))
+    shared = Shared(spec, loader, Expressions(loader.budget), unset, variant)
+    return _Expansion(spec, shared, sink).instance(_Use(spec, Given(arguments, sink)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,10 +95,13 @@ class _Expansion:
         self._compiled = compiled
         self._shared = shared
         self._sink = sink
-        self._modules_read = 0
+        self._used: set[SourceFile] = set()
 
     def instance(self, use: _Use) -> Instance:
         """Expand one use of one file, and all that it uses."""
+        if use.spec.file in self._used:
+            self._shared.expressions.write_again(use.spec.tree, use.given.use or use.spec.file.whole)
+        self._used.add(use.spec.file)
         file = UseOfFile(use.spec, use.given, use.prefix, use.trail)
         names = FileNames(file, self._shared, used_from(self._sink, use.trail))
         names.judge_parameters()
@@ -106,6 +109,7 @@ class _Expansion:
         for override in use.entry.overrides if use.entry else ():
             body = body.under(override)
         tree = body.tree
+        self._count(use, tree)
         modules = tuple(self._module(entry, use, names) for entry in body.entries)
         names.judge_unused_variables()
         if use.entry is None:
@@ -121,6 +125,15 @@ class _Expansion:
             references=names.own.asked,
             removed=body.removed,
         )
+
+    def _count(self, use: _Use, tree: YamlMap) -> None:
+        """Count the entries of one use: each is moved once for every module around it, which is most of the work.
+
+        The use itself counts for two, with the joint that it hangs on.
+        """
+        where = use.given.use or tree.span
+        entries = sum(len(entry.value) for entry in tree if isinstance(entry.value, YamlMap | YamlList))
+        self._shared.loader.budget.spend(Limit.ENTRIES, (entries + 2) * len(use.chain), where)
 
     def _mesh_bases(self, use: _Use) -> dict[SourceFile, str]:
         """Return what makes a path of the compiled file of one that this use's files wrote, or those around it."""
@@ -144,15 +157,10 @@ class _Expansion:
         where = use.given.use
         chain = use.chain
         files = [other.spec.file for other in chain]
-        self._modules_read += 1
         if use.spec.file in files[1:]:
             sink.report(_circle(chain[: files.index(use.spec.file, 1) + 1], self._compiled))
         elif len(chain) > MAX_DEPTH:
             sink.report(USE_TOO_DEEP.at(where, limit=MAX_DEPTH))
-        elif self._modules_read > MAX_MODULES:
-            # Once is enough: every `use` behind this one is one too many as well.
-            if self._modules_read == MAX_MODULES + 1:
-                sink.report(TOO_MANY_MODULES.at(where, limit=f"{MAX_MODULES:,}"))
         else:
             return True
         return False

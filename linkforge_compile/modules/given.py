@@ -7,6 +7,7 @@ from enum import Enum
 from pathlib import Path
 from typing import NamedTuple
 
+from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.files import FILE_OUTSIDE_PACKAGE
 from linkforge_compile.diagnostics.codes.modules import (
@@ -190,5 +191,8 @@ def _judged(parameter: Parameter, said: _Said, tree: TreeEvaluator, sink: Diagno
         return FAULT
     if not parameter.kind.is_text and tree.expressions.tell_made_number(said.node, said.value, sink):
         return FAULT
+    if parameter.pattern is not None:
+        steps = parameter.pattern.steps(str(said.value))
+        tree.expressions.budget.spend(Limit.STEPS, steps, said.node.span)
     taken = parameter.take(said.value, said.place, sink)
     return FAULT if taken is None else taken

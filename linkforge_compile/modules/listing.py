@@ -9,6 +9,7 @@ from typing import NamedTuple, TypeAlias
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expressions import FAULT, Value
 from linkforge_compile.modules.arguments import Arguments
+from linkforge_compile.modules.evaluate_tree import Expressions
 from linkforge_compile.modules.given import Given, Unset, declared_kind
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
@@ -57,7 +58,7 @@ class Listing(NamedTuple):
 def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listing:
     """List what a file declares; what is wrong with it is reported, that something is not set yet is not."""
     given = Given(Arguments(is_partial=True), sink)
-    names = FileNames(UseOfFile(spec, given), Shared(spec, loader, Unset.NOTE), sink)
+    names = FileNames(UseOfFile(spec, given), Shared(spec, loader, Expressions(loader.budget), Unset.NOTE), sink)
     given.tell_unknown(names.declared, Variants(variants_of(spec)), spec)
     return Listing(
         name=_text(spec.tree.get("name")),

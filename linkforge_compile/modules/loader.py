@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
-from linkforge_compile.diagnostics.codes.files import TOO_MUCH_DATA
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
 from linkforge_compile.importers import EncodingError, xml_text
 from linkforge_compile.modules.file_text import MAX_BYTES, UnreadableError, file_bytes, file_text
@@ -21,9 +21,6 @@ from linkforge_compile.modules.places import judge_places
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read, read_data
-
-MAX_DATA_BYTES = MAX_BYTES
-"""How much the files of `data` of one compile may hold together."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,7 +66,7 @@ class Loader:
         self._sources: list[SourceFile] = []
         self._specs: dict[str, Whole | None] = {}  # by real path
         self._data: dict[str, YamlNode | None] = {}  # by real path
-        self._data_bytes = 0
+        self.budget = Budget()
 
     @property
     def sources(self) -> tuple[SourceFile, ...]:
@@ -83,7 +80,7 @@ class Loader:
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:
         """Read a spec from text that is no file; `folder` is where its relative paths start, None for nowhere."""
-        whole = self._whole(self._source(name, text, None), folder, sink)
+        whole = self._whole(self._source(name, text, None, None), folder, sink)
         return _spec(whole, folder, None) if whole else None
 
     def open(
@@ -100,7 +97,7 @@ class Loader:
             text = _text(path, used or Used(str(as_typed(path)), None), sink, _xml_text if is_urdf else file_text)
             if text is None:
                 return None
-            source = self._source(str(as_typed(path)), text, as_typed(path))
+            source = self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
             self._specs[real] = _urdf(source, sink, used) if is_urdf else self._whole(source, path.parent, sink)
         whole = self._specs[real]
         return _spec(whole, path.parent, package) if whole else None
@@ -108,41 +105,49 @@ class Loader:
     def open_xml(self, path: Path, sink: Diagnostics, used: Used | None = None) -> SourceFile | None:
         """Read a text of XML in the encoding that it says; `used` says by what, None for the command line."""
         text = _text(path, used or Used(str(as_typed(path)), None), sink, _xml_text)
-        return None if text is None else self._source(str(as_typed(path)), text, as_typed(path))
+        if text is None:
+            return None
+        return self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
 
     def open_data(self, path: Path, sink: Diagnostics, tags: Tags, used: Used) -> YamlNode | None:
         """Read a file of data, which may be of any shape and hold `tags`; None where it cannot be had, as reported."""
         real = os.path.realpath(path)
         if real not in self._data:
             text = _text(path, used, sink)
-            self._data_bytes += 0 if text is None else len(text)
-            if text is None or self._data_bytes > MAX_DATA_BYTES:
-                if text is not None:
-                    sink.report(TOO_MUCH_DATA.at(used.where, limit=MAX_DATA_BYTES // 1024**2))
+            if text is None:
                 return None
-            source = self._source(str(as_typed(path)), text, as_typed(path))
+            source = self._source(str(as_typed(path)), text, as_typed(path), used.where)
             notes = [Note("read here", used.where)]
-            self._data[real] = read_data(source, NotedSink(sink, notes), tags)
+            self._data[real] = read_data(source, NotedSink(sink, notes), tags, self.budget)
         return self._data[real]
 
     def _whole(self, source: SourceFile, folder: Path | None, sink: Diagnostics) -> Whole | None:
         """Read a spec with all that it includes; None where its own text is no spec."""
-        tree = _tree(source, sink)
+        tree = self._tree(source, sink)
 
         def read_included(path: Path, item: YamlScalar) -> tuple[SourceFile, YamlMap] | None:
             text = _text(path, Used(item.text, item.span), sink)
             if text is None:
                 return None
-            included = self._source(str(as_typed(path)), text, as_typed(path), item.span)
-            part = _tree(included, sink)
+            included = self._source(str(as_typed(path)), text, as_typed(path), item.span, included=item.span)
+            part = self._tree(included, sink)
             return None if part is None else (included, part)
 
         return None if tree is None else lay_together(source, tree, folder, read_included, sink)
 
-    def _source(self, name: str, text: str, path: Path | None, included: Span | None = None) -> SourceFile:
+    def _source(
+        self, name: str, text: str, path: Path | None, asked: Span | None, included: Span | None = None
+    ) -> SourceFile:
+        self.budget.spend(Limit.CHARACTERS_READ, len(text), asked)
         source = SourceFile(name, text, path, order=len(self._sources), included=included)
         self._sources.append(source)
         return source
+
+    def _tree(self, source: SourceFile, sink: Diagnostics) -> YamlMap | None:
+        tree = read(source, sink, self.budget)
+        if tree is None:
+            return None
+        return judge_places(validate(tree, sink, is_included=source.included is not None), sink)
 
 
 def _urdf(source: SourceFile, sink: Diagnostics, used: Used | None) -> Whole | None:
@@ -151,13 +156,6 @@ def _urdf(source: SourceFile, sink: Diagnostics, used: Used | None) -> Whole | N
 
     imported = read_urdf(source, used_from(sink, (used.where,) if used and used.where else ()))
     return Whole(source, imported.tree) if imported else None
-
-
-def _tree(source: SourceFile, sink: Diagnostics) -> YamlMap | None:
-    tree = read(source, sink)
-    if tree is None:
-        return None
-    return judge_places(validate(tree, sink, is_included=source.included is not None), sink)
 
 
 def _spec(whole: Whole, folder: Path | None, package: Package | None) -> SpecFile:

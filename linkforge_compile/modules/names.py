@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -46,9 +46,9 @@ class Shared:
 
     compiled: SpecFile
     loader: Loader
+    expressions: Expressions
     unset: Unset = Unset.ERROR
     variant: str | None = None
-    expressions: Expressions = field(default_factory=Expressions)
 
 
 class UseOfFile(NamedTuple):
@@ -89,7 +89,7 @@ class FileNames:
         }
         self.own = OwnNames(spec, use.prefix, lambda: self.packages, shared.loader, use.trail)
         values = {**always, **self._variables, **self._data, **self._parameters}
-        scope = Scope(values, self._names_unread(), self.own.functions)
+        scope = Scope(values, self._names_unread(), self.own.functions, self._loader.budget)
         self.tree = TreeEvaluator(scope, shared.expressions, sink, self._paths_seen_from_elsewhere())
 
     @property

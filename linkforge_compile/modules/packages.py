@@ -65,8 +65,11 @@ def _manifest_name(folder: Path) -> str | None:
 
     Read as text: one tag of a file that strangers wrote is not worth an XML parser and its entities.
     """
+    manifest = folder / "package.xml"
     try:
-        with (folder / "package.xml").open("rb") as stream:
+        if not manifest.is_file():  # a pipe of that name would make us wait
+            return None
+        with manifest.open("rb") as stream:
             text = stream.read(_MANIFEST_BYTES).decode("utf-8", errors="replace")
     except OSError:
         return None

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.model import WIDE_ANGLE
 from linkforge_compile.diagnostics.codes.modules import (
@@ -29,6 +30,9 @@ from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_te
 
 if TYPE_CHECKING:
     from linkforge_compile.modules.patterns import Pattern
+
+_STEPS_A_STATE = 4
+"""What it takes to make one place of a pattern, in steps of expressions."""
 
 _CONSTRAINTS = ("minimum", "maximum", "enum", "pattern")
 
@@ -136,7 +140,7 @@ def parameter_of(declaration: Declaration, kind: Kind, tree: TreeEvaluator) -> P
         minimum,
         maximum,
         choices=_choices(plain, constraints.get("enum"), tree),
-        pattern=_pattern(constraints.get("pattern"), tree.sink),
+        pattern=_pattern(constraints.get("pattern"), tree),
     )
 
 
@@ -155,15 +159,18 @@ def _choices(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) -> tu
     return None if None in choices else tuple(choices)
 
 
-def _pattern(node: YamlNode | None, sink: Diagnostics) -> Pattern | None:
+def _pattern(node: YamlNode | None, tree: TreeEvaluator) -> Pattern | None:
     if not isinstance(node, YamlScalar):
         return None
-    from linkforge_compile.modules.patterns import Pattern, PatternError
+    from linkforge_compile.modules.patterns import MAX_STATES, Pattern, PatternError
 
     try:
-        return Pattern(node.text)
+        pattern = Pattern(node.text)
+        tree.expressions.budget.spend(Limit.STEPS, pattern.steps("") * _STEPS_A_STATE, node.span)
+        return pattern
     except PatternError as error:
-        sink.report(BAD_PATTERN.at(node.span, pattern=node.text, reason=error))
+        tree.expressions.budget.spend(Limit.STEPS, MAX_STATES * _STEPS_A_STATE, node.span)
+        tree.sink.report(BAD_PATTERN.at(node.span, pattern=node.text, reason=error))
         return None
 
 

@@ -17,6 +17,8 @@ from typing import Any, TypeAlias
 MAX_PATTERN = 500
 MAX_TEXT = 1_000
 MAX_STATES = 2_000
+_PLACES_A_STEP = 4
+"""How many places of a pattern can be looked at while an expression takes one of its steps."""
 
 _sre = import_module("re._parser")
 """Python's parser of regular expressions, which gives a tree without compiling it."""
@@ -61,6 +63,10 @@ class Pattern:
         self._states: list[_State] = []
         self._end = self._state(_State())
         self._start = self._sequence(tree, self._end)
+
+    def steps(self, text: str) -> int:
+        """Return how many steps it may take to look through a text, at most."""
+        return len(self._states) * (1 + min(len(text), MAX_TEXT) // _PLACES_A_STEP)
 
     def is_in(self, text: str) -> bool:
         """Whether the pattern matches anywhere in the text; a text beyond MAX_TEXT characters is not looked through."""

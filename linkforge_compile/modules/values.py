@@ -65,7 +65,7 @@ def passed_on(value: Value) -> Value:
 
 
 class Size(NamedTuple):
-    """How much a value makes: nodes, characters of text, and how deep its lists and maps lie in one another."""
+    """How much a value makes: nodes and tags of raw XML, characters, and how deep lists and maps lie in one another."""
 
     nodes: int
     characters: int
@@ -84,6 +84,7 @@ def size_of(value: Value, most_nodes: int) -> Size:
         nodes, depth = nodes + 1, max(depth, level)
         if isinstance(part, str):
             characters += len(part)
+            nodes += part.count("<")
         elif isinstance(part, tuple):
             waiting.extend((item, level + 1) for item in part)
         elif isinstance(part, Mapping):

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
+from itertools import islice
 from typing import TYPE_CHECKING, Final
 
-from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, too_many_errors
 from linkforge_compile.schema.explain import Judgement, Path, explain
 from linkforge_compile.schema.json_types import Schema
 from linkforge_compile.schema.registry import linked
@@ -29,7 +30,9 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     misspelt is not told twice. What was YamlFault before is not judged.
     What is missing inside an entry, names, and the units of quantities are for later stages to judge.
     """
-    judgements = [judgement for error in _errors(tree, is_included) for judgement in explain(error, tree)]
+    found = (judgement for error in _errors(tree, is_included) for judgement in explain(error, tree))
+    # Each is explained with all that is near it: of the hundred thousand faults of a hostile file, those that are told.
+    judgements = list(islice(found, MAX_TOLD + 1))
     return _told(tree, judgements, sink)
 
 
@@ -53,6 +56,8 @@ def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> 
     """Report what was found; return the tree without what it is about."""
     for judgement in sorted(judgements, key=lambda judgement: judgement.diagnostic.order):
         sink.report(judgement.diagnostic)
+    if len(judgements) > MAX_TOLD:
+        raise too_many_errors(judgements[-1].diagnostic.span)
     return _pruned(tree, judgements) if judgements else tree
 
 

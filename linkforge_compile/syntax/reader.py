@@ -10,6 +10,7 @@ from typing import TypeAlias
 import yaml
 from yaml import events
 
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.source import SourceFile, Span
@@ -25,9 +26,6 @@ MAX_DEPTH = 100
 MAX_READ_TWICE = 250_000
 """How many characters a file may have that PyYAML's own parser, which is slow, reads where libyaml cannot."""
 
-MAX_NODES = 1_000_000
-"""How many nodes aliases may make of a tree, each alias counted as a copy of its own; a data file has no more."""
-
 # PyYAML may have been built without libyaml; its own parser gives the same events, only slower.
 Parser: TypeAlias = type["yaml.BaseLoader | yaml.CBaseLoader"]
 PARSER: Parser = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
@@ -38,48 +36,51 @@ Tags: TypeAlias = Mapping[str, Callable[[YamlScalar], YamlNode]]
 _STUCK = re.compile(r"[A-Za-z_]\w*:\S.*")
 
 
-def read(file: SourceFile, sink: Diagnostics) -> YamlMap | None:
+def read(file: SourceFile, sink: Diagnostics, budget: Budget | None = None) -> YamlMap | None:
     """Read the one YAML document of a file; None where its text or its top level is at fault, which is reported.
 
     A node at fault becomes a YamlFault, a repeated key is dropped, and reading goes on; only malformed YAML ends it.
+    What it holds is counted in the budget, each alias as a copy of its own; without one it is a compile by itself.
     """
-    root = _root(file, sink, None)
+    root = _root(file, sink, budget or Budget(), None)
     if root is None or isinstance(root, YamlMap):
         return root
     _report_top_level(root, sink)
     return None
 
 
-def read_data(file: SourceFile, sink: Diagnostics, tags: Tags) -> YamlNode | None:
+def read_data(file: SourceFile, sink: Diagnostics, tags: Tags, budget: Budget | None = None) -> YamlNode | None:
     """Read a file of data, which may be of any shape and hold `tags`, but no others; None as for `read`."""
-    root = _root(file, sink, tags)
+    root = _root(file, sink, budget or Budget(), tags)
     if isinstance(root, YamlScalar) and root.value is None:
         sink.report(codes.EMPTY_DATA.at(file.whole))
         return None
     return root
 
 
-def _root(file: SourceFile, sink: Diagnostics, tags: Tags | None) -> YamlNode | None:
+def _root(file: SourceFile, sink: Diagnostics, budget: Budget, tags: Tags | None) -> YamlNode | None:
     """Return the top of the one document, None where the text cannot be read; `tags` is None for a spec."""
     marks = Marks(file, file.text.removeprefix("\ufeff"))
     if forbidden := FORBIDDEN_CHARACTER.search(marks.text):
         span = marks.part(forbidden.start(), 1)
         sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
         return None
-    return _document(marks, sink, tags, PARSER)
+    return _document(marks, sink, budget, tags, PARSER)
 
 
-def _document(marks: Marks, sink: Diagnostics, tags: Tags | None, parser: Parser) -> YamlNode | None:
-    reader = _Reader(marks, sink, tags, parser)
+def _document(marks: Marks, sink: Diagnostics, budget: Budget, tags: Tags | None, parser: Parser) -> YamlNode | None:
+    reader = _Reader(marks, sink, budget, tags, parser)
     try:
-        return reader.document()
+        root = reader.document()
+        budget.spend(Limit.VALUES, reader.size, marks.file.whole)
+        return root
     except _UnreadableError as unreadable:
         sink.report(unreadable.diagnostic)
     except yaml.MarkedYAMLError as error:
         # `{mass:}` is YAML 1.2, but none to libyaml; what was reported before it is reported again, and kept once.
         is_empty_field = parser is not yaml.BaseLoader and error.problem == "found unexpected ':'"
         if is_empty_field and len(marks.text) <= MAX_READ_TWICE:
-            return _document(marks, sink, tags, yaml.BaseLoader)
+            return _document(marks, sink, budget, tags, yaml.BaseLoader)
         sink.report(explain(error, marks, reader.last_scalar))
     return None
 
@@ -113,14 +114,17 @@ class _Anchor:
 class _Reader:
     """One pass over the events of one document."""
 
-    def __init__(self, marks: Marks, sink: Diagnostics, tags: Tags | None, parser: Parser) -> None:
+    def __init__(self, marks: Marks, sink: Diagnostics, budget: Budget, tags: Tags | None, parser: Parser) -> None:
         self.last_scalar: events.ScalarEvent | None = None
+        self.size = 0
+        """How many nodes there are so far, each alias counted as a copy of its own."""
+        self._budget = budget
+        self._most = budget.left(Limit.VALUES)
         self._marks = marks
         self._sink = sink
         self._tags = tags
         self._parser = parser(marks.text)
         self._anchors: dict[str, _Anchor | None] = {}  # None while the anchored node is still being read
-        self._size = 0
         self._deepest = 0
         self._latest = marks.file.whole  # what was read last: with it end the block lists and maps around it
 
@@ -146,18 +150,21 @@ class _Reader:
         if isinstance(event, events.AliasEvent):
             return self._alias(event, depth)
         assert isinstance(event, events.ScalarEvent | events.CollectionStartEvent)
-        self._size += 1
-        if self._tags is not None and self._size > MAX_NODES:
-            raise _UnreadableError(codes.TOO_MUCH_DATA.at(self._marks.event(event), limit=f"{MAX_NODES:,}"))
+        self._count(1, event)
         if event.anchor is None:
             return self._untagged(event, depth, flow)
-        size_before, deepest_outside = self._size - 1, self._deepest
+        size_before, deepest_outside = self.size - 1, self._deepest
         self._anchors[event.anchor] = None
         self._deepest = depth
         node = self._untagged(event, depth, flow)
-        self._anchors[event.anchor] = _Anchor(node, self._size - size_before, self._deepest - depth)
+        self._anchors[event.anchor] = _Anchor(node, self.size - size_before, self._deepest - depth)
         self._deepest = max(deepest_outside, self._deepest)
         return node
+
+    def _count(self, nodes: int, event: events.Event) -> None:
+        self.size += nodes
+        if self.size > self._most:
+            raise self._budget.beyond(Limit.VALUES, self._marks.event(event))
 
     def _alias(self, event: events.AliasEvent, depth: int) -> YamlNode:
         name, span = event.anchor, self._marks.event(event)
@@ -169,9 +176,7 @@ class _Reader:
         if anchor is None:
             self._sink.report(codes.RECURSIVE_ALIAS.at(span, name=name))
             return YamlFault(span)
-        self._size += anchor.size
-        if self._size > MAX_NODES:
-            raise _UnreadableError(codes.TOO_MANY_NODES.at(span, limit=f"{MAX_NODES:,}"))
+        self._count(anchor.size, event)
         self._descend(depth + anchor.height, span)
         return anchor.node
 
@@ -211,6 +216,8 @@ class _Reader:
         self._deepest = max(self._deepest, depth)
 
     def _scalar(self, event: events.ScalarEvent, flow: bool) -> YamlScalar | YamlFault:
+        # Raw XML takes as much as so many nodes.
+        self._count(event.value.count("<"), event)
         node = self._text(event, flow)
         if event.style or isinstance(node, YamlFault):
             return node
@@ -260,7 +267,7 @@ class _Reader:
 
     def _key(self, event: events.Event, depth: int, flow: bool) -> YamlNode:
         if isinstance(event, events.ScalarEvent) and event.anchor is None and event.tag is None:
-            self._size += 1
+            self._count(1, event)
             return self._text(event, flow)
         return self._node(event, depth, flow)
 

@@ -4,8 +4,7 @@ import math
 
 import pytest
 
-from linkforge_compile.diagnostics.codes.files import TOO_MUCH_DATA
-from linkforge_compile.modules import loader
+from linkforge_compile.diagnostics import BeyondLimitError
 from linkforge_compile.units import Dimension, Quantity
 from tests.modules.assembling import assemble, metadata_of, write
 
@@ -91,9 +90,12 @@ def test_a_file_that_is_named_twice_is_read_once(tmp_path):
     assert len(found.told) == 1
 
 
-def test_data_files_are_bounded_together(tmp_path, monkeypatch):
-    monkeypatch.setattr(loader, "MAX_DATA_BYTES", 1024**2)
-    (tmp_path / "one.yaml").write_text("#" * 600_000 + "\n1")
-    (tmp_path / "two.yaml").write_text("#" * 600_000 + "\n2")
-    found = assemble("data: {one: one.yaml, two: two.yaml}\nmetadata: {one: $(one), two: $(two)}\n", folder=tmp_path)
-    assert (found.told, found.metadata) == ([TOO_MUCH_DATA.message.format(limit=1)], {"one": 1, "two": "FAULT"})
+def test_files_are_bounded_together(tmp_path):
+    text = "#" * 15_000_000 + "\n1"
+    for name in ("one", "two", "three"):
+        (tmp_path / f"{name}.yaml").write_text(text)
+    with pytest.raises(BeyondLimitError, match="more than 33,554,432 characters in its files"):
+        assemble(
+            "data: {one: one.yaml, two: two.yaml, three: three.yaml}\nmetadata: [$(one), $(two), $(three)]\n",
+            folder=tmp_path,
+        )

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.modules import Instance, Loader, Unset, arguments_from_text, expand
-from linkforge_compile.modules.expand import MAX_DEPTH, MAX_MODULES
+from linkforge_compile.modules.expand import MAX_DEPTH
 from tests.modules.assembling import metadata_of, plain, write
 
 
@@ -213,5 +213,5 @@ def test_uses_are_bounded_in_number(tmp_path, sink):
     names = ["robot", "a", "b", "c", "d"]
     specs = {f"{name}.robot.yaml": "modules: " + ten.replace("NEXT", inner) for name, inner in pairwise(names)}
     write(tmp_path, {**specs, "d.robot.yaml": "links: {base: }"})
-    compiled(tmp_path, sink)
-    assert messages(sink) == [f"the robot is made of more than {MAX_MODULES:,} modules"]
+    with pytest.raises(BeyondLimitError, match="more than 30,000 links, joints, other entries and modules"):
+        compiled(tmp_path, sink)

@@ -2,11 +2,10 @@
 
 import pytest
 
-from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.syntax import TOO_MUCH_DATA
+from linkforge_compile.bounds import Budget, Limit
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlList, YamlMap, YamlScalar, read_data
-from linkforge_compile.syntax import reader as reader_module
 
 TAGS = {"!twice": lambda scalar: YamlScalar(scalar.text, 2 * float(scalar.text), scalar.span)}
 
@@ -42,9 +41,10 @@ def test_an_empty_file_is_told(text):
     assert read(text) == (None, ["table.yaml:1:1: error: the file is empty, so there is nothing to name [LF1114]"])
 
 
-def test_values_are_counted(monkeypatch):
-    monkeypatch.setattr(reader_module, "MAX_NODES", 10)
-    assert read(f"[{'1, ' * 8}1]")[1] == []
-    node, told = read(f"[{'1, ' * 9}1]")
-    assert node is None
-    assert TOO_MUCH_DATA.message.format(limit="10") in told[0]
+def test_values_are_counted():
+    budget = Budget()
+    read_data(SourceFile("table.yaml", f"[{'1, ' * 9}1]"), Diagnostics(), TAGS, budget)
+    assert budget.left(Limit.VALUES) == Limit.VALUES.most - 11
+    with pytest.raises(BeyondLimitError) as beyond:
+        read(f"[{'1, ' * Limit.VALUES.most}1]")
+    assert str(beyond.value.diagnostic.span) == f"table.yaml:1:{1 + (Limit.VALUES.most - 1) * 3 + 1}"

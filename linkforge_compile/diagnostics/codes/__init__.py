@@ -6,6 +6,7 @@ LF6 physics and interfaces, LF7 backend limits, LF8 import.
 
 from linkforge_compile.diagnostics.codes import (
     backends,
+    bounds,
     expressions,
     files,
     ignoring,
@@ -23,7 +24,7 @@ from linkforge_compile.diagnostics.diagnostic import Code
 REGISTER: dict[str, Code] = {
     code.id: code
     for family in (
-        *(syntax, ignoring, schema, modules, files, repetition, expressions),
+        *(syntax, ignoring, schema, modules, files, repetition, bounds, expressions),
         *(names, model, physics, backends, importing),
     )
     for code in vars(family).values()

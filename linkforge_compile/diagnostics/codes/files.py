@@ -16,7 +16,6 @@ TOO_MANY_INCLUDES = Code("LF3066", _E, "more than {limit} files are included")
 # LF307x: data
 DATA_NOT_PATH = Code("LF3070", _E, "'{name}' of 'data' takes the path of a YAML file, found {found}")
 TAG_NOT_NUMBER = Code("LF3071", _E, "'{tag}' stands before a number, found '{text}'")
-TOO_MUCH_DATA = Code("LF3072", _E, "the files of 'data' hold more than {limit} MiB together")
 
 # LF308x: variants
 UNKNOWN_VARIANT = Code("LF3080", _E, "{spec} has no variant named '{name}'")

@@ -25,7 +25,6 @@ NOT_A_MODULE = Code("LF3015", _E, "module '{name}' is a map with 'use', found {f
 MODULES_NOT_MAP = Code("LF3016", _E, "'modules' is a map of modules by name, found {found}")
 USE_CIRCLE = Code("LF3012", _E, "modules use each other in a circle: {path}")
 USE_TOO_DEEP = Code("LF3013", _E, "modules are used inside modules more than {limit} deep")
-TOO_MANY_MODULES = Code("LF3014", _E, "the robot is made of more than {limit} modules")
 
 # LF302x: parameters and what sets them
 UNKNOWN_PARAMETER = Code("LF3020", _E, "no parameter named '{name}'")

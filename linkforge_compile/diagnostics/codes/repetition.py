@@ -12,7 +12,6 @@ FOR_NAME_TAKEN = Code("LF3203", _E, "'{name}' means something here already, so '
 KEY_WITHOUT_NAME = Code(
     "LF3204", _E, "the key must mention '{name}' of its 'for', such as '{example}', to be another each time"
 )
-TOO_MUCH_REPEATED = Code("LF3205", _E, "the 'for' of all files together give more than {limit} values")
 RESERVED_KEY = Code("LF3206", _E, "'{name}' cannot be a name among the {owner}: the word is kept for repetition")
 LONG_FORM = Code("LF3207", _E, "beside 'for' and 'when' goes 'value' and nothing else here, found {found}")
 COMPUTED_REPETITION = Code(

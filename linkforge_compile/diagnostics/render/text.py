@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from unicodedata import combining, east_asian_width
 
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
@@ -16,6 +16,20 @@ _WIDEST_LINE = 160
 _CONTEXT_BEFORE = 60
 
 
+MOST_SHOWN = 100
+"""How many diagnostics one screenful of text tells: behind so many nobody reads on, and the first may be the cause."""
+
+
+def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> str:
+    """Return as `render_text` does the first errors, the first others where there is room, and how many more."""
+    errors = [one for one in diagnostics if one.severity is Severity.ERROR][:MOST_SHOWN]
+    others = [one for one in diagnostics if one.severity is not Severity.ERROR][: MOST_SHOWN - len(errors)]
+    shown = set(map(id, (*errors, *others)))
+    text = render_text((one for one in diagnostics if id(one) in shown), colour=colour)
+    rest = [one for one in diagnostics if id(one) not in shown]
+    return text + f"… and {_counts(rest, Severity)} more\n" if rest else text
+
+
 def render_text(diagnostics: Iterable[Diagnostic], *, colour: bool = False) -> str:
     """Return `file:line:col: error: message [LFnnnn]` with the source under each; empty for none."""
     return "".join(f"{line}\n" for diagnostic in diagnostics for line in _lines(diagnostic, colour))
@@ -23,10 +37,14 @@ def render_text(diagnostics: Iterable[Diagnostic], *, colour: bool = False) -> s
 
 def summary(diagnostics: Iterable[Diagnostic]) -> str:
     """Return "2 errors, 1 warning", or "no errors" where there is neither."""
-    severities = [diagnostic.severity for diagnostic in diagnostics]
-    counts = [(severities.count(severity), severity) for severity in (Severity.ERROR, Severity.WARNING)]
-    told = [f"{count} {severity}{'s' if count > 1 else ''}" for count, severity in counts if count]
-    return ", ".join(told) or "no errors"
+    return _counts(diagnostics, (Severity.ERROR, Severity.WARNING)) or "no errors"
+
+
+def _counts(diagnostics: Iterable[Diagnostic], severities: Iterable[Severity]) -> str:
+    """Return "2 errors, 1 warning"; empty for none of either."""
+    found = [diagnostic.severity for diagnostic in diagnostics]
+    counts = [(found.count(severity), severity) for severity in severities]
+    return ", ".join(f"{count:,} {severity}{'s' if count > 1 else ''}" for count, severity in counts if count)
 
 
 def _lines(diagnostic: Diagnostic, colour: bool) -> Iterator[str]:

@@ -1,0 +1,85 @@
+"""How much one compile may take: one table of limits, and the counter that all its files share."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from enum import Enum
+
+from linkforge_compile.diagnostics import BeyondLimitError, Where
+from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
+
+FACTOR_VARIABLE = "LINKFORGE_LIMITS"
+"""The environment variable that allows so many times as much: the user's word, which no spec can say."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Limit:
+    """What is counted, how much of it there may be, and how to need less."""
+
+    counted: str
+    most: int
+    way_out: str
+
+
+class Limit(Enum):
+    """What all files of one compile together may take.
+
+    Chosen so that what reaches one of them is told within ten seconds and 512 MB, and so that a robot of ten
+    thousand links stays within all of them.
+    """
+
+    CHARACTERS_READ = _Limit(
+        "characters in its files", 32 * 1024**2, "leave out files that it does not need, or compile parts of it apart"
+    )
+    VALUES = _Limit(
+        "values and tags of raw XML, with every alias, 'for' and use of a module written out",
+        500_000,
+        "repeat less, or compile parts of it apart",
+    )
+    ENTRIES = _Limit(
+        "links, joints, other entries and modules, each counted again for every module around it",
+        30_000,
+        "repeat less, nest modules less deeply, or compile parts of it apart",
+    )
+    ROUNDS = _Limit("rounds of 'for'", 50_000, "repeat less, or compile parts of it apart")
+    CHARACTERS_MADE = _Limit(
+        "characters that expressions, 'for' and modules write", 16_000_000, "make shorter texts, or fewer of them"
+    )
+    STEPS = _Limit(
+        "steps of expressions and patterns, where each item of a list that is looked through is one",
+        3_000_000,
+        "compute what is used often once, in 'variables'",
+    )
+
+    @property
+    def counted(self) -> str:
+        return self.value.counted
+
+    @property
+    def most(self) -> int:
+        return self.value.most
+
+
+class Budget:
+    """What one compile has taken so far."""
+
+    def __init__(self) -> None:
+        factor = os.environ.get(FACTOR_VARIABLE, "")
+        self._factor = int(factor) if factor.isascii() and factor.isdigit() and len(factor) < 10 else 1
+        self._spent = dict.fromkeys(Limit, 0)
+
+    def left(self, limit: Limit) -> int:
+        """Return how much is left of one limit, below 0 where it is passed."""
+        return limit.most * self._factor - self._spent[limit]
+
+    def spend(self, limit: Limit, amount: int, where: Where) -> None:
+        """Count what is taken at a place; raise BeyondLimitError where that is more than there may be."""
+        self._spent[limit] += amount
+        if self.left(limit) < 0:
+            raise self.beyond(limit, where)
+
+    def beyond(self, limit: Limit, where: Where) -> BeyondLimitError:
+        """Return what to raise at the place that passes a limit."""
+        most = f"{limit.most * self._factor:,}"
+        return BeyondLimitError(BEYOND_LIMIT.at(where, most=most, counted=limit.counted, way_out=limit.value.way_out))

@@ -1,0 +1,12 @@
+"""LF33xx: the limits that all files of one compile share."""
+
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+
+BEYOND_LIMIT = Code(
+    "LF3301",
+    Severity.ERROR,
+    "the robot takes more than {most} {counted}; {way_out} (LINKFORGE_LIMITS=10 in the environment allows ten times "
+    "as much)",
+)
+TOO_MANY_ERRORS = Code("LF3302", Severity.ERROR, "nothing is read behind so many errors; mend some of them first")
+MORE_WARNINGS = Code("LF3303", Severity.WARNING, "{count} more warnings and notes are not told")

@@ -1,0 +1,56 @@
+"""Many faults: what is told, what is counted, and where nobody looks any further."""
+
+import pytest
+
+from linkforge_compile.diagnostics import BeyondLimitError, Code, Diagnostics, Severity
+from linkforge_compile.diagnostics.codes.bounds import MORE_WARNINGS, TOO_MANY_ERRORS
+from linkforge_compile.diagnostics.render import MOST_SHOWN, render_first
+from linkforge_compile.diagnostics.sink import MAX_TOLD
+from linkforge_compile.source import SourceFile, Span
+
+ERROR = Code("LF1000", Severity.ERROR, "no {name}")
+WARNING = Code("LF1000", Severity.WARNING, "hardly {name}")
+FILE = SourceFile("a.yaml", "some text")
+
+
+def at(line: int) -> Span:
+    return Span(FILE, line, 1, line, 2)
+
+
+def test_one_place_is_told_of_three_times_and_the_rest_counted():
+    sink = Diagnostics()
+    for _ in range(2):
+        sink.report_all(ERROR.at(at(1), name=number) for number in range(1000))
+    sink.report(ERROR.at(at(2), name="other"))
+    told = sink.sorted()
+    assert [one.message for one in told] == ["no 0", "no 1", "no 2", "no other"]
+    assert [note.message for one in told for note in one.notes] == ["and 997 more like this at the same place"]
+
+
+def test_behind_a_thousand_errors_the_compile_ends():
+    sink = Diagnostics()
+    sink.report_all(ERROR.at(at(line), name="x") for line in range(MAX_TOLD))
+    with pytest.raises(BeyondLimitError) as beyond:
+        sink.report(ERROR.at(at(MAX_TOLD), name="x"))
+    sink.end(beyond.value)
+    assert (len(sink), sink.sorted()[-1].code) == (MAX_TOLD + 1, TOO_MANY_ERRORS)
+
+
+def test_warnings_beyond_a_thousand_are_counted_and_end_nothing():
+    sink = Diagnostics()
+    sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_TOLD + 5))
+    sink.report(ERROR.at(at(9999), name="y"))
+    told = sink.sorted()
+    assert (told[0].code, told[0].message) == (MORE_WARNINGS, "5 more warnings and notes are not told")
+    assert told[-1].message == "no y"
+
+
+def test_the_command_shows_the_first_errors_before_any_warning():
+    diagnostics = [
+        WARNING.at(at(1), name="w"),
+        *(ERROR.at(at(line), name="x") for line in range(2, 2 + MOST_SHOWN + 9)),
+    ]
+    text = render_first(diagnostics)
+    assert (text.count("error:"), text.count("warning:")) == (MOST_SHOWN, 0)
+    assert text.endswith("… and 9 errors, 1 warning more\n")
+    assert "more" not in render_first(diagnostics[:MOST_SHOWN])

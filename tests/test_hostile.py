@@ -1,0 +1,292 @@
+"""Hostile files, each checked by a process of its own with 512 MB and ten seconds: an answer, and no more than one."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+resource = pytest.importorskip("resource", reason="the limits are those of POSIX")
+
+HEAD = "linkforge: 1\nname: r\nlinks:\n  base:\n"
+LINK = "linkforge: 1\nname: r\nlinks:\n  base: "
+PART = "linkforge: 1\nname: part\nlinks: {base: , tip: }\njoints: {tip: {type: fixed, parent: base, child: tip}}\n"
+MEMORY = 512 * 1024**2
+SECONDS = 10  # of work: another's load on the machine is not the file's doing
+LONGEST_WAIT = 300
+
+Make = Callable[[Path], str | bytes]
+"""Writes what a spec needs beside itself, and returns the spec."""
+
+
+def _limited() -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+
+
+def run(*words: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "linkforge_compile", *words]
+    return subprocess.run(
+        command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, encoding="utf-8",
+        timeout=LONGEST_WAIT, preexec_fn=_limited, check=False,
+    )  # fmt: skip
+
+
+def write(folder: Path, name: str, text: str | bytes) -> None:
+    (folder / name).write_bytes(text if isinstance(text, bytes) else text.encode())
+
+
+def refused(make: Make, code: str, folder: Path) -> str:
+    write(folder, "a.robot.yaml", make(folder))
+    done = run("check", "a.robot.yaml", folder=folder)
+    assert done.returncode == 1, (done.returncode, done.stderr[-2000:])
+    assert f"[{code}]" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert done.stderr.count("\n") < 400
+    return done.stderr
+
+
+def laughs(key: str = "x-") -> str:
+    lines = [f"{key}{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]\n" for i in range(1, 10)]
+    return f"{key}0: &a0 [lol]\n" + "".join(lines)
+
+
+def doubled(first: str, again: str, times: int) -> str:
+    steps = "".join(f"  v{i}: {again.format(f'$(v{i - 1})')}\n" for i in range(1, times))
+    return f"variables:\n  v0: {first}\n{steps}"
+
+
+SPECS: dict[str, tuple[str, str | bytes]] = {
+    "aliases of aliases": ("LF3301", HEAD + laughs()),
+    "flow lists in flow lists": ("LF1107", HEAD + "x-a: " + "[" * 1_000_000),
+    "flow maps in flow maps": ("LF1107", HEAD + "x-a: " + "{a: " * 1_000_000),
+    "lists in lists": ("LF1107", HEAD + "x-a:\n" + "- " * 1_000_000),
+    "maps in maps": ("LF1107", HEAD + "x-a:\n" + "".join(" " * i + "a:\n" for i in range(1, 2000))),
+    "a list of millions": ("LF3301", HEAD + "x-a: [" + "[]," * 5_000_000 + "]\n"),
+    "millions of links": ("LF3301", HEAD + "".join(f"  l{i}:\n" for i in range(1_000_000))),
+    "a million unknown keys": ("LF3302", HEAD + "".join(f"    q{i}: 1\n" for i in range(100_000))),
+    "the same key for ever": ("LF3302", HEAD + "x-q: 1\n" * 200_000),
+    "a huge product": ("LF3301", HEAD + "  l_$(a)_$(b)_$(c): {for: {a: 1000, b: 1000, c: 1000}}\n"),
+    "a huge for": ("LF3301", HEAD + "  l_$(a): {for: {a: 1000000000000}}\n"),
+    "more links than there may be": ("LF3301", HEAD + "  l_$(a): {for: {a: 40000}}\n"),
+    "for over what is not there": ("LF3301", HEAD + "  l_$(a): {for: {a: 100000}, when: false}\n"),
+    "powers": ("LF3127", HEAD + "metadata: {a: $(10**10**10), b: $(9**9**9), c: $(10**308*10**308)}\n"),
+    "text times a number": ("LF3121", HEAD + "metadata: {a: \"$('a' * 10**9)\"}\n"),
+    "text by a format": ("LF3121", HEAD + "metadata: {a: \"$('%1000000000d' % 3)\"}\n"),
+    "a method": ("LF3106", HEAD + "metadata: {a: \"$('x'.join('y'))\"}\n"),
+    "a long number": ("LF1112", HEAD + "x-a: " + "9" * 5_000_000),
+    "text that doubles": ("LF3128", HEAD + doubled("abcdefgh", "{0}{0}", 60) + "metadata: {a: $(v59)}\n"),
+    "lists that double": ("LF3301", HEAD + doubled("[1, 2]", "[{0}, {0}]", 60) + "metadata: {a: $(v59)}\n"),
+    "many long texts": (
+        "LF3301",
+        HEAD
+        + doubled("abcdefgh", "{0}{0}", 13)
+        + "".join(f"  w{i}: $(v12)x{i}\n" for i in range(5000))
+        + f"  all: [{', '.join(f'$(w{i})' for i in range(5000))}]\nmetadata: {{a: $(len(all))}}\n",
+    ),
+    "a long list looked through often": (
+        "LF3301",
+        f"variables: {{big: [{', '.join(map(str, range(50_000)))}]}}\n"
+        + HEAD
+        + "  l_$(a): {for: {a: 40000}, when: $(a in big and -1 in big or max(big) < 0)}\n",
+    ),
+    "a long expression": ("LF3105", HEAD + "metadata: {a: $(" + "(" * 100_000 + "1" + ")" * 100_000 + ")}\n"),
+    "a pattern that tries for ever": (
+        "LF3027",
+        HEAD + "parameters: {p: {type: string, pattern: '^(a+)+$', default: " + "a" * 900 + "b}}\n",
+    ),
+    "a pattern that counts far": ("LF3032", HEAD + "parameters: {p: {type: string, pattern: '((a{99}){99}){99}'}}\n"),
+    "many patterns": (
+        "LF3301",
+        HEAD
+        + "parameters:\n"
+        + "".join(f"  p{i}: {{type: string, pattern: '(a?){{480}}z|{i}', default: {'a' * 999}}}\n" for i in range(99)),
+    ),
+    "one line of 15 MB": ("LF2201", "linkforge: 1\nname: r\nlinks: " + "x" * 15_000_000),
+    "no UTF-8": ("LF3002", b"linkforge: 1\nname: \xff\xfe\n"),
+    "UTF-16": ("LF3002", HEAD.encode("utf-16")),
+    "a NUL": ("LF1019", HEAD + "x-a: a\0b\n"),
+    "NULs": ("LF1019", "\0" * 10_000_000),
+    "a module of itself": ("LF3012", HEAD + "modules: {a: {use: a.robot.yaml, parent: base}}\n"),
+    "an include of itself": ("LF3063", HEAD + "include: [a.robot.yaml]\n"),
+    "data that names itself": ("LF3141", HEAD + "data: {d: $(e.x), e: $(d.x)}\n"),
+    "a device as a module": ("LF3003", HEAD + "modules: {a: {use: /dev/zero, parent: base}}\n"),
+    "a device as data": ("LF3002", HEAD + "data: {d: /dev/zero, e: /dev/stdin}\n"),
+    "long paths": ("LF3002", HEAD + f"modules: {{a: {{use: {'a/' * 5000}b.yaml}}, b: {{use: {'a' * 10_000}.yaml}}}}\n"),
+    "entities": (
+        "LF7001",
+        LINK + '{extra: \'<!DOCTYPE x [<!ENTITY a "lol"><!ENTITY b SYSTEM "file:///etc/passwd">]><x>&a;&b;</x>\'}',
+    ),
+    "deep raw XML": ("LF7001", LINK + "{extra: '" + "<a>" * 100_000 + "</a>" * 100_000 + "'}\n"),
+    "wide raw XML": ("LF3301", LINK + "{extra: '" + "<a/>" * 3_000_000 + "'}\n"),
+    "raw XML again and again": (
+        "LF3301",
+        HEAD + "  l$(i): {for: {i: 20000}, extra: '" + "<a/>" * 10_000 + "'}\n",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_a_hostile_spec_is_refused_in_time(name: str, tmp_path: Path):
+    code, text = SPECS[name]
+    refused(lambda _: text, code, tmp_path)
+
+
+def doubling_modules(folder: Path) -> str:
+    for i in range(1, 40):
+        entry = f"{{use: m{i + 1}.robot.yaml, parent: base}}"
+        write(folder, f"m{i}.robot.yaml", PART + f"modules:\n  a: {entry}\n  b: {entry}\n")
+    write(folder, "m40.robot.yaml", PART)
+    return HEAD + "modules: {a: {use: m1.robot.yaml, parent: base}}\n"
+
+
+def repeated_modules(folder: Path) -> str:
+    for i in range(1, 10):
+        entry = f"{{for: {{i: 100}}, use: m{i + 1}.robot.yaml, parent: base}}"
+        write(folder, f"m{i}.robot.yaml", PART + f"modules:\n  a_$(i): {entry}\n")
+    write(folder, "m10.robot.yaml", PART)
+    return HEAD + "modules: {a: {use: m1.robot.yaml, parent: base}}\n"
+
+
+def deep_modules(folder: Path) -> str:
+    for i in range(60):
+        write(folder, f"m{i}.robot.yaml", PART + f"modules: {{a: {{use: m{i + 1}.robot.yaml, parent: base}}}}\n")
+    return HEAD + "modules: {a: {use: m0.robot.yaml, parent: base}}\n"
+
+
+def a_large_module_often(folder: Path) -> str:
+    links = "".join(f"  l{i}: {{visual: {{sphere: 1}}}}\n" for i in range(5000))
+    write(folder, "m.robot.yaml", HEAD + links)
+    return HEAD + "modules:\n  m$(i): {for: {i: 1000}, use: m.robot.yaml, parent: base}\n"
+
+
+def long_modules(folder: Path) -> str:
+    for i in range(4):
+        write(folder, f"m{i}.robot.yaml", PART + "#" + "é" * 8_000_000)
+    return HEAD + "modules:\n" + "".join(f"  i{i}: {{use: m{i}.robot.yaml, parent: base}}\n" for i in range(4))
+
+
+def a_thousand_includes(folder: Path) -> str:
+    for i in range(1000):
+        write(folder, f"m{i}.yaml", f"linkforge: 1\nlinks: {{l{i}: }}\n")
+    return HEAD + f"include: [{', '.join(f'm{i}.yaml' for i in range(1000))}]\n"
+
+
+def modules_in_a_circle(folder: Path) -> str:
+    write(folder, "b.robot.yaml", PART + "modules: {a: {use: a.robot.yaml, parent: base}}\n")
+    return HEAD + "modules: {a: {use: b.robot.yaml, parent: base}}\n"
+
+
+def a_circle_by_include(folder: Path) -> str:
+    write(folder, "b.yaml", "linkforge: 1\nmodules: {a: {use: a.robot.yaml, parent: base}}\n")
+    return HEAD + "include: [b.yaml]\n"
+
+
+def a_hundred_megabytes(folder: Path) -> str:
+    with (folder / "b.robot.yaml").open("wb") as file:
+        file.truncate(100 * 1024**2)
+    return HEAD + "modules: {a: {use: b.robot.yaml, parent: base}}\n"
+
+
+def large_data(folder: Path) -> str:
+    write(folder, "d.yaml", "[" + "0," * 4_000_000 + "]")
+    return HEAD + "data: {d: d.yaml}\n"
+
+
+def laughing_data(folder: Path) -> str:
+    write(folder, "d.yaml", laughs("a"))
+    return HEAD + "data: {d: d.yaml}\n"
+
+
+def pipes(folder: Path) -> str:
+    for name in ("f.robot.yaml", "g.yaml", "h.yaml", "package.xml"):
+        os.mkfifo(folder / name)
+    return HEAD + (
+        "modules: {a: {use: f.robot.yaml, parent: base}, b: {use: package://p/a.robot.yaml, parent: base}}\n"
+        "include: [g.yaml]\ndata: {d: h.yaml}\n"
+    )
+
+
+def folders_and_devices(folder: Path) -> str:
+    (folder / "f.robot.yaml").mkdir()
+    (folder / "g.yaml").symlink_to("/dev/zero")
+    return HEAD + "modules: {a: {use: f.robot.yaml, parent: base}}\ninclude: [g.yaml]\ndata: {d: f.robot.yaml}\n"
+
+
+def many_unknown_overrides(folder: Path) -> str:
+    write(folder, "m.robot.yaml", PART)
+    names = "".join(f"        q{i}: {{inertial: {{mass: 1}}}}\n" for i in range(20_000))
+    return HEAD + f"modules:\n  m:\n    use: m.robot.yaml\n    parent: base\n    override:\n      links:\n{names}"
+
+
+FOLDERS: dict[str, list[Make]] = {
+    "LF3301": [doubling_modules, repeated_modules, a_large_module_often, long_modules, large_data, laughing_data],
+    "LF3013": [deep_modules],
+    "LF3066": [a_thousand_includes],
+    "LF3012": [modules_in_a_circle, a_circle_by_include],
+    "LF3002": [a_hundred_megabytes, pipes, folders_and_devices],
+    "LF3302": [many_unknown_overrides],
+}
+
+
+@pytest.mark.parametrize(
+    ("code", "make"), [pytest.param(code, make, id=make.__name__) for code in FOLDERS for make in FOLDERS[code]]
+)
+def test_a_hostile_folder_is_refused_in_time(code: str, make: Make, tmp_path: Path):
+    refused(make, code, tmp_path)
+
+
+MESHES: dict[str, tuple[str, str, bytes]] = {
+    "a header of four billion triangles": ("f.stl", "LF6012", b"\0" * 80 + b"\xff" * 4),
+    "a face of no corner": ("f.obj", "LF6012", b"v 0 0 0\nf 1 2 99999999999\n"),
+    "entities": (
+        "f.dae",
+        "LF6012",
+        b'<!DOCTYPE x [<!ENTITY a "lol"><!ENTITY b "&a;&a;&a;"><!ENTITY c SYSTEM "file:///etc/passwd">]>'
+        b"<COLLADA>&b;&c;</COLLADA>",
+    ),
+    "tags in tags": ("f.dae", "LF6012", b"<COLLADA>" + b"<a>" * 1_000_000),
+}
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_a_hostile_mesh_is_refused_in_time(name: str, tmp_path: Path):
+    file, code, content = MESHES[name]
+    write(tmp_path, file, content)
+    refused(lambda _: f"{LINK}{{visual: {{mesh: {file}}}, collision: visual, inertial: {{mass: 1}}}}\n", code, tmp_path)
+
+
+def test_a_hundred_megabytes_are_not_read(tmp_path: Path):
+    with (tmp_path / "a.robot.yaml").open("wb") as file:
+        file.truncate(100 * 1024**2)
+    assert "[LF3002]" in run("check", "a.robot.yaml", folder=tmp_path).stderr
+
+
+@pytest.mark.parametrize("spec", [".", "/dev/zero", "no.yaml", "a" * 10_000])
+def test_what_is_no_file_is_refused(spec: str, tmp_path: Path):
+    done = run("check", spec, folder=tmp_path)
+    assert (done.returncode, done.stderr.count("error:")) == (1, 1)
+
+
+@pytest.mark.parametrize("text", [HEAD.replace("\n", "\r\n"), HEAD.replace("\n", "\r"), "\ufeff" + HEAD])
+def test_line_ends_and_byte_order_marks_are_no_fault(text: str, tmp_path: Path):
+    write(tmp_path, "a.robot.yaml", text)
+    assert run("check", "a.robot.yaml", folder=tmp_path).stderr == "checked 1 spec: no errors\n"
+
+
+def test_a_thousand_modules_compile(tmp_path: Path):
+    entries = "".join(f"  i{i}: {{use: m{i}.robot.yaml, parent: base}}\n" for i in range(1000))
+    for i in range(1000):
+        write(tmp_path, f"m{i}.robot.yaml", PART)
+    write(tmp_path, "a.robot.yaml", HEAD + f"modules:\n{entries}")
+    done = run("compile", "a.robot.yaml", "-o", "a.urdf", folder=tmp_path)
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert (tmp_path / "a.urdf").read_text().count("<joint ") == 2000
+
+
+def test_a_fault_in_every_round_of_a_for_is_told_once_and_counted(tmp_path: Path):
+    told = refused(lambda _: HEAD + "  l_$(i): {for: {i: 5000}, inertial: {mass: $(-i - 1)}}\n", "LF5001", tmp_path)
+    assert "more like this at the same place" in told
+    assert told.count("[LF5001]") == 3
