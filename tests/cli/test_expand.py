@@ -32,12 +32,25 @@ semantic:
   groups: {all: {links: [left_hub]}}
   disabled_collisions: {base: {left_wheel: Adjacent}}
 """
+TRIANGLE = """\
+solid shell
+  facet normal 0 0 1
+    outer loop
+      vertex 0 0 0
+      vertex 1 0 0
+      vertex 0 1 0
+    endloop
+  endfacet
+endsolid shell
+"""
 
 
 @pytest.fixture
 def cart(tmp_path: Path) -> Path:
     (tmp_path / "cart.robot.yaml").write_text(CART)
-    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "meshes").mkdir(parents=True)
+    for mesh in ("base.stl", "parts/meshes/wheel.stl"):
+        (tmp_path / mesh).write_text(TRIANGLE)
     (tmp_path / "parts" / "wheel.robot.yaml").write_text(WHEEL)
     return tmp_path
 

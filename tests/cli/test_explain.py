@@ -122,7 +122,7 @@ def test_all_codes_are_listed(tmp_path: Path):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("LF4192",), "no diagnostic has the code 'LF4192'; did you mean 'LF4102'?"),
+        (("LF4192",), "no diagnostic has the code 'LF4192'; did you mean 'LF4109'?"),
         (("--codes", "LF4102"), "--codes lists all codes and takes no words, found 'LF4102'"),
     ],
 )
@@ -190,7 +190,7 @@ def computed(folder: Path, path: str, *options: str) -> list[str]:
 
 
 def test_each_name_is_told_with_what_set_it_and_what_that_beat(nested: Path):
-    path = "links/left_hand_palm/visual/0/box/1"
+    path = "links/left_hand_palm/visual/0/box/size/1"
     assert computed(nested, path, "-p", "arm_reach=0.9", "--variant", "long") == [
         "computed: $(half)",
         "  half is 0.45 m, the variable $(width / 2) at hand.robot.yaml:5:19",
@@ -247,7 +247,7 @@ def test_what_an_override_hands_to_a_module_is_told_with_what_it_beat(nested: Pa
     patch = "override: {modules: {hand: {with: {width: 0.3 m}}}}"
     text = NESTED["cell.robot.yaml"].replace("parent: table", f"parent: table, {patch}")
     (nested / "cell.robot.yaml").write_text(text)
-    assert computed(nested, "links/left_hand_palm/visual/0/box/0") == [
+    assert computed(nested, "links/left_hand_palm/visual/0/box/size/0") == [
         "computed: $(width)",
         "  width is 0.3 m, 'with' 0.3 m at cell.robot.yaml:7:88",
         "    instead of 'with' $(reach) at arm.robot.yaml:8:60",

@@ -10,3 +10,6 @@ BEYOND_LIMIT = Code(
 )
 TOO_MANY_ERRORS = Code("LF3302", Severity.ERROR, "nothing is read behind so many errors; mend some of them first")
 MORE_WARNINGS = Code("LF3303", Severity.WARNING, "{count} more warnings and notes are not told")
+
+ENDS_OF_A_REPORT = (BEYOND_LIMIT, TOO_MANY_ERRORS, MORE_WARNINGS)
+"""What says that there is more than is told."""

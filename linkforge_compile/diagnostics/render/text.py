@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from unicodedata import combining, east_asian_width
 
+from linkforge_compile.diagnostics.codes.bounds import ENDS_OF_A_REPORT
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
 from linkforge_compile.source import Span
 
@@ -21,10 +22,14 @@ MOST_SHOWN = 100
 
 
 def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> str:
-    """Return as `render_text` does the first errors, the first others where there is room, and how many more."""
+    """Return as `render_text` does the first errors, the first others where there is room, and how many more.
+
+    What says that the report is not the whole one is always among them.
+    """
     errors = [one for one in diagnostics if one.severity is Severity.ERROR][:MOST_SHOWN]
     others = [one for one in diagnostics if one.severity is not Severity.ERROR][: MOST_SHOWN - len(errors)]
-    shown = set(map(id, (*errors, *others)))
+    ends = [one for one in diagnostics if one.code in ENDS_OF_A_REPORT]
+    shown = set(map(id, (*errors, *others, *ends)))
     text = render_text((one for one in diagnostics if id(one) in shown), colour=colour)
     rest = [one for one in diagnostics if id(one) not in shown]
     return text + f"… and {_counts(rest, Severity)} more\n" if rest else text
