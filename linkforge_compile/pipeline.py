@@ -6,7 +6,8 @@ Values flow down, faults flow sideways into the sink, and no stage stops the lin
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -37,6 +38,7 @@ from linkforge_compile.syntax import ignore_comments
 if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
+    from linkforge_compile.syntax import YamlMap
 
 __all__ = [
     "Compilation",
@@ -212,35 +214,49 @@ class Import:
         return tuple(diagnostic for diagnostic in self.diagnostics if diagnostic.code in LOSSES)
 
 
-def import_urdf(path: str | Path) -> Import:
-    """Read a URDF file as a spec that compiles to the same robot; its errors are told where the URDF has them."""
-    return with_room(lambda: _imported(Path(path)))
+def import_urdf(path: str | Path, *, srdf: str | Path | None = None) -> Import:
+    """Read a URDF file, and the SRDF of the same robot, as a spec that compiles to the same robot.
+
+    Its errors are told where those files have them.
+    """
+    return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf)))
 
 
-def _imported(path: Path) -> Import:
+def _imported(urdf: Path, srdf: Path | None) -> Import:
     sink = Diagnostics()
     try:
-        text = _imported_text(path, sink)
+        text = _imported_text(urdf, srdf, sink)
     except BeyondLimitError as beyond:
         sink.end(beyond)
         text = None
     return Import(text, sink.sorted())
 
 
-def _imported_text(path: Path, sink: Diagnostics) -> str | None:
+def _imported_text(urdf: Path, srdf: Path | None, sink: Diagnostics) -> str | None:
+    from linkforge_compile.importers.srdf import with_srdf
     from linkforge_compile.importers.urdf import read_urdf
     from linkforge_compile.syntax import write
 
     loader = Loader()
-    file = loader.open_xml(path, sink)
-    imported = read_urdf(file, sink) if file else None
-    if file is None or imported is None:
+    file = loader.open_xml(urdf, sink)
+    robot = read_urdf(file, sink) if file else None
+    semantic = loader.open_xml(srdf, sink) if robot and srdf else None
+    if file is None or robot is None or (srdf and semantic is None):
         return None
-    # The tree has the spans of the file, so what is wrong with the robot is told there.
+    judge = partial(_faults_of, SpecFile(file, robot.tree, urdf.parent), loader)
+    judged = with_srdf(robot, semantic, judge, sink) if semantic else (robot, judge(robot.tree))
+    if judged is None:
+        return None
+    # The tree has the spans of the files, so what is wrong with the robot is told there.
+    whole, faults = judged
+    sink.report_all(faults)
+    return write(whole.tree, *whole.comments)
+
+
+def _faults_of(spec: SpecFile, loader: Loader, tree: YamlMap) -> tuple[Diagnostic, ...]:
     judged = Diagnostics()
-    _robot(SpecFile(file, imported.tree, path.parent), _Settings((), None, None, "gz"), loader, MeshSolids(), judged)
-    sink.report_all(fault for fault in judged if fault.severity is Severity.ERROR)
-    return write(imported.tree, *imported.comments)
+    _robot(replace(spec, tree=tree), _Settings((), None, None, "gz"), loader, MeshSolids(), judged)
+    return tuple(fault for fault in judged if fault.severity is Severity.ERROR)
 
 
 _Read: TypeAlias = Callable[[Loader, Diagnostics], SpecFile | None]

@@ -7,7 +7,7 @@ import pytest
 
 from linkforge_compile.diagnostics import Code, codes
 from linkforge_compile.diagnostics.codes import REGISTER
-from tests.urdf_case import check_urdf_case, expected_in_xml
+from tests.urdf_case import check_urdf_case, expected_in_urdf
 from tests.yaml_case import check_case, expected
 
 BAD = sorted((Path(__file__).parent / "cases" / "bad").glob("*.yaml"))
@@ -57,7 +57,7 @@ def test_a_bad_urdf_is_told_at_its_line(path: Path):
 @pytest.mark.parametrize("path", BAD_URDF, ids=lambda path: path.name)
 def test_a_urdf_is_named_after_a_code_that_it_expects(path: Path):
     code = path.name.partition("_")[0]
-    assert code in {one.code for one in expected_in_xml(path.name, path.read_text("utf-8"))}
+    assert code in {one.code for one in expected_in_urdf(path)}
 
 
 def test_every_code_has_a_case():

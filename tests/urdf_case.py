@@ -16,5 +16,16 @@ def expected_in_xml(file: str, text: str) -> Iterator[Told]:
 
 
 def check_urdf_case(path: Path) -> None:
-    """Import a URDF file and compare what is told with what it expects."""
-    assert told(import_urdf(path)) == set(expected_in_xml(path.name, path.read_text("utf-8")))
+    """Import a URDF file, with the SRDF of its name if there is one, and compare what is told with what they expect."""
+    assert told(import_urdf(path, srdf=srdf_of(path))) == set(expected_in_urdf(path))
+
+
+def expected_in_urdf(path: Path) -> Iterator[Told]:
+    for file in (path, srdf_of(path)):
+        if file is not None:
+            yield from expected_in_xml(file.name, file.read_text("utf-8"))
+
+
+def srdf_of(path: Path) -> Path | None:
+    srdf = path.with_suffix(".srdf")
+    return srdf if srdf.exists() else None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
@@ -33,10 +34,12 @@ class Draft:
     """Makes the nodes of one spec.
 
     `keys` has the node that stands for an element in the text, a key or an item of a list; `bodies` what is under
-    it; `raw` the elements that are kept as they stand, and `told` what is to be told of the import.
+    it; `raw` the elements that are kept as they stand, and `told` what is to be told of the import. `refused` are
+    elements, by their spans, that are known to be no use to the language, and why.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, refused: Mapping[Span, DeclinedError] = MappingProxyType({})) -> None:
+        self.refused = refused
         self.keys: dict[XmlElement, YamlNode] = {}
         self.bodies: dict[XmlElement, YamlNode] = {}
         self.raw: set[XmlElement] = set()

@@ -159,6 +159,8 @@ class Reading:
     def _read(self, child: XmlElement, read: Read) -> tuple[YamlNode | None] | None:
         mark = len(self.draft.told)
         try:
+            if refused := self.draft.refused.get(child.span):
+                raise DeclinedError(refused.reason, refused.span)
             node = read(Reading(self.draft, child))
         except DeclinedError as declined:
             # What was told of its parts, that they were kept raw or left out, is no longer so.

@@ -1,4 +1,4 @@
-"""`linkforge import`: a URDF as a spec that a person would want to keep."""
+"""`linkforge import`: a URDF, and its SRDF, as a spec that a person would want to keep."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ kept at all is told. Relative paths of meshes stay as they are, so keep the spec
 examples:
   linkforge import arm.urdf
   linkforge import arm.urdf -o arm.robot.yaml --strict
+  linkforge import arm.urdf --srdf arm.srdf -o arm.robot.yaml
 """
 
 
@@ -26,6 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge import [options] ROBOT.urdf"
     parser.epilog = _EXAMPLES
     parser.add_argument("words", metavar="ROBOT.urdf", nargs="+", help="the robot; a xacro is expanded first")
+    parser.add_argument("--srdf", metavar="ROBOT.srdf", help="what planners know of the same robot")
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
     parser.add_argument("--strict", action="store_true", help="fail, writing nothing, where something cannot be kept")
     add_telling_options(parser)
@@ -33,12 +35,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     urdf = one_spec(arguments.words)
-    if arguments.output is not None and Path(arguments.output).resolve() == Path(urdf).resolve():
+    sources = {Path(file).resolve() for file in (urdf, arguments.srdf) if file is not None}
+    if arguments.output is not None and Path(arguments.output).resolve() in sources:
         raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
     from linkforge_compile.pipeline import import_urdf
 
-    imported = import_urdf(urdf)
+    imported = import_urdf(urdf, srdf=arguments.srdf)
     is_faulty = tell(imported.diagnostics, arguments) or imported.has_errors
     if imported.text is None or (arguments.strict and (imported.losses or is_faulty)):
         return FAULTY_SPEC

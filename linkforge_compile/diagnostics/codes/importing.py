@@ -24,6 +24,9 @@ KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML in 'extra': {reason}")
 # LF81xx: losses
 TEXT_LEFT_OUT = Code("LF8101", _W, "<{tag}> holds no text; '{text}' is left out")
 INSTRUCTION_LEFT_OUT = Code("LF8102", _W, "the processing instruction '{target}' is left out")
+OTHER_ROBOT = Code(
+    "LF8103", _W, "this SRDF is of robot '{name}', the URDF of '{robot}', and a spec has one name; it becomes '{robot}'"
+)
 
-LOSSES = frozenset({TEXT_LEFT_OUT, INSTRUCTION_LEFT_OUT})
+LOSSES = frozenset({TEXT_LEFT_OUT, INSTRUCTION_LEFT_OUT, OTHER_ROBOT})
 """What `--strict` makes a failure of."""

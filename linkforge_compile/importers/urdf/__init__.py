@@ -1,5 +1,5 @@
 """URDF as a tree of the language: an element a module, named as in every other stage."""
 
-from linkforge_compile.importers.urdf.robot import Imported, read_urdf
+from linkforge_compile.importers.urdf.robot import read_urdf
 
-__all__ = ["Imported", "read_urdf"]
+__all__ = ["read_urdf"]

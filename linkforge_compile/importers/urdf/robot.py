@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.importing import NOT_A_ROBOT, ROBOT_WITHOUT_NAME, STILL_XACRO
-from linkforge_compile.importers.comments import Comments, placed_comments
+from linkforge_compile.importers.comments import placed_comments
+from linkforge_compile.importers.document import Imported, read_document
 from linkforge_compile.importers.draft import DeclinedError, Draft
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.urdf.frame import frames_of
@@ -18,16 +17,8 @@ from linkforge_compile.importers.urdf.link import read_link
 from linkforge_compile.importers.urdf.material import Named, Palette
 from linkforge_compile.importers.urdf.ros2_control import read_ros2_control
 from linkforge_compile.importers.urdf.transmission import read_transmission
-from linkforge_compile.importers.xml import XmlElement, read_xml
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
-
-
-class Imported(NamedTuple):
-    """A robot that was written elsewhere: the tree of its spec, with the spans of that file, and its comments."""
-
-    tree: YamlMap
-    comments: Comments
 
 
 def read_urdf(file: SourceFile, sink: Diagnostics) -> Imported | None:
@@ -35,20 +26,10 @@ def read_urdf(file: SourceFile, sink: Diagnostics) -> Imported | None:
 
     All that it says is in the tree, in the language's own words or as raw XML, or it is told what is left out.
     """
-    document = read_xml(file, sink)
+    document = read_document(file, sink)
     if document is None:
         return None
-    root = document.root
-    if root.tag != "robot":
-        sink.report(NOT_A_ROBOT.at(root.span, tag=root.tag))
-        return None
-    if xacro := _first_of_xacro(root):
-        sink.report(STILL_XACRO.at(xacro.span, tag=xacro.tag))
-        return None
-    if root.get("name") is None:
-        sink.report(ROBOT_WITHOUT_NAME.at(root.span))
-        return None
-    draft = Draft()
+    root, draft = document.root, Draft()
     tree = _robot(Reading(draft, root))
     draft.bodies[root] = tree
     sink.report_all(draft.told)
@@ -96,7 +77,3 @@ def _named(section: Named, read: Callable[[Reading], YamlNode], part: Reading) -
     node = read(part)
     section[name.value] = name, node
     return node
-
-
-def _first_of_xacro(root: XmlElement) -> XmlElement | None:
-    return next((child for child in root.children if child.tag.startswith("xacro:")), None)

@@ -1,0 +1,37 @@
+"""What a file must be before it is read as a robot: `<robot name='...'>`, expanded, be it URDF or SRDF."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.importing import NOT_A_ROBOT, ROBOT_WITHOUT_NAME, STILL_XACRO
+from linkforge_compile.importers.comments import Comments
+from linkforge_compile.importers.xml import XmlDocument, read_xml
+from linkforge_compile.source import SourceFile
+from linkforge_compile.syntax import YamlMap
+
+
+class Imported(NamedTuple):
+    """A robot that was written elsewhere: the tree of its spec, with the spans of that file, and its comments."""
+
+    tree: YamlMap
+    comments: Comments
+
+
+def read_document(file: SourceFile, sink: Diagnostics) -> XmlDocument | None:
+    """Return a document of a named robot without xacro; None where the file is none, which is told."""
+    document = read_xml(file, sink)
+    if document is None:
+        return None
+    root = document.root
+    if root.tag != "robot":
+        sink.report(NOT_A_ROBOT.at(root.span, tag=root.tag))
+        return None
+    if xacro := next((child for child in root.children if child.tag.startswith("xacro:")), None):
+        sink.report(STILL_XACRO.at(xacro.span, tag=xacro.tag))
+        return None
+    if root.get("name") is None:
+        sink.report(ROBOT_WITHOUT_NAME.at(root.span))
+        return None
+    return document

@@ -1,0 +1,74 @@
+"""An SRDF beside its URDF: one spec of both, in which what the language refuses of the SRDF stays raw."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.importers.comments import Comments
+from linkforge_compile.importers.document import Imported, read_document
+from linkforge_compile.importers.draft import DeclinedError
+from linkforge_compile.importers.srdf.semantic import read_srdf
+from linkforge_compile.importers.xml import XmlDocument, XmlElement
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax import YamlMap, YamlNode
+
+_MOST_ROUNDS = 20
+"""So often is an SRDF read anew without what the language refuses of it: a group that goes takes others with it."""
+
+Faults = tuple[Diagnostic, ...]
+
+
+def with_srdf(
+    urdf: Imported, file: SourceFile, judge: Callable[[YamlMap], Faults], sink: Diagnostics
+) -> tuple[Imported, Faults] | None:
+    """Return the spec of a URDF with what an SRDF says, and the errors that are left; None where that is no SRDF.
+
+    `judge` tells the errors of a spec.
+    """
+    document = read_document(file, sink)
+    if document is None:
+        return None
+    refused: dict[Span, DeclinedError] = {}
+    for _ in range(_MOST_ROUNDS):
+        told = Diagnostics()
+        whole = _with_semantic(urdf, read_srdf(document, urdf.tree, told, refused))
+        faults = judge(whole.tree)
+        found = _refusals(document, faults)
+        if found.keys() <= refused.keys():
+            break
+        refused |= found
+    sink.report_all(told)
+    return whole, faults
+
+
+def _with_semantic(urdf: Imported, srdf: Imported) -> Imported:
+    """Return the spec of a URDF with the semantic part of an SRDF."""
+    tree = YamlMap({**urdf.tree.entries, **srdf.tree.entries}, urdf.tree.span)
+    endings: dict[YamlNode, str] = {}
+    for one in (urdf, srdf):
+        for node, text in one.comments.endings.items():
+            holder = tree if node is one.tree else node
+            endings[holder] = f"{endings[holder]}\n{text}" if holder in endings else text
+    return Imported(tree, Comments({**urdf.comments.above, **srdf.comments.above}, endings))
+
+
+def _refusals(document: XmlDocument, faults: Iterable[Diagnostic]) -> dict[Span, DeclinedError]:
+    """Return the elements of an SRDF, by their spans, of which an error tells that the language refuses them."""
+    owners = {span: element for element in _inside(document.root) for span in _spans(element)}
+    refused: dict[Span, DeclinedError] = {}
+    for fault in faults:
+        if fault.span is not None and (owner := owners.get(fault.span)):
+            refused.setdefault(owner.span, DeclinedError(fault.message, fault.span))
+    return refused
+
+
+def _inside(element: XmlElement) -> Iterator[XmlElement]:
+    for child in element.children:
+        yield child
+        yield from _inside(child)
+
+
+def _spans(element: XmlElement) -> Iterator[Span]:
+    yield element.span
+    yield from (attribute.span for attribute in element.attributes.values())

@@ -1,0 +1,80 @@
+"""Planning groups of SRDF, their states and end effectors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from linkforge_compile.importers.draft import DeclinedError
+from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.srdf.known import Known
+from linkforge_compile.syntax import YamlList, YamlMap, YamlNode
+
+_NO_JOINTS = frozenset(("extra", "extra_attributes", "extra_inside", "for", "when"))
+"""Keys of a state that no joint in it can be named."""
+
+
+def read_group(group: Reading, known: Known) -> YamlMap:
+    """Read a planning group, whose name is taken."""
+    chains = group.each("chain", lambda chain: _chain(chain, known))
+    links = _members(group, "link", known.link)
+    joints = _members(group, "joint", known.joint)
+    subgroups = _members(group, "group", Reading.name)
+    if not (chains or links or joints or subgroups):
+        raise group.declined("nothing in it is a member that the robot has")
+    return group.map(
+        **{"chain" if len(chains) == 1 else "chains": group.draft.one_or_list(chains)},
+        links=links,
+        joints=joints,
+        subgroups=subgroups,
+    )
+
+
+def _chain(chain: Reading, known: Known) -> YamlMap:
+    return chain.map(base_link=known.link(chain, "base_link"), tip_link=known.link(chain, "tip_link"))
+
+
+def _members(group: Reading, tag: str, name_of: Callable[[Reading, str], YamlNode]) -> YamlList | None:
+    def read(member: Reading) -> YamlNode:
+        node = name_of(member, "name")
+        member.spent()
+        return node
+
+    members = group.each(tag, read)
+    return group.draft.list_of(members, members[0].span) if members else None
+
+
+def read_state(state: Reading, known: Known) -> YamlMap:
+    """Read a state of a group, both of whose names are taken: positions by joint."""
+    positions: dict[str, YamlNode | None] = {}
+
+    def read(joint: Reading) -> YamlNode:
+        name = known.joint(joint, "name")
+        if name.text in positions:
+            raise DeclinedError(f"joint '{name.text}' has a value already", name.span)
+        if name.text in _NO_JOINTS:
+            raise DeclinedError(f"'{name.text}' is a key of the language", name.span)
+        positions[name.text] = node = _position(joint, known, name.text)
+        joint.spent()
+        return node
+
+    state.each("joint", read)
+    return state.map(**positions)
+
+
+def _position(joint: Reading, known: Known, name: str) -> YamlNode:
+    """Read a position: one number, or a list of them for several degrees of freedom."""
+    count = len((joint.element.get("value") or "").split())
+    numbers = joint.numbers("value", count, known.measure(name) if count == 1 else None)
+    if not numbers:
+        raise joint.declined("it has no 'value'")
+    return numbers.items[0] if count == 1 else numbers
+
+
+def read_end_effector(effector: Reading, known: Known) -> YamlMap:
+    """Read an end effector, whose name is taken."""
+    has_parent = bool(effector.element.get("parent_group"))
+    return effector.map(
+        group=known.group(effector, "group"),
+        parent_link=known.link(effector, "parent_link"),
+        parent_group=known.group(effector, "parent_group") if has_parent else None,
+    )
