@@ -211,13 +211,13 @@ def _noise(info: Fields, key: str, *dimensions: Dimension) -> SensorNoise | None
     noise = info.map(key)
     if noise is None:
         return None
+    names = ("mean", "stddev", "bias_mean", "bias_stddev")
+    said = {name: number for name in names if (number := noise.number(name, *dimensions)) is not None}
     return noise.build(
         lambda: SensorNoise(
             or_default(noise.text("type"), default.NOISE_GAUSSIAN),
-            noise.number("mean", *dimensions) or 0.0,
-            noise.number("stddev", *dimensions) or 0.0,
-            noise.number("bias_mean", *dimensions) or 0.0,
-            noise.number("bias_stddev", *dimensions) or 0.0,
+            **said,
+            stated=[name for name in names[2:] if said.get(name) == 0],
             source=noise.ref,
             **extras_of(noise),
         )

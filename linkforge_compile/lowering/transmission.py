@@ -42,5 +42,6 @@ def _transmission(fields: Fields, name: str) -> Transmission | None:
 def _end(kind: type[End], end: Fields, name: str) -> End | None:
     interfaces = end.names("hardware_interfaces") if end.node.get("hardware_interfaces") else (HW_IF_POSITION,)
     reduction = end.number("mechanical_reduction", bound=NOT_ZERO)
-    offset = end.number("offset", Dimension.ANGLE, Dimension.LENGTH) or 0.0
-    return end.build(lambda: kind(name, interfaces, reduction, offset, source=end.ref, **extras_of(end)))
+    offset = end.number("offset", Dimension.ANGLE, Dimension.LENGTH)
+    make = partial(kind, name, interfaces, reduction, offset or 0.0, stated=("offset",) if offset == 0 else ())
+    return end.build(lambda: make(source=end.ref, **extras_of(end)))

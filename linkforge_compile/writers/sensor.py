@@ -15,7 +15,9 @@ from linkforge_compile.writers.geometry import written_origin
 from linkforge_compile.writers.pen import Pen
 
 _INFOS = ("camera", "lidar", "imu", "gps", "contact", "force_torque")
-_EVERYWHERE = frozenset(field.name for field in fields(Element))
+_NOT_SAID = frozenset((*(field.name for field in fields(Element)), "stated"))
+"""The fields that are no keys of what a sensor measures, or of its noise."""
+
 _ANGLES = ("horizontal_min_angle", "horizontal_max_angle", "vertical_min_angle", "vertical_max_angle")
 _LENGTHS = ("near_clip", "far_clip", "range_min", "range_max", "range_resolution")
 _UNITS: Mapping[str, Dimension] = {
@@ -49,7 +51,7 @@ def _info(pen: Pen, info: Element | None, unit: Dimension | None = None) -> Yaml
     """Return what a sensor measures, or a noise; `unit` is that of the numbers whose name tells none."""
     if info is None:
         return None
-    said = {field.name: _value(pen, info, field, unit) for field in fields(info) if field.name not in _EVERYWHERE}
+    said = {field.name: _value(pen, info, field, unit) for field in fields(info) if field.name not in _NOT_SAID}
     return pen.element(info, **said)
 
 
@@ -59,4 +61,6 @@ def _value(pen: Pen, info: Element, field: Field[object], unit: Dimension | None
         return _info(pen, value, Dimension.LENGTH if isinstance(info, LidarInfo) else unit)
     if isinstance(value, str):
         return pen.text(value, field.default if isinstance(field.default, str) else None)
-    return pen.number(value, unit, default=field.default if isinstance(field.default, int | float) else None)
+    is_stated = isinstance(info, SensorNoise) and field.name in info.stated
+    unsaid = field.default if isinstance(field.default, int | float) and not is_stated else None
+    return pen.number(value, unit, default=unsaid)

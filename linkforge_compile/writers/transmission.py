@@ -27,5 +27,5 @@ def _end(pen: Pen, end: TransmissionJoint | TransmissionActuator) -> YamlMap:
         hardware_interfaces=None if usual else pen.texts(end.hardware_interfaces),
         # A reduction of 1 is written as well: what is not said is none, and an actuator without one has no default.
         mechanical_reduction=pen.number(end.mechanical_reduction),
-        offset=pen.number(end.offset, default=0),
+        offset=pen.number(end.offset, default=None if end.is_written("offset") else 0),
     )

@@ -44,6 +44,7 @@ from tests.writers.test_laws import compiled
 
 POSE = Transform(Vector3(1, 2, 3), Vector3(0.1, 0.2, 0.3))
 NOISE = SensorNoise("gaussian_quantized", 0.1, 0.2, 0.3, 0.4)
+UNBIASED = SensorNoise(bias_mean=0, bias_stddev=0, stated=["bias_mean", "bias_stddev"])
 EXTRAS = {"extra_elements": ("<e/>", "<f/>"), "extra_attributes": (("x", "1"),)}
 
 
@@ -142,7 +143,7 @@ def full() -> Robot:
         links=[body, core.Link("arm", physics=LinkPhysics(stated=["mu"])), core.Link("finger")],
         joints=[_joint("slide", "body", "arm"), replace(_joint("follow", "arm", "finger"), type=JointType.CONTINUOUS)],
         sensors=[replace(sensor, plugin=plugin) for sensor in _sensors(noise)],
-        transmissions=[_transmission()],
+        transmissions=[_transmission(), _without_offset()],
         ros2_controls=[_hardware()],
         gazebo_elements=[
             GazeboElement("body", {"maxContacts": "10"}),
@@ -190,7 +191,7 @@ def _sensors(noise: SensorNoise) -> list[Sensor]:
     return [
         Sensor("camera", SensorType.CAMERA, "arm", camera_info=camera, **common, **raw("always_on", "topic")),
         Sensor("lidar", SensorType.LIDAR, "arm", lidar_info=lidar, **common),
-        Sensor("imu", SensorType.IMU, "arm", imu_info=IMUInfo(noise, noise, **raw("angular_velocity"))),
+        Sensor("imu", SensorType.IMU, "arm", imu_info=IMUInfo(UNBIASED, noise, **raw("angular_velocity"))),
         Sensor("gps", SensorType.GPS, "arm", gps_info=GPSInfo(noise, noise, noise, noise, **raw("position_sensing"))),
         Sensor("touch", SensorType.CONTACT, "arm", contact_info=ContactInfo("felt", noise, **raw("collision"))),
         Sensor(
@@ -206,6 +207,11 @@ def _transmission() -> Transmission:
     joint = TransmissionJoint("slide", ["velocity", "effort"], 50, 0.1, **raw("hardwareInterface effort"))
     actuator = TransmissionActuator("motor", ["effort"], None, 0.2, **raw("offset"))
     return Transmission("gears", "custom", [joint], [actuator], {"role": {"_x": "1", "_text": "007"}}, **raw("type"))
+
+
+def _without_offset() -> Transmission:
+    joint, actuator = TransmissionJoint("slide", stated=["offset"]), TransmissionActuator("idle", stated=["offset"])
+    return Transmission("idler", "custom", [joint], [actuator])
 
 
 def _hardware() -> Ros2Control:

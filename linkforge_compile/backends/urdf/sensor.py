@@ -53,7 +53,7 @@ INFOS: Mapping[SensorType, str] = {
 
 
 class NoiseView(NamedTuple):
-    """`<noise>`; None for a bias of 0."""
+    """`<noise>`; None for a bias that nobody states."""
 
     attributes: Xml
     type: str
@@ -149,8 +149,8 @@ def _noise(noise: SensorNoise) -> NoiseView:
         placed(noise.type, noise.source, "type"),
         placed(number_text(noise.mean), noise.source, "mean"),
         placed(number_text(noise.stddev), noise.source, "stddev"),
-        placed(number_text(noise.bias_mean), noise.source, "bias_mean") if noise.bias_mean else None,
-        placed(number_text(noise.bias_stddev), noise.source, "bias_stddev") if noise.bias_stddev else None,
+        _bias(noise, "bias_mean"),
+        _bias(noise, "bias_stddev"),
         elements(noise),
     )
 
@@ -159,3 +159,7 @@ def _pose(pose: Transform) -> Xml:
     if pose == Transform.identity():
         return NOTHING
     return whole("pose", pose, Xml(spelled((*pose.xyz, *pose.rpy))))
+
+
+def _bias(noise: SensorNoise, name: str) -> str | None:
+    return placed(number_text(getattr(noise, name)), noise.source, name) if noise.is_written(name) else None

@@ -57,6 +57,6 @@ def _end(end: TransmissionJoint | TransmissionActuator) -> EndView:
         ],
         # One of 1 is written too, because loaders ask for it; None is what nobody said.
         None if reduction is None else placed(number_text(reduction), end.source, "mechanical_reduction"),
-        placed(number_text(end.offset), end.source, "offset") if end.offset != 0 else None,
+        placed(number_text(end.offset), end.source, "offset") if end.is_written("offset") else None,
         elements(end),
     )

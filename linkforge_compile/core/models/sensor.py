@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
@@ -50,7 +51,8 @@ class SensorNoise(Element):
     """Noise on a measured value, in that value's unit: `<noise>`.
 
     `type` is `gaussian`, `gaussian_quantized` or what else the simulator knows. A bias is drawn once from
-    `bias_mean` and `bias_stddev`, the rest for every reading.
+    `bias_mean` and `bias_stddev`, the rest for every reading. `stated` names those two where they are 0 and written
+    all the same.
 
     Raises:
         RobotMathError: INVALID_VALUE for NaN or infinity.
@@ -62,10 +64,15 @@ class SensorNoise(Element):
     stddev: float = 0.0
     bias_mean: float = 0.0
     bias_stddev: float = 0.0
+    stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
 
     def __post_init__(self) -> None:
-        freeze(self)
+        freeze(self, "stated")
         require_finite(self, "mean", "stddev", "bias_mean", "bias_stddev")
+
+    def is_written(self, name: str) -> bool:
+        """Whether a bias becomes a tag: it is not 0, or is stated all the same."""
+        return name in self.stated or getattr(self, name) != 0
 
 
 @dataclass(frozen=True, slots=True)

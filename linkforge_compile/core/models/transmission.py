@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from operator import attrgetter
 from typing import ClassVar, Self
@@ -46,12 +46,14 @@ class _TransmissionEnd(Element):
     hardware_interfaces: Sequence[str] = (HW_IF_POSITION,)
     mechanical_reduction: float | None = 1.0
     offset: float = 0.0
+    stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
+    """The field `offset` where it is 0 and written all the same."""
 
     what: ClassVar[str]
     name_target: ClassVar[str]
 
     def __post_init__(self) -> None:
-        freeze(self, "hardware_interfaces")
+        freeze(self, "hardware_interfaces", "stated")
         require_name(self.name, f"{self.what} name", self.name_target)
         if not self.hardware_interfaces:
             raise _empty(
@@ -69,6 +71,10 @@ class _TransmissionEnd(Element):
                 field=("mechanical_reduction",),
             )
         require_finite(self, "mechanical_reduction", "offset")
+
+    def is_written(self, name: str) -> bool:
+        """Whether `offset` becomes a tag: it is not 0, or is stated all the same."""
+        return name in self.stated or getattr(self, name) != 0
 
     def normalized(self) -> Self:
         """Return it with its interfaces sorted."""

@@ -59,8 +59,8 @@ def _end(end: Reading) -> YamlMap:
 
 
 def _number(end: Reading, tag: str) -> YamlNode | None:
-    """Take a number that comes back as it is spelled, and is not 0; any other child is left."""
+    """Take a number that comes back as it is spelled, and is no reduction of 0; any other child is left."""
     children = [child for child in end.children() if child.tag == tag]
-    if len(children) != 1 or (value := exact_number(children[0])) is None or value == 0:
+    if len(children) != 1 or (value := exact_number(children[0])) is None or (value == 0 and tag != "offset"):
         return None
     return end.within(children[0], lambda child: child.text_number())
