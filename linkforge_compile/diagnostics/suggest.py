@@ -24,7 +24,13 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
     if name.casefold() in folded:
         return folded[name.casefold()]
     matches = get_close_matches(name, list(pool), n=1, cutoff=0.7)
-    return matches[0] if matches else None
+    return matches[0] if matches else _without_prefix(name, pool)
+
+
+def _without_prefix(name: str, candidates: Iterable[str]) -> str | None:
+    """Return the candidate that is `name` but for a prefix that one of them has, the one with the shortest."""
+    same = [other for other in candidates if other.endswith(f"_{name}") or name.endswith(f"_{other}")]
+    return min(same, key=lambda other: abs(len(other) - len(name))) if same else None
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str:

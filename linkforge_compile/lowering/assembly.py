@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
     from linkforge_compile.core.models.srdf import SemanticRobotDescription
     from linkforge_compile.lowering.unprefixed import PassedOn
-    from linkforge_compile.syntax import YamlMap
 
 PartKey: TypeAlias = tuple[str, Hashable]
 """What no two parts of a robot may share: a kind, "link", and the name or whatever else tells its parts apart."""
@@ -86,7 +85,7 @@ class _Fold:
         self._held = {joint.child for joint in file.robot.joints}
         self._mounts = list(file.mounts)
         # Only a module takes a prefix.
-        self._passed_on = _passed_on(file.robot, instance.tree) if instance.entry else None
+        self._passed_on = _passed_on(file.robot, instance) if instance.entry else None
         self._under_a_prefix: list[Diagnostic] = []
 
     def add(self, module: Instance, lowered: Lowered) -> None:
@@ -237,13 +236,13 @@ class _Fold:
         return False
 
 
-def _passed_on(robot: Robot, tree: YamlMap | None) -> PassedOn | None:
+def _passed_on(robot: Robot, instance: Instance) -> PassedOn | None:
     """Return what a file says that takes no prefix; None for one that was not read."""
-    if tree is None:
+    if instance.tree is None:
         return None
     from linkforge_compile.lowering.unprefixed import passed_on
 
-    return passed_on(robot, tree)
+    return passed_on(robot, instance.tree, {use.file for use in instance.trail})
 
 
 def _parts(robot: Robot) -> Iterator[tuple[PartKey, SourceRef | None]]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import NamedTuple
 
 from linkforge_compile.core.frozen_map import FreePart
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.model import ABSOLUTE_TOPIC, UNPREFIXED_NAME
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
 _RAW_TAG = re.compile(r"<(?P<tag>[\w:.-]+)(?P<attributes>[^<>]*)>(?P<text>[^<>]*)")
@@ -35,8 +35,11 @@ class PassedOn(NamedTuple):
     absolute_topics: tuple[Text, ...]
 
 
-def passed_on(robot: Robot, tree: YamlNode) -> PassedOn:
-    """Find what no prefix reaches in the robot of one file and in its tree, before its modules join it."""
+def passed_on(robot: Robot, tree: YamlNode, users: Collection[SourceFile]) -> PassedOn:
+    """Find what no prefix reaches in the robot of one file and in its tree, before its modules join it.
+
+    What an override wrote in a file that uses this one (`users`) has the names of that file: final ones here.
+    """
     texts = [
         Text(text, source.at("parameters", *path))
         for source, parameters in _parameters(robot)
@@ -48,7 +51,8 @@ def passed_on(robot: Robot, tree: YamlNode) -> PassedOn:
         for sensor in robot.sensors
         if sensor.source and sensor.topic and sensor.topic.startswith("/")
     )
-    return PassedOn((*texts, *_raw_texts(tree)), tuple(topics))
+    own = (text for text in (*texts, *_raw_texts(tree)) if text.where.file not in users)
+    return PassedOn(tuple(own), tuple(topics))
 
 
 def warnings_under_a_prefix(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:

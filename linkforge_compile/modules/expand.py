@@ -25,6 +25,7 @@ from linkforge_compile.modules.module_entry import ModuleEntry, found, read_entr
 from linkforge_compile.modules.module_overrides import Body
 from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
 from linkforge_compile.modules.noted import used_from
+from linkforge_compile.modules.own_names import asked_in
 from linkforge_compile.modules.uses import mesh_base, name_from, open_use
 from linkforge_compile.modules.variants import tell_unknown_variant, variants_of
 from linkforge_compile.schema.shapes import FREE, shapes
@@ -106,8 +107,12 @@ class _Expansion:
         names = FileNames(file, self._shared, used_from(self._sink, use.trail))
         names.judge_parameters()
         body = Body(_tree(use, names.tree), tuple(_entries(use, names.tree)), names.tree.disabled.removed)
+        tree = body.tree
         for override in use.entry.overrides if use.entry else ():
             body = body.under(override)
+        asked = names.own.asked
+        if body.tree is not tree and asked:
+            asked = asked_in(asked, tree, body.tree)
         tree = body.tree
         self._count(use, tree)
         modules = tuple(self._module(entry, use, names) for entry in body.entries)
@@ -122,7 +127,7 @@ class _Expansion:
             mesh_bases=self._mesh_bases(use),
             find_mesh=mesh_finder(_sites(use, names), self._shared.loader),
             modules=modules,
-            references=names.own.asked,
+            references=asked,
             removed=body.removed,
         )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostics
@@ -11,7 +11,27 @@ from linkforge_compile.modules.assembly import NameReference
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.uses import UseSite, locate
 from linkforge_compile.source import SourceRef, Span
-from linkforge_compile.syntax import YamlFault
+from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+
+
+def asked_in(asked: Iterable[NameReference], before: YamlNode, after: YamlNode) -> tuple[NameReference, ...]:
+    """Return of the names that were asked for those that an override has left, with the text that they stood in."""
+    gone = set(_places(before)) - set(_places(after))
+    return tuple(one for one in asked if not any(map(one.where.span.lies_in, gone)))
+
+
+def _places(node: YamlNode) -> Iterator[Span]:
+    """Yield where the scalars and keys of a tree were written."""
+    match node:
+        case YamlScalar():
+            yield Span(*node.span)
+        case YamlList():
+            for item in node:
+                yield from _places(item)
+        case YamlMap():
+            for entry in node:
+                yield Span(*entry.key.span)
+                yield from _places(entry.value)
 
 
 class OwnNames:

@@ -47,6 +47,10 @@ class Span(NamedTuple):
             return None
         return self.file.line(self.line)[self.column - 1 : self.end_column - 1]
 
+    def lies_in(self, other: Span) -> bool:
+        """Whether the whole of it stands in another stretch of its file."""
+        return self.file is other.file and other.start <= self.start and self.end <= other.end
+
     def within(self, offset: int, length: int) -> Span:
         """Return the part that begins `offset` characters in; for a span that lies on one line."""
         start = self.column + offset

@@ -117,3 +117,21 @@ def test_what_stands_in_the_wrong_place_is_told(tmp_path: Path, text: str, told:
 def test_prefix_in_text_of_a_person_is_nothing_special():
     found = assemble("metadata: {a: 'the prefix: $(1 + 1)', b: the $$(prefix)}\n")
     assert (found.told, found.metadata) == ([], {"a": "the prefix: 2", "b": "the $(prefix)"})
+
+
+def test_what_an_override_writes_has_the_names_of_its_own_file_and_what_it_deletes_asks_for_none(tmp_path: Path):
+    plugin = "gazebo: {plugins: {p: {filename: l.so, parameters: {gone: $(link('no')), other: $(link('none'))}}}}"
+    override = "{gazebo: {plugins: {p: {parameters: {gone: null, other: $(link('tip')), more: $(link('arm_tip'))}}}}}"
+    arm = "links: {root: , tip: }\njoints: {hinge: {type: fixed, parent: root, child: tip}}\n"
+    write(
+        tmp_path,
+        {
+            "arm.robot.yaml": arm + plugin,
+            "robot.robot.yaml": "links: {tip: }\n"
+            f"modules: {{arm: {{use: arm.robot.yaml, parent: tip, override: {override}}}}}",
+        },
+    )
+    compilation = compile_file(tmp_path / "robot.robot.yaml")
+    assert compilation.diagnostics == ()
+    [block] = compilation.result().gazebo_elements
+    assert block.plugins[0].parameters == {"other": "tip", "more": "arm_tip"}
