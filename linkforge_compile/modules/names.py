@@ -210,7 +210,8 @@ class FileNames:
         if not _NAME.fullmatch(key.text):
             self._sink.report(INVALID_VARIABLE_NAME.at(key.span, name=key.text, kind=kind))
         elif key.text in RESERVED_NAMES:
-            self._sink.report(RESERVED_NAME.at(key.span, name=key.text, kind=kind))
+            notes = [Note("names take the prefix of their use by themselves")] if key.text == "prefix" else []
+            self._sink.report(RESERVED_NAME.at(key.span, name=key.text, kind=kind, notes=notes))
         else:
             return True
         return False

@@ -21,7 +21,17 @@ from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
 from linkforge_compile.schema.unbuilt import UNBUILT
-from linkforge_compile.schema.words import COMMON_KEYS, alternatives, expected, field, found, shortened, takes, words_of
+from linkforge_compile.schema.words import (
+    COMMON_KEYS,
+    alternatives,
+    expected,
+    field,
+    found,
+    is_number,
+    shortened,
+    takes,
+    words_of,
+)
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.xacro import xacro_facts
 
@@ -112,14 +122,27 @@ def _unknown_key(key: YamlScalar, schema: Schema) -> Diagnostic:
 _HINTS_FOR_OWNER = {
     ("an override", "frames"): "a frame is a link and a joint here: write what is to change under 'links' or 'joints'",
     ("an override", "parameters"): "parameters are set by 'with'",
+    ("a module", "parameters"): "parameters are set by 'with'",
+    ("a module", "args"): "parameters are set by 'with'",
 }
 """What is meant by keys that other objects have."""
 
 _HINTS = {
     "geometry": "write the shape itself, such as 'box: [1, 1, 1]'",
     "name": "its name is the key that it stands under",
+    "if": "write 'when', such as 'when: $(simulated)'",
+    "unless": "write 'when', such as 'when: $(not simulated)'",
+    "args": "what a user may set stands under 'parameters'",
+    "properties": "what is computed stands under 'variables'",
+    "macros": "what is used several times is a file of its own, used under 'modules'",
+    "xacro:arg": "what a user may set stands under 'parameters'",
+    "xacro:property": "what is computed stands under 'variables'",
+    "xacro:macro": "what is used several times is a file of its own, used under 'modules'",
+    "xacro:include": "files that are one robot stand under 'include', those of its parts under 'modules'",
+    "xacro:if": "write 'when', such as 'when: $(simulated)'",
+    "xacro:unless": "write 'when', such as 'when: $(not simulated)'",
 }
-"""Habits from URDF, which puts these words where this language has none."""
+"""Habits from URDF and xacro, which put these words where this language has none."""
 
 
 _NOT_HOMES = {"defaults", "override"}
@@ -169,10 +192,33 @@ def _wrong_kind(misfit: Misfit) -> Iterator[Judgement]:
     way_out = _EXAMPLES.get(str(path[-1]), "") if path else ""
     if isinstance(node, YamlScalar) and node.text.lower() in _TRUTHS and "true, false" in expected(schema):
         way_out = f"; write {_TRUTHS[node.text.lower()]}"
+    way_out = way_out or _as_urdf(node, path, schema)
     yield Judgement(
         WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=f"{found(node)}{way_out}"),
         path,
     )
+
+
+def _as_urdf(node: YamlNode, path: Path, schema: Schema) -> str:
+    """Return what to write for a value that is as URDF has it: '0 0 1' in one attribute, or `{link: base}`."""
+    takes_list = any("array" in str(branch.get("type")) for branch in branches(schema))
+    if isinstance(node, YamlScalar) and _is_row(node) and takes_list:
+        return f"; write '[{', '.join(node.text.split())}]'"
+    entries = tuple(node) if isinstance(node, YamlMap) else ()
+    if len(entries) == 1 and entries[0].name in _ATTRIBUTES and isinstance(entries[0].value, YamlScalar):
+        key = f"{path[-1]}: " if path and isinstance(path[-1], str) else ""
+        return f"; write '{key}{entries[0].value.text}'"
+    return ""
+
+
+_ATTRIBUTES = ("link", "value", "name", "joint")
+"""Attributes of URDF that hold the whole of their element."""
+
+
+def _is_row(node: YamlNode) -> bool:
+    """Whether it is text of several numbers with spaces between them."""
+    words = node.text.split() if isinstance(node, YamlScalar) and isinstance(node.value, str) else []
+    return len(words) > 1 and all(is_number(word) for word in words)
 
 
 _EXAMPLES = {"for": "; write '{side: [left, right]}'"}
@@ -183,7 +229,7 @@ _TRUTHS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
 
 
 def _no_branch(misfit: Misfit) -> Iterator[Judgement]:
-    word = _is_text(misfit.node) and words_of(misfit.schema)
+    word = _is_text(misfit.node) and not _is_row(misfit.node) and words_of(misfit.schema)
     yield from (_wrong_word if word else _wrong_kind)(misfit)
 
 

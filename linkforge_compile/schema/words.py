@@ -79,7 +79,7 @@ def found(node: YamlNode) -> str:
         case YamlScalar(value=None):
             return "nothing"
         case YamlScalar(text=text, value=str()):
-            return f"the text '{text}'" if _is_number(text) else f"'{shortened(text)}'"
+            return f"the text '{text}'" if is_number(text) else f"'{shortened(text)}'"
         case YamlScalar(text=text):
             return text
     raise TypeError("a fault is not judged")
@@ -97,7 +97,7 @@ def field(path: Sequence[str | int]) -> str:
     return f"item {path[-1] + 1} of '{name}'" if isinstance(path[-1], int) else f"'{name}'"
 
 
-def _is_number(text: str) -> bool:
+def is_number(text: str) -> bool:
     try:
         float(text)
     except ValueError:

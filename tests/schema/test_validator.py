@@ -84,7 +84,9 @@ SENTENCES = {
     "semantic: {groups: {a: {joints: [{for: {i: 3}, vale: joint_$(i)}]}}}": (
         "'vale' is not a key of the long form; did you mean 'value'?"
     ),
-    "semantic: {groups: {a: {joints: [{name: shoulder}]}}}": "item 1 of 'joints' takes a name, found a map",
+    "semantic: {groups: {a: {joints: [{name: shoulder}]}}}": (
+        "item 1 of 'joints' takes a name, found a map; write 'shoulder'"
+    ),
     "links: {a: {when: 3}}": "'when' takes true, false or an expression $(...), found 3",
     "modules: {a: {override: {links: {b: {visual: {0: {bix: [1, 1, 1]}}}}}}}": (
         "'bix' is not a key of a visual; its keys are name, origin, box, cylinder, sphere, capsule, mesh and material"
