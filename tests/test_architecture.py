@@ -26,8 +26,9 @@ MAY_IMPORT = {
     "checks": "source diagnostics core",
     "backends": "source diagnostics units core resources",
     "writers": "source units syntax core modules",
+    "compare": "core",
     "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core writers stack",
-    "cli": "source diagnostics core checks schema pipeline backends writers resources _version",
+    "cli": "source diagnostics core checks schema pipeline backends writers compare resources _version",
 }
 
 # `Robot.export_urdf` and `export_srdf` are methods because the contract says so: the one place that reaches up.

@@ -18,6 +18,7 @@ _COMMANDS = {
     "params": "list the parameters and variants of a spec",
     "expand": "print a spec as one flat file: no modules, expressions, loops or defaults left",
     "explain": "tell where a value of the finished robot comes from, or what a code means",
+    "diff": "tell what differs between two robots, specs or URDFs",
     "where": "tell what in a spec wrote a line of the URDF or SRDF",
     "import": "write an existing URDF as a spec",
     "schema": "print the JSON Schema of specs, for editors",

@@ -1,0 +1,140 @@
+"""What the numbers of a robot measure, and how a change of one is told."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from linkforge_compile.core.models.collision_rules import SrdfSphere
+from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Sphere
+from linkforge_compile.core.models.joint import (
+    JointCalibration,
+    JointDynamics,
+    JointLimits,
+    JointMimic,
+    JointSafetyController,
+)
+from linkforge_compile.core.models.link import Inertial, LinkPhysics
+from linkforge_compile.core.models.sensor import CameraInfo, LidarInfo, Sensor
+from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
+
+
+class Measure(NamedTuple):
+    """The unit in which a number is shown, how much of it an SI unit is, and whether a change is told as a share."""
+
+    unit: str = ""
+    shown: float = 1.0
+    as_share: bool = True
+
+
+BARE = Measure()
+LENGTH = Measure("m", as_share=False)
+ANGLE = Measure("deg", 180 / math.pi, as_share=False)
+
+_POSITION = (ANGLE, LENGTH)
+"""Of a joint that turns, and of one that slides."""
+_TRAVEL = (
+    (JointLimits, "lower"),
+    (JointLimits, "upper"),
+    (JointMimic, "offset"),
+    (JointSafetyController, "soft_lower_limit"),
+    (JointSafetyController, "soft_upper_limit"),
+    (JointCalibration, "rising"),
+    (JointCalibration, "falling"),
+    (TransmissionJoint, "offset"),
+    (TransmissionActuator, "offset"),
+)
+
+_OF_JOINTS: Mapping[tuple[type, str], tuple[Measure, Measure]] = {
+    **dict.fromkeys(_TRAVEL, _POSITION),
+    (JointLimits, "effort"): (Measure("N*m"), Measure("N")),
+    (JointLimits, "velocity"): (Measure("rad/s"), Measure("m/s")),
+    (JointDynamics, "damping"): (Measure("N*m*s/rad"), Measure("N*s/m")),
+    (JointDynamics, "friction"): (Measure("N*m"), Measure("N")),
+}
+
+_SHAPES = (
+    (Box, "size"),
+    (Cylinder, "radius"),
+    (Cylinder, "length"),
+    (Sphere, "radius"),
+    (Capsule, "radius"),
+    (Capsule, "length"),
+    *((SrdfSphere, name) for name in ("center_x", "center_y", "center_z", "radius")),
+    *((CameraInfo, name) for name in ("near_clip", "far_clip")),
+    *((LidarInfo, name) for name in ("range_min", "range_max", "range_resolution")),
+)
+_ANGLES = (
+    (CameraInfo, "horizontal_fov"),
+    *((LidarInfo, f"{way}_{end}_angle") for way in ("horizontal", "vertical") for end in ("min", "max")),
+)
+
+_MEASURES: Mapping[tuple[type, str], Measure] = {
+    **dict.fromkeys(_SHAPES, LENGTH),
+    **dict.fromkeys(_ANGLES, ANGLE),
+    (Inertial, "mass"): Measure("kg"),
+    (LinkPhysics, "kp"): Measure("N/m"),
+    (LinkPhysics, "kd"): Measure("N*s/m"),
+    (Sensor, "update_rate"): Measure("Hz"),
+    (CameraInfo, "width"): Measure("px"),
+    (CameraInfo, "height"): Measure("px"),
+}
+
+
+def measure_of(kind: type, field: str, *, slides: bool) -> Measure:
+    """Return what a field measures; `slides` says that it is about a prismatic joint."""
+    of_joint = _OF_JOINTS.get((kind, field))
+    return of_joint[slides] if of_joint else _MEASURES.get((kind, field), BARE)
+
+
+def position_measure(*, slides: bool) -> Measure:
+    """Return what the position of a joint measures."""
+    return _POSITION[slides]
+
+
+def number_told(value: float, measure: Measure = BARE, digits: int = 6) -> str:
+    """Return a number for people to read, rounded and with its unit."""
+    return f"{_digits(value * measure.shown, digits)} {measure.unit}".rstrip()
+
+
+def change_told(before: float, after: float, measure: Measure) -> str:
+    """Return `90 deg → 120 deg (+30 deg)`, with as many digits as it takes to see that they differ."""
+    digits = _digits_to_tell(before, after, measure)
+    told = f"{number_told(before, measure, digits)} → {number_told(after, measure, digits)}"
+    by = _by_how_much(before, after, measure)
+    return f"{told} ({by})" if by else told
+
+
+def share_told(before: float, after: float) -> str:
+    """Return by which part of itself a number changed, "" where it was 0 or turned its sign."""
+    if before == 0 or (before < 0) != (after < 0):
+        return ""
+    share = abs(after / before) - 1
+    return f"x{_digits(after / before, 3)}" if share > 9 else f"{share * 100:+.3g} %"
+
+
+def distance_told(metres: float) -> str:
+    """Return a small distance in millimetres."""
+    return f"{_digits(metres * 1000, 4)} mm"
+
+
+def _by_how_much(before: float, after: float, measure: Measure) -> str:
+    if measure.as_share:
+        return share_told(before, after)
+    change = after - before
+    sign = "+" if change > 0 else "-"
+    if measure is LENGTH and abs(change) < 1:
+        return f"{sign}{distance_told(abs(change))}"
+    return f"{sign}{_digits(abs(change) * measure.shown, 4)} {measure.unit}"
+
+
+def _digits_to_tell(before: float, after: float, measure: Measure) -> int:
+    for digits in range(6, 17):
+        if number_told(before, measure, digits) != number_told(after, measure, digits):
+            return digits
+    return 17
+
+
+def _digits(value: float, digits: int) -> str:
+    return f"{value + 0.0:.{digits}g}"

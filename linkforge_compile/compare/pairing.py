@@ -1,0 +1,103 @@
+"""Which member of a list before is which of the list after."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
+from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.core.models.link import Collision, Visual
+from linkforge_compile.core.models.planning import Chain, GroupState, JointProperty
+from linkforge_compile.core.part import Inside
+
+
+class Pair(NamedTuple):
+    """A member of both lists, or of one; None for the list that lacks it. `key` says which, in a path."""
+
+    key: str
+    before: object | None
+    after: object | None
+
+
+def key_of(item: object) -> str:
+    """Return what tells a member of a list apart; "" for one that only its place does."""
+    match item:
+        case str():
+            return str(item)
+        case Visual() | Collision() | SrdfSphere():
+            return ""
+        case GazeboElement():
+            return item.reference or "robot"
+        case CollisionPair():
+            return "/".join(item.key)
+        case GroupState():
+            return f"{item.group}/{item.name}"
+        case JointProperty():
+            return f"{item.joint_name}/{item.property_name}"
+        case LinkSphereApproximation():
+            return item.link
+        case Chain():
+            return f"{item.base_link}/{item.tip_link}"
+        case Inside():
+            return f"{item.tag}/{item.name}" if item.name else item.tag
+    name: str | None = getattr(item, "name", None)
+    return name or ""
+
+
+def paired(before: Iterable[object], after: Iterable[object]) -> Iterator[Pair]:
+    """Yield the members in the order after, then those that are gone.
+
+    Of those that have the same key, or none, equal ones belong together, then those of one name, then the nth ones.
+    """
+    were, are = _by_key(before), _by_key(after)
+    for key, members in are.items():
+        yield from _pairs(key, were.get(key, {}), members)
+    for key, members in were.items():
+        if key not in are:
+            yield from _pairs(key, members, {})
+
+
+def _by_key(items: Iterable[object]) -> dict[str, dict[int, object]]:
+    """Return the members of each key by their places: among all for those without a key, else among their likes."""
+    found: dict[str, dict[int, object]] = {}
+    for item in items:
+        likes = found.setdefault(key_of(item), {})
+        likes[len(likes)] = item
+    return found
+
+
+def _pairs(key: str, before: Mapping[int, object], after: Mapping[int, object]) -> Iterator[Pair]:
+    partners = _partners(before, after)
+    for place, item in after.items():
+        yield Pair(_shown(key, place), before.get(partners.get(place, -1)), item)
+    for place, item in before.items():
+        if place not in partners.values():
+            yield Pair(_shown(key, place), item, None)
+
+
+def _shown(key: str, place: int) -> str:
+    return "/".join((*([key] if key else []), *([str(place)] if place or not key else [])))
+
+
+def _partners(before: Mapping[int, object], after: Mapping[int, object]) -> dict[int, int]:
+    """Return by place after the place before."""
+    if len(before) == len(after) == 1:
+        return {0: 0}
+    partners: dict[int, int] = {}
+    free = list(before)
+    for belong in _BELONG:
+        for place in [place for place in after if place not in partners]:
+            other = next((one for one in free if belong(before[one], after[place])), None)
+            if other is not None:
+                partners[place] = other
+                free.remove(other)
+    return partners
+
+
+def _one_name(before: object, after: object) -> bool:
+    name = getattr(before, "name", None)
+    return name is not None and name == getattr(after, "name", None)
+
+
+_BELONG: Sequence[Callable[[object, object], bool]] = (lambda one, other: one == other, _one_name, lambda *_: True)

@@ -1,0 +1,183 @@
+"""Links and joints that are there under another name, and a robot with its references to them under the new one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass, replace
+from enum import Enum, auto
+from typing import NamedTuple
+
+from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
+from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.core.models.joint import Joint, JointMimic
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.planning import (
+    Chain,
+    EndEffector,
+    GroupState,
+    JointProperty,
+    PassiveJoint,
+    PlanningGroup,
+    VirtualJoint,
+)
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
+from linkforge_compile.core.models.sensor import Sensor
+from linkforge_compile.core.models.srdf import SemanticRobotDescription
+from linkforge_compile.core.models.transmission import TransmissionJoint
+from linkforge_compile.core.part import Inside
+
+
+class Renames(NamedTuple):
+    """The new names of links and joints, by the old ones."""
+
+    links: Mapping[str, str]
+    joints: Mapping[str, str]
+
+
+def find_renames(before: Robot, after: Robot) -> Renames:
+    """Return what is surely the same under another name.
+
+    A link is where exactly one that is new hangs by the same joint on the same link (or that one's new name) and has
+    the same body, and no other that is gone has a claim to it; a root where also the same joints hang on it. A joint
+    is where it joins the same links in the same way.
+    """
+    links = _renamed_links(before, after)
+    ends = {(joint.parent, joint.child): joint for joint in after.joints if joint.name not in before.joints}
+    joints = {}
+    for joint in before.joints:
+        other = ends.get((links.get(joint.parent, joint.parent), links.get(joint.child, joint.child)))
+        if joint.name not in after.joints and other and _nameless(joint) == _nameless(other):
+            joints[joint.name] = other.name
+    return Renames(links, joints)
+
+
+def _renamed_links(before: Robot, after: Robot) -> dict[str, str]:
+    renamed: dict[str, str] = {}
+    new = _by_parent(after, without=before)
+    gone = _by_parent(before, without=after)
+    for parent in (None, *_parents_first(before)):
+        for link in gone.get(parent, ()):
+            under = renamed.get(parent, parent) if parent is not None else None
+            heirs = [other for other in new.get(under, ()) if _same(before, link, after, other)]
+            rivals = [other for other in gone[parent] if _same(before, other, before, link)]
+            if len(heirs) == len(rivals) == 1:
+                renamed[link.name] = heirs[0].name
+    return renamed
+
+
+def _by_parent(robot: Robot, *, without: Robot) -> dict[str | None, list[Link]]:
+    """Return the links that the other robot does not have, by the names of their parents; None for roots."""
+    found: dict[str | None, list[Link]] = {}
+    for link in robot.links:
+        if link.name not in without.links:
+            joint = robot.get_parent_joint(link.name)
+            found.setdefault(joint.parent if joint else None, []).append(link)
+    return found
+
+
+def _parents_first(robot: Robot) -> Iterator[str]:
+    """Yield the links from the roots on; those of a circle, which no root leads to, are left out."""
+    level = [link.name for link in robot.links if robot.get_parent_joint(link.name) is None]
+    seen = set(level)
+    while level:
+        yield from level
+        children = [joint.child for name in level for joint in robot.get_child_joints(name)]
+        level = [child for child in dict.fromkeys(children) if child not in seen]
+        seen.update(level)
+
+
+def _same(robot: Robot, link: Link, other_robot: Robot, other: Link) -> bool:
+    joint, other_joint = robot.get_parent_joint(link.name), other_robot.get_parent_joint(other.name)
+    if joint is None or other_joint is None:
+        hang_alike = joint is other_joint and _hanging(robot, link) == _hanging(other_robot, other)
+    else:
+        hang_alike = _nameless(joint) == _nameless(other_joint)
+    return hang_alike and _body(link) == _body(other)
+
+
+def _hanging(robot: Robot, link: Link) -> list[Joint]:
+    return [_nameless(joint) for joint in robot.get_child_joints(link.name)]
+
+
+def _nameless(joint: Joint) -> Joint:
+    """Return a joint with the names blotted out, so that only what it does is compared."""
+    mimic = replace(joint.mimic, joint="joint") if joint.mimic else None
+    return replace(joint, name="joint", parent="parent", child="child", mimic=mimic)
+
+
+def _body(link: Link) -> Link:
+    visuals = [replace(visual, name=None, material=None) for visual in link.visuals]
+    return replace(
+        link, name="link", visuals=visuals, collisions=[replace(collision, name=None) for collision in link.collisions]
+    )
+
+
+class _Names(Enum):
+    """Whose names a field holds."""
+
+    LINKS = auto()
+    JOINTS = auto()
+    BOTH = auto()
+
+
+_LINKS, _JOINTS, _BOTH = _Names
+
+REFERENCES: Mapping[type, Mapping[str, _Names]] = {
+    Link: {"name": _LINKS},
+    Joint: {"name": _JOINTS, "parent": _LINKS, "child": _LINKS},
+    JointMimic: {"joint": _JOINTS},
+    GazeboElement: {"reference": _BOTH},
+    Sensor: {"link_name": _LINKS, "frame": _LINKS},
+    TransmissionJoint: {"name": _JOINTS},
+    Ros2ControlJoint: {"name": _JOINTS},
+    VirtualJoint: {"child_link": _LINKS},
+    PlanningGroup: {"links": _LINKS, "joints": _JOINTS},
+    Chain: {"base_link": _LINKS, "tip_link": _LINKS},
+    GroupState: {"joint_values": _JOINTS},
+    EndEffector: {"parent_link": _LINKS},
+    PassiveJoint: {"name": _JOINTS},
+    CollisionPair: {"link1": _LINKS, "link2": _LINKS},
+    LinkSphereApproximation: {"link": _LINKS},
+    JointProperty: {"joint_name": _JOINTS},
+    SemanticRobotDescription: {"no_default_collision_links": _LINKS},
+    Inside: {"name": _BOTH},
+}
+"""The fields that hold names of links and joints."""
+
+
+def under_new_names(value: object, renames: Renames) -> object:
+    """Return a value in which every name of a renamed link or joint is the new one."""
+    if not (renames.links or renames.joints):
+        return value
+    if isinstance(value, tuple):
+        return tuple(under_new_names(one, renames) for one in value)
+    if not is_dataclass(value) or isinstance(value, type):
+        return value
+    references = REFERENCES.get(type(value), {})
+    changes: dict[str, object] = {}
+    for field in fields(value):
+        held: object = getattr(value, field.name)
+        names = references.get(field.name)
+        new = under_new_names(held, renames) if names is None else _renamed(held, _table(names, renames))
+        if new is not held and new != held:
+            changes[field.name] = new
+    return replace(value, **changes) if changes else value
+
+
+def _table(names: _Names, renames: Renames) -> Mapping[str, str]:
+    if names is _BOTH:
+        return {**renames.joints, **renames.links}
+    return renames.links if names is _LINKS else renames.joints
+
+
+def _renamed(held: object, new_names: Mapping[str, str]) -> object:
+    """Return a name, names, or a mapping by names with the new ones."""
+    match held:
+        case str():
+            return new_names.get(held, held)
+        case tuple():
+            return tuple(_renamed(name, new_names) for name in held)
+        case Mapping():
+            return {new_names.get(name, name): value for name, value in held.items()}
+    return held

@@ -1,0 +1,95 @@
+"""`linkforge diff`, run as a program."""
+
+import json
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft7Validator
+
+from tests.cli.test_compile import linkforge
+from tests.conftest import ROOT
+
+SCHEMA = Draft7Validator(json.loads((ROOT / "docs" / "diff.schema.json").read_text("utf-8")))
+
+OLD = """\
+linkforge: 1
+name: arm
+parameters: {reach: 1 m}
+links: {base: , arm: {inertial: {mass: 2, inertia: {ixx: 1, iyy: 1, izz: 1}}}, tool0: }
+joints:
+  elbow: {type: revolute, parent: base, child: arm, axis: z, limits: {lower: 0, upper: 90 deg, effort: 1, velocity: 1}}
+  flange: {type: fixed, parent: arm, child: tool0, origin: [0, 0, $(reach)]}
+semantic: {groups: {arm: {joints: [elbow]}}}
+"""
+NEW = OLD.replace("upper: 90 deg", "upper: 120 deg").replace("tool0", "tool").replace("mass: 2", "mass: 2.1")
+
+TEXT = """\
+old.robot.yaml → new.robot.yaml: 1 renamed, 2 changed
+
+breaking: names that are gone, on which others may rely
+  link  tool0, now tool
+
+links
+  > tool: was 'tool0'
+  ~ arm
+      inertial/mass: 2 kg → 2.1 kg (+5 %)
+
+joints
+  ~ elbow
+      limits/upper: 90 deg → 120 deg (+30 deg)
+"""
+
+
+@pytest.fixture
+def arms(tmp_path: Path) -> Path:
+    (tmp_path / "old.robot.yaml").write_text(OLD)
+    (tmp_path / "new.robot.yaml").write_text(NEW)
+    return tmp_path
+
+
+def test_what_differs_is_told_in_a_robots_terms(arms: Path):
+    run = linkforge("diff", "old.robot.yaml", "new.robot.yaml", cwd=arms)
+    assert (run.returncode, run.stdout, run.stderr) == (1, TEXT, "")
+
+
+def test_the_same_robot_is_no_difference(arms: Path):
+    linkforge("compile", "old.robot.yaml", "-o", "old.urdf", cwd=arms)
+    run = linkforge("diff", "old.robot.yaml", "old.urdf", cwd=arms)
+    assert (run.returncode, run.stdout) == (0, "old.robot.yaml and old.urdf are the same robot\n")
+
+
+def test_parameters_go_to_every_spec(arms: Path):
+    linkforge("compile", "old.robot.yaml", "-o", "old.urdf", cwd=arms)
+    run = linkforge("diff", "old.urdf", "old.robot.yaml", "reach:=1.5", cwd=arms)
+    assert run.returncode == 1
+    assert "  ~ flange\n      origin: moved by 500 mm (z +500 mm)\n" in run.stdout
+
+
+def test_json_is_as_its_schema_says(arms: Path):
+    run = linkforge("diff", "old.robot.yaml", "new.robot.yaml", "--json", cwd=arms)
+    told = json.loads(run.stdout)
+    SCHEMA.validate(told)
+    assert told["breaking"] == [{"kind": "link", "name": "tool0", "now": "tool"}]
+    assert told["differences"][1] == {
+        "kind": "changed",
+        "path": "links/arm/inertial/mass",
+        "before": 2,
+        "after": 2.1,
+        "text": "2 kg → 2.1 kg (+5 %)",
+    }
+
+
+@pytest.mark.parametrize(
+    ("words", "fault"),
+    [
+        (["old.robot.yaml"], "takes two robots, found 1"),
+        (["-", "-"], "only one of the robots can come from standard input"),
+        (["old.robot.yaml", "none.robot.yaml"], "none.robot.yaml"),
+        (["old.robot.yaml", "none.urdf"], "none.urdf"),
+        (["old.robot.yaml", "new.robot.yaml", "--tolerance", "-1"], "takes a number from 0 to below 1"),
+    ],
+)
+def test_what_is_no_robot_is_trouble(arms: Path, words: list[str], fault: str):
+    run = linkforge("diff", *words, cwd=arms)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert fault in run.stderr

@@ -1,0 +1,134 @@
+"""Laws of comparing: a robot is like itself, and no field of it can change in silence."""
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass, replace
+from enum import Enum
+from itertools import islice
+
+import pytest
+from hypothesis import given, settings
+
+from linkforge_compile.compare import compare, vanished
+from linkforge_compile.compare.walk import How, walk
+from linkforge_compile.core import Robot
+from linkforge_compile.core.exceptions import RobotModelError
+from linkforge_compile.core.models.geometry import Vector3
+from linkforge_compile.core.models.index import Index
+from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.part import Inside
+from tests.strategies import robots
+from tests.test_coverage import CLASSES
+from tests.writers.test_every_field import full, parts
+
+UNTOLD = {"source", "resource_resolver", "axis_as_written", "collisions_first"}
+"""Fields that say where and how it was written."""
+
+
+EXTRAS = {
+    "extra_elements": [("<other/>",)],
+    "extra_attributes": [(("other", "1"),)],
+    "extra_inside": [(Inside("other", extra_elements=("<other/>",)),)],
+}
+
+
+def other_values(value: object) -> Iterator[object]:
+    """Yield values that a field might have instead."""
+    match value:
+        case bool():
+            yield not value
+        case Enum():
+            yield from (other for other in type(value) if other is not value)
+        case int() | float():
+            yield from (value * 1.25 + 0.03, value * 0.75 - 0.02, int(value) * 2 + 1, int(abs(value) * 3 + 1))
+        case Interface():
+            yield from (Interface("other"), Interface(value, {"other": "1"}))
+            yield Interface(value, value.parameters, extra_elements=("<other/>",))
+        case str():
+            yield from (
+                f"{value}_other",
+                "sensor",
+                "fixed",
+                "parent",
+                "parent_to_child",
+                "child_to_parent",
+                "planar",
+                "arm",
+                "finger",
+            )
+        case Vector3():
+            yield from (Vector3(value.x * 0.5 + 0.1, value.y, value.z), Vector3(1.0, 0.0, 0.0), Vector3(0.0, 1.0, 0.0))
+        case Mapping():
+            yield {**value, "other": "1"}
+            yield from ({other: value[other] for other in value if other != key} for key in value)
+            yield from ({**value, key: new} for key in value for new in (*other_values(value[key]), (0.7,)))
+        case tuple() | Index():
+            for place, item in enumerate(value):
+                yield (*value[:place], *value[place + 1 :])
+                news = islice((new for _, new in changed_parts(item)), 2) if is_dataclass(item) else other_values(item)
+                yield from ((*value[:place], new, *value[place + 1 :]) for new in news)
+        case None:
+            yield from ("other", 0.5, True)
+        case _ if is_dataclass(value):
+            yield from (new for _, new in changed_parts(value))
+
+
+def changed_parts(part: object) -> Iterator[tuple[str, object]]:
+    """Yield the field and the part with another value in it, wherever the constructor takes one."""
+    for field in fields(part):
+        if field.name.startswith("_") or field.name in UNTOLD:
+            continue
+        value = getattr(part, field.name)
+        gone = (None,) if value is not None and field.default is None else ()
+        for new in EXTRAS.get(field.name) or (*other_values(value), *gone):
+            try:
+                yield field.name, replace(part, **{field.name: new})
+            except (RobotModelError, TypeError, ValueError, AttributeError):
+                continue
+
+
+PARTS = list(parts(full()))
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: type(part).__name__)
+def test_no_change_of_a_single_field_is_silent(part: object):
+    for field, other in changed_parts(part):
+        if other != part:
+            assert list(walk(("part",), part, other, How())), (field, other)
+            assert list(walk(("part",), other, part, How())), (field, other)
+
+
+def test_every_field_of_every_part_was_changed_by_that():
+    changed = {(type(part), field) for part in PARTS for field, other in changed_parts(part) if other != part}
+    kinds = [kind for kind in CLASSES if is_dataclass(kind) and kind is not Robot]
+    told = {(kind.__name__, field.name) for kind in kinds for field in fields(kind) if field.compare}
+    # No other type of hardware takes the joints of that robot; `test_robots` changes it.
+    assert told - {(kind.__name__, field) for kind, field in changed} - {("Ros2Control", "type")} == set()
+
+
+def test_no_field_of_a_robot_is_silent():
+    robot = full()
+    for field, new in {
+        "name": "other", "version": "1.1", "materials": {}, "metadata": {"author": "you"}, "links": robot.links[:2],
+        "joints": robot.joints[:1], "sensors": (), "transmissions": (), "ros2_controls": (), "gazebo_elements": (),
+        "semantic": None, "extra_elements": (), "extra_attributes": (),
+    }.items():  # fmt: skip
+        other = robot.clone()
+        setattr(other, field, new)
+        assert compare(robot, other), field
+        assert compare(other, robot), field
+
+
+@settings(max_examples=15)
+@given(robots())
+def test_a_robot_is_like_itself(robot: Robot):
+    assert compare(robot, robot.clone()) == ()
+    assert vanished(robot, robot.clone()) == ()
+
+
+@settings(max_examples=15)
+@given(robots(), robots())
+def test_what_is_told_of_any_two_robots_goes_into_json(before: Robot, after: Robot):
+    differences = compare(before, after)
+    json.dumps([(one.kind, one.path, one.before, one.after, one.text) for one in differences], allow_nan=False)
+    assert all(one.text for one in differences)

@@ -1,0 +1,141 @@
+"""Each kind of difference, as it is told."""
+
+# ruff: noqa: E501 a robot and a change take a line each
+
+import re
+
+import pytest
+
+from linkforge_compile import compile_text
+from linkforge_compile.compare import Kind, compare, vanished
+from linkforge_compile.core import Robot
+from linkforge_compile.writers import write_spec
+from tests.backends.everything import everything
+
+SPEC = """\
+linkforge: 1
+name: arm
+materials:
+  red: {color: [1, 0, 0, 1]}
+links:
+  base: {visual: {box: [1, 1, 0.1], material: red}, inertial: {mass: 2}}
+  torso: {visual: {box: [1, 1, 0.2], material: red}}
+  upper: {visual: {mesh: {file: "package://arm/upper.stl"}}, inertial: {mass: 1, inertia: {ixx: 0.1, iyy: 0.1, izz: 0.15}}}
+  cart: {visual: {sphere: {radius: 0.1}}}
+joints:
+  lift: {type: fixed, parent: base, child: torso}
+  elbow: {type: revolute, parent: base, child: upper, axis: z, limits: {lower: -90 deg, upper: 90 deg, effort: 10, velocity: 1}}
+  rail: {type: prismatic, parent: upper, child: cart, axis: x, limits: {lower: 0, upper: 0.5, effort: 10, velocity: 1}}
+sensors:
+  imu: {type: imu, link: upper, imu: {}, topic: imu/data}
+transmissions:
+  drive: {type: transmission_interface/SimpleTransmission, joints: {elbow: {mechanical_reduction: 50}}, actuators: {motor: {}}}
+ros2_control:
+  hw: {type: system, hardware_plugin: mock, joints: {elbow: {command_interfaces: [position, velocity], state_interfaces: [position]}}}
+gazebo:
+  - reference: base
+    properties: {maxContacts: 10}
+semantic:
+  groups: {arm: {joints: [elbow, rail]}}
+  group_states: {arm: {home: {elbow: 0, rail: 0}}}
+  disabled_collisions: {base: {upper: Adjacent}}
+"""
+
+
+def robot_of(spec: str) -> Robot:
+    return compile_text(spec).result()
+
+
+def told(old: str, new: str) -> list[str]:
+    assert old in SPEC
+    differences = compare(robot_of(SPEC), robot_of(SPEC.replace(old, new)))
+    return [f"{one.kind} {'/'.join(one.path)}: {one.text}" for one in differences]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "text"),
+    [
+        ("upper: 90 deg", "upper: 2.0943951023931953", "changed joints/elbow/limits/upper: 90 deg → 120 deg (+30 deg)"),
+        ("upper: 0.5", "upper: 0.6", "changed joints/rail/limits/upper: 0.5 m → 0.6 m (+100 mm)"),
+        ("effort: 10, velocity: 1}}\nsen", "effort: 5, velocity: 1}}\nsen", "changed joints/rail/limits/effort: 10 N → 5 N (-50 %)"),
+        ("axis: z", "axis: y", "changed joints/elbow/axis: 0 0 1 → 0 1 0"),
+        ("type: fixed, parent", "type: floating, parent", "changed joints/lift/type: fixed → floating"),
+        ("child: torso", "child: torso, origin: {xyz: [3 mm, 4 mm, 0], rpy: [0, 0, 30 deg]}",
+         "changed joints/lift/origin: moved by 5 mm (x +3 mm, y +4 mm), turned by 30 deg"),
+        ("parent: base, child: upper", "parent: torso, child: upper", "moved joints/elbow/parent: base → torso"),
+        ("ixx: 0.1,", "ixx: 0.15,",
+         "changed links/upper/inertial/inertia: ixx 0.1 → 0.15 (+50 %) kg*m^2"),
+        ("mass: 1, inertia", "mass: 1.1, inertia", "changed links/upper/inertial/mass: 1 kg → 1.1 kg (+10 %)"),
+        ("upper.stl", "new.stl",
+         "changed links/upper/visual/0/mesh/file: package://arm/upper.stl → package://arm/new.stl"),
+        ("sphere: {radius: 0.1}", "box: [1, 1, 1]", "changed links/cart/visual/0/geometry: sphere, radius 0.1 m → box, size 1 1 1 m"),
+        ("color: [1, 0, 0, 1]", "color: [0, 0, 1, 1]", "changed materials/red/color: 1 0 0 1 → 0 0 1 1"),
+        ("topic: imu/data", "topic: imu/raw", "changed sensors/imu/topic: imu/data → imu/raw"),
+        ("reduction: 50", "reduction: 100", "changed transmissions/drive/joints/elbow/mechanical_reduction: 50 → 100 (+100 %)"),
+        ("[position, velocity]", "[position]", "removed ros2_control/hw/joints/elbow/command_interfaces/velocity: velocity"),
+        ("hw: {type: system, hardware", "hw: {type: actuator, hardware", "changed ros2_control/hw/type: system → actuator"),
+        ("maxContacts: 10", "maxContacts: 20", "changed gazebo/base/properties/maxContacts: 10 → 20"),
+        ("joints: [elbow, rail]", "joints: [elbow]", "removed semantic/groups/arm/joints: rail"),
+        ("home: {elbow: 0, rail: 0}", "home: {elbow: 90 deg, rail: 0}",
+         "changed semantic/group_states/arm/home/elbow: 0 deg → 90 deg (+90 deg)"),
+        ("upper: Adjacent", "cart: Adjacent", "added semantic/disabled_collisions/base/cart: link1 base, link2 cart, reason Adjacent"),
+    ],
+)  # fmt: skip
+def test_a_change_is_told_with_its_units_and_by_how_much(old: str, new: str, text: str):
+    assert text in told(old, new)
+
+
+def test_a_change_is_told_once():
+    assert len(told("color: [1, 0, 0, 1]", "color: [0, 0, 1, 1]")) == 1
+    assert len(told("parent: base, child: upper", "parent: torso, child: upper")) == 1
+
+
+def test_what_is_new_and_what_is_gone_are_told_in_few_words():
+    spec = re.sub(r"  torso:.*\n", "  tool0:\n", SPEC).replace("child: torso", "child: tool0, origin: [0, 0, 1]")
+    assert [
+        (one.kind, one.path, one.text) for one in compare(robot_of(SPEC), robot_of(spec)) if one.path[0] == "links"
+    ] == [
+        (Kind.ADDED, ("links", "tool0"), "a frame"),
+        (Kind.REMOVED, ("links", "torso"), "1 visual"),
+    ]
+
+
+def test_float_noise_is_not_told_and_the_tolerance_says_what_is_noise():
+    before, after = (
+        robot_of(SPEC),
+        robot_of(SPEC.replace("upper: 0.5", "upper: 0.5000001").replace("mass: 2", "mass: 2.000001")),
+    )
+    assert compare(before, after) == ()
+    assert len(compare(before, after, tolerance=0)) > 1
+
+
+def test_renamed_links_and_joints_are_told_as_such_and_nothing_that_names_them_is():
+    before = everything()
+    text = re.sub(r"\b(finger|shoulder|axle)\b", r"\1_b", write_spec(before))
+    after = robot_of(text)
+    assert {(one.kind, one.path, one.before, one.after) for one in compare(before, after)} == {
+        (Kind.RENAMED, ("links", "finger_b"), "finger", "finger_b"),
+        (Kind.RENAMED, ("joints", "shoulder_b"), "shoulder", "shoulder_b"),
+        (Kind.RENAMED, ("joints", "axle_b"), "axle", "axle_b"),
+    }
+    assert [tuple(name) for name in vanished(before, after)] == [
+        ("link", "finger", "finger_b"),
+        ("joint", "axle", "axle_b"),
+        ("joint", "shoulder", "shoulder_b"),
+        ("command interface", "shoulder/position", "shoulder_b/position"),
+        ("state interface", "shoulder/position", "shoulder_b/position"),
+        ("state interface", "shoulder/velocity", "shoulder_b/velocity"),
+    ]
+
+
+def test_two_alike_are_no_rename():
+    twins = "linkforge: 1\nname: r\nlinks: {base: , a: , b: }\njoints:\n  ja: {type: fixed, parent: base, child: a}\n  jb: {type: fixed, parent: base, child: b}\n"
+    others = re.sub(r"\b(j?)([ab])\b", r"\1\2\2", twins)
+    kinds = {one.kind for one in compare(robot_of(twins), robot_of(others))}
+    assert kinds == {Kind.ADDED, Kind.REMOVED}
+
+
+def test_the_semantic_part_can_be_left_out():
+    before, after = robot_of(SPEC), robot_of(SPEC[: SPEC.index("semantic:")])
+    assert compare(before, after, semantic=False) == vanished(before, after, semantic=False) == ()
+    assert [name.name for name in vanished(before, after)] == ["arm", "arm/home"]
