@@ -96,10 +96,11 @@ def _robot(word: str, assignments: list[str], arguments: argparse.Namespace) -> 
         imported = import_urdf(word)
         if tell((*_errors(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
             return None
-        return compile_text(imported.text, name=word, folder=Path(word).parent).result()
-    from linkforge_compile.cli.one_spec import compile_spec
+        compilation = compile_text(imported.text, name=word, folder=Path(word).parent)
+    else:
+        from linkforge_compile.cli.one_spec import compile_spec
 
-    compilation = compile_spec(word, assignments, arguments)
+        compilation = compile_spec(word, assignments, arguments)
     return None if tell(_errors(compilation.diagnostics), arguments) else compilation.robot
 
 
