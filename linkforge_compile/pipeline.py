@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.diagnostics.ignores import heed
 from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
+    XACRO,
     Arguments,
     ListedParameter,
     Listing,
@@ -26,6 +27,7 @@ from linkforge_compile.modules import (
     Plain,
     SpecFile,
     Unset,
+    Used,
     arguments_from_text,
     arguments_from_values,
     expand,
@@ -119,7 +121,7 @@ def compile_file(
 
     """
     folder = Path(output) if output is not None else None
-    return _compile(_file(path), _Settings(parameters, packages, variant, gazebo, output=folder))
+    return _compile_file(path, _Settings(parameters, packages, variant, gazebo, output=folder))
 
 
 def compile_text(
@@ -145,7 +147,7 @@ def check_file(
     gazebo: Gazebo = "gz",
 ) -> Compilation:
     """Tell all that is wrong with a spec file; what depends on a required parameter without a value is not judged."""
-    return _compile(_file(path), _Settings(parameters, packages, variant, gazebo, Unset.NOTE))
+    return _compile_file(path, _Settings(parameters, packages, variant, gazebo, Unset.NOTE))
 
 
 def check_text(
@@ -278,8 +280,18 @@ class _Settings(NamedTuple):
         return arguments_from_text(tuple(self.parameters), sink)
 
 
-def _file(path: str | Path) -> _Read:
-    return lambda loader, sink: loader.open(Path(path), sink)
+def _compile_file(path: str | Path, settings: _Settings) -> Compilation:
+    file = Path(path)
+    if file.suffix.lower() != XACRO:
+        return _compile(lambda loader, sink: loader.open(file, sink), settings)
+
+    def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
+        from linkforge_compile.modules.xacro import XacroUse, open_xacro
+
+        return open_xacro(XacroUse(file, Used(str(path), None), settings.arguments(sink)), loader, sink)
+
+    # The expansion has no parameters any more.
+    return _compile(read, settings._replace(parameters=()))
 
 
 def _text(text: str, name: str, folder: str | Path | None) -> _Read:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
@@ -11,6 +12,9 @@ from linkforge_compile.importers.xml import XmlDocument, read_xml
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap
 
+Move = Callable[[XmlDocument], XmlDocument]
+"""Gives the elements of a document other places."""
+
 
 class Imported(NamedTuple):
     """A robot that was written elsewhere: the tree of its spec, with the spans of that file, and its comments."""
@@ -19,11 +23,12 @@ class Imported(NamedTuple):
     comments: Comments
 
 
-def read_document(file: SourceFile, sink: Diagnostics) -> XmlDocument | None:
+def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None) -> XmlDocument | None:
     """Return a document of a named robot without xacro; None where the file is none, which is told."""
     document = read_xml(file, sink)
     if document is None:
         return None
+    document = moved(document) if moved else document
     root = document.root
     if root.tag != "robot":
         sink.report(NOT_A_ROBOT.at(root.span, tag=root.tag))

@@ -5,10 +5,12 @@ from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.modules.expand import expand
 from linkforge_compile.modules.given import Unset
 from linkforge_compile.modules.listing import ListedParameter, Listing, Plain, list_parameters
-from linkforge_compile.modules.loader import Loader, SpecFile
+from linkforge_compile.modules.loader import Loader, SpecFile, Used
+from linkforge_compile.modules.uses import XACRO
 from linkforge_compile.modules.variants import variants_of
 
 __all__ = [
+    "XACRO",
     "Arguments",
     "Instance",
     "ListedParameter",
@@ -17,6 +19,7 @@ __all__ = [
     "Plain",
     "SpecFile",
     "Unset",
+    "Used",
     "arguments_from_text",
     "arguments_from_values",
     "expand",

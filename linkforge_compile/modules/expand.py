@@ -26,7 +26,7 @@ from linkforge_compile.modules.module_overrides import Body
 from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.own_names import asked_in
-from linkforge_compile.modules.uses import mesh_base, name_from, open_use
+from linkforge_compile.modules.uses import XACRO, UseSite, locate, mesh_base, name_from, open_use
 from linkforge_compile.modules.variants import tell_unknown_variant, variants_of
 from linkforge_compile.schema.shapes import FREE, shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
@@ -149,13 +149,28 @@ class _Expansion:
         if entry.use is None:
             return _unread(entry)
         sink = names.tree.sink
-        spec = open_use(names.own.site(entry.use.text, entry.use.span), self._shared.loader, sink)
+        site, arguments = names.own.site(entry.use.text, entry.use.span), entry.arguments
+        if site.text.lower().endswith(XACRO):
+            spec, arguments = self._expanded_by_xacro(site, entry, sink), Arguments()
+        else:
+            spec = open_use(site, self._shared.loader, sink)
         if spec is None:
             return _unread(entry)
-        given = Given(entry.arguments, sink, entry.tree, entry.use.span)
+        given = Given(arguments, sink, entry.tree, entry.use.span)
         use = _Use(spec, given, entry, outer, _sites(outer, names))
         instance = self.instance(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
+
+    def _expanded_by_xacro(self, site: UseSite, entry: ModuleEntry, sink: Diagnostics) -> SpecFile | None:
+        """Return what xacro makes of a file and of the arguments of an entry."""
+        from linkforge_compile.modules.xacro import XacroUse, open_xacro
+
+        loader = self._shared.loader
+        target = locate(site, loader, sink)
+        if target is None:
+            return None
+        use = XacroUse(target.path, site.used, entry.arguments, entry.tree, site.packages, target.package)
+        return open_xacro(use, loader, sink)
 
     def _is_bounded(self, use: _Use, sink: Diagnostics) -> bool:
         """Whether a use leads on and to an end; reports why not."""

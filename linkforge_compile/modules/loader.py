@@ -66,6 +66,8 @@ class Loader:
         self._sources: list[SourceFile] = []
         self._specs: dict[str, Whole | None] = {}  # by real path
         self._data: dict[str, YamlNode | None] = {}  # by real path
+        self._xml: dict[str, SourceFile] = {}  # by real path
+        self._read_elsewhere: list[Path] = []
         self.budget = Budget()
 
     @property
@@ -76,7 +78,8 @@ class Loader:
     @property
     def files(self) -> tuple[Path, ...]:
         """Every file that was read, in that order, as its user would type it."""
-        return tuple(dict.fromkeys(source.path for source in self._sources if source.path))
+        sources = (source.path for source in self._sources if source.path)
+        return tuple(dict.fromkeys((*sources, *self._read_elsewhere)))
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:
         """Read a spec from text that is no file; `folder` is where its relative paths start, None for nowhere."""
@@ -104,10 +107,17 @@ class Loader:
 
     def open_xml(self, path: Path, sink: Diagnostics, used: Used | None = None) -> SourceFile | None:
         """Read a text of XML in the encoding that it says; `used` says by what, None for the command line."""
-        text = _text(path, used or Used(str(as_typed(path)), None), sink, _xml_text)
-        if text is None:
-            return None
-        return self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
+        real = os.path.realpath(path)
+        if real not in self._xml:
+            text = _text(path, used or Used(str(as_typed(path)), None), sink, _xml_text)
+            if text is None:
+                return None
+            self._xml[real] = self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
+        return self._xml[real]
+
+    def note_read(self, path: Path) -> None:
+        """Note that somebody else read a file for this compile; what it holds is his."""
+        self._read_elsewhere.append(as_typed(path))
 
     def open_data(self, path: Path, sink: Diagnostics, tags: Tags, used: Used) -> YamlNode | None:
         """Read a file of data, which may be of any shape and hold `tags`; None where it cannot be had, as reported."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, NOT_A_SPEC_YET, UNKNOWN_PACKAGE, USE_OF_NOWHERE
+from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.packages import Package, find_package
 from linkforge_compile.modules.paths import follow
@@ -19,7 +19,8 @@ from linkforge_compile.source import Span
 
 _SPEC_ENDINGS = (".yaml", ".yml")
 _URDF_ENDING = ".urdf"
-_ENDINGS_TO_COME = {".xacro": "xacro"}
+XACRO = ".xacro"
+"""How the name of a xacro file ends."""
 _SCHEME = re.compile(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
 _PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
 
@@ -52,9 +53,7 @@ def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | Non
     """Read the file that a `use` names; None where there is none, which is reported there."""
     lowered = site.text.lower()
     if not lowered.endswith((*_SPEC_ENDINGS, _URDF_ENDING)):
-        coming = next((kind for ending, kind in _ENDINGS_TO_COME.items() if lowered.endswith(ending)), None)
-        code = NOT_A_SPEC_YET if coming else NOT_A_SPEC
-        sink.report(code.at(site.where, kind=coming, path=site.text))
+        sink.report(NOT_A_SPEC.at(site.where, path=site.text))
         return None
     target = locate(site, loader, sink)
     spec = loader.open(target.path, sink, package=target.package, used=site.used) if target else None

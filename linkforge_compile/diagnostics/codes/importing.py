@@ -16,10 +16,21 @@ NO_CHARACTER_OF_A_SPEC = Code("LF8005", _E, "a spec cannot hold the character {c
 # LF801x: URDF
 NOT_A_ROBOT = Code("LF8011", _E, "expected <robot>, found <{tag}>")
 ROBOT_WITHOUT_NAME = Code("LF8012", _E, "the robot has no name; write <robot name='...'>")
-STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro's, not URDF; expand the file first: xacro FILE > robot.urdf")
+STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro's, not URDF; name the file .urdf.xacro")
 
 # LF802x: what comes in, but not as its own kind
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML in 'extra': {reason}")
+
+# LF803x: xacro
+XACRO_NOT_INSTALLED = Code(
+    "LF8031",
+    _E,
+    "'{path}' needs the xacro package, which runs its expressions: pip install 'linkforge-compile[xacro]'",
+)
+XACRO_FAILED = Code("LF8032", _E, "xacro gives up here: {problem}")
+XACRO_ARGUMENT = Code("LF8033", _E, "'{name}' of a xacro file takes a text, a number, or true or false")
+XACRO_FORBIDDEN = Code("LF8035", _E, "'{path}' is not expanded: the environment sets {variable}")
+XACRO_WARNS = Code("LF8034", _W, "xacro says: {text}")
 
 # LF81xx: losses
 TEXT_LEFT_OUT = Code("LF8101", _W, "<{tag}> holds no text; '{text}' is left out")

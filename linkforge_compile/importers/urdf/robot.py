@@ -7,7 +7,7 @@ from functools import partial
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.importers.comments import placed_comments
-from linkforge_compile.importers.document import Imported, read_document
+from linkforge_compile.importers.document import Imported, Move, read_document
 from linkforge_compile.importers.draft import DeclinedError, Draft
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.urdf.frame import frames_of
@@ -21,12 +21,13 @@ from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
 
-def read_urdf(file: SourceFile, sink: Diagnostics) -> Imported | None:
+def read_urdf(file: SourceFile, sink: Diagnostics, moved: Move | None = None) -> Imported | None:
     """Read a URDF document; None where it is none, which is told.
 
     All that it says is in the tree, in the language's own words or as raw XML, or it is told what is left out.
+    `moved` gives the elements other places than those that they have in the text.
     """
-    document = read_document(file, sink)
+    document = read_document(file, sink, moved)
     if document is None:
         return None
     root, draft = document.root, Draft()

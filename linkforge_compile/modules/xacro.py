@@ -1,0 +1,222 @@
+"""A xacro file as a module: its arguments are given as those of any other, and packages are found where ours are."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.importing import (
+    XACRO_ARGUMENT,
+    XACRO_FAILED,
+    XACRO_FORBIDDEN,
+    XACRO_NOT_INSTALLED,
+    XACRO_WARNS,
+)
+from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PACKAGE, UNKNOWN_PARAMETER
+from linkforge_compile.expressions import FAULT
+from linkforge_compile.modules.arguments import Arguments
+from linkforge_compile.modules.evaluate_tree import TreeEvaluator
+from linkforge_compile.modules.loader import Loader, SpecFile, Used
+from linkforge_compile.modules.noted import used_from
+from linkforge_compile.modules.packages import Package, find_package
+from linkforge_compile.modules.values import plain_value
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax import YamlNode, YamlScalar
+from linkforge_compile.units import Quantity, number_text
+
+if TYPE_CHECKING:
+    from linkforge_compile.importers.document import Imported
+    from linkforge_compile.importers.xacro import Expanded, Failed, Place
+    from linkforge_compile.importers.xml import XmlElement
+
+FORBIDDEN = "LINKFORGE_NO_XACRO"
+"""The environment variable that, set to anything, keeps xacro files from being expanded."""
+
+_UNSET = re.compile(r"Undefined substitution argument '?(\w+)'?")
+
+
+@dataclass(frozen=True, slots=True)
+class XacroUse:
+    """One use of a xacro file: what names it, what it is given, and where packages are said to be.
+
+    `tree` computes the arguments, None where they hold no expressions. `package` is the one through whose
+    `package://` the file was reached.
+    """
+
+    path: Path
+    used: Used
+    arguments: Arguments
+    tree: TreeEvaluator | None = None
+    packages: Mapping[str, Path] | None = None
+    package: Package | None = None
+
+
+class Robot(NamedTuple):
+    """What a xacro file expands to, read, and the files that it was written in, the first one first."""
+
+    imported: Imported
+    file: SourceFile
+    others: tuple[SourceFile, ...]
+
+
+def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | None:
+    """Expand a xacro file and read it as a spec; None where it cannot be had, which is reported.
+
+    What is wrong with the robot is told in the xacro file that wrote it.
+    """
+    robot = read_xacro(use, loader, sink)
+    if robot is None:
+        return None
+    tree, folder = robot.imported.tree, use.path.parent
+    included = {file: SpecFile(file, tree, folder, use.package) for file in robot.others}
+    return SpecFile(robot.file, tree, folder, use.package, included, use.packages or {})
+
+
+def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Robot | None:
+    """Expand a xacro file and read the robot in it, as `open_xacro` does."""
+    from linkforge_compile.importers.urdf import read_urdf
+    from linkforge_compile.importers.xacro import Failed, moved_back, run_xacro
+
+    main = loader.open_xml(use.path, sink, use.used)
+    arguments = _texts(use, sink)
+    if main is None or arguments is None:
+        return None
+    if os.environ.get(FORBIDDEN):
+        sink.report(XACRO_FORBIDDEN.at(use.used.where, path=use.used.text, variable=FORBIDDEN))
+        return None
+    lost: list[str] = []
+    result = run_xacro(use.path, arguments, partial(_folder, use, loader, lost))
+    written = _Written(result, main, loader)
+    inside = used_from(sink, (use.used.where,) if use.used.where else ())
+    told = _Telling(use, written, loader, sink, inside)
+    if isinstance(result, Failed):
+        told.failed(result, lost)
+        return None
+    told.unknown_arguments(result.arguments)
+    for warning in result.warnings:
+        inside.report(XACRO_WARNS.at(main.whole, text=warning))
+    expanded = SourceFile(f"{main.name} (expanded)", result.text, order=main.order)
+    imported = read_urdf(expanded, inside, partial(moved_back, find=written.element))
+    return Robot(imported, main, (*written.files, expanded)) if imported else None
+
+
+def _folder(use: XacroUse, loader: Loader, lost: list[str], name: str) -> Path | None:
+    folder = find_package(name, {**(use.packages or {}), **loader.packages}, use.path.parent)
+    if folder is None:
+        lost.append(name)
+    return folder
+
+
+def _texts(use: XacroUse, sink: Diagnostics) -> dict[str, str] | None:
+    """Return the arguments as xacro takes them, all of them text; None where one is at fault."""
+    texts: dict[str, str] = {}
+    is_whole = not use.arguments.is_partial
+    for name, entry in use.arguments.entries.items():
+        text = _text(entry.value, use)
+        if text is FAULT:
+            is_whole = False
+        elif isinstance(text, str):
+            texts[name] = text
+        else:
+            sink.report(XACRO_ARGUMENT.at(entry.value.span, name=name))
+            is_whole = False
+    return texts if is_whole else None
+
+
+def _text(node: YamlNode, use: XacroUse) -> object:
+    """Return a value as text, FAULT where it was reported, None for what is neither text, number nor flag."""
+    if use.arguments.as_text and isinstance(node, YamlScalar):
+        return node.text
+    value = use.tree.value(node) if use.tree else plain_value(node)
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case Quantity():
+            return number_text(value.value)
+        case int() | float():
+            return number_text(value)
+        case str():
+            return value
+    return FAULT if value is FAULT else None
+
+
+class _Written:
+    """The elements of xacro files as they were written, each file read when it is first asked for."""
+
+    def __init__(self, result: Expanded | Failed, main: SourceFile, loader: Loader) -> None:
+        self._main, self._loader = main, loader
+        self._paths = result.files
+        self._elements: dict[int, tuple[XmlElement, ...]] = {}
+        self.files = tuple(file for path in result.files[1:] if (file := loader.open_xml(path, Diagnostics())))
+        for path in result.read:
+            loader.note_read(path)
+
+    def element(self, place: Place) -> XmlElement | None:
+        if place.file not in self._elements:
+            self._elements[place.file] = self._read(place.file)
+        elements = self._elements[place.file]
+        return elements[place.element] if place.element < len(elements) else None
+
+    def _read(self, number: int) -> tuple[XmlElement, ...]:
+        from linkforge_compile.importers.xml import read_xml
+
+        file = self._main if number == 0 else self._loader.open_xml(self._paths[number], Diagnostics())
+        document = read_xml(file, Diagnostics()) if file else None
+        return tuple(_in_order(document.root)) if document else ()
+
+
+def _in_order(element: XmlElement) -> list[XmlElement]:
+    return [element, *(inner for child in element.children for inner in _in_order(child))]
+
+
+@dataclass(frozen=True, slots=True)
+class _Telling:
+    """Tells what is wrong with a use of a xacro file: `sink` at the use, `inside` in the file with its use."""
+
+    use: XacroUse
+    written: _Written
+    loader: Loader
+    sink: Diagnostics
+    inside: Diagnostics
+
+    def failed(self, failed: Failed, lost: list[str]) -> None:
+        where = self.use.used.where
+        if failed.reason is None:
+            self.sink.report(XACRO_NOT_INSTALLED.at(where, path=self.use.used.text))
+            return
+        self.unknown_arguments(failed.arguments or {})
+        notes = [Note("it is looked for here", place)] if (place := self._place(failed)) else []
+        if lost:
+            near = {**(self.use.packages or {}), **self.loader.packages}
+            self.sink.report(UNKNOWN_PACKAGE.at(where or place, name=lost[-1], near=near, notes=notes))
+        elif unset := _UNSET.search(failed.reason):
+            name = unset[1]
+            remedy = f"with: {{{name}: VALUE}}" if where else f"{name}:=VALUE"
+            declared = self._declared(failed.arguments or {}, name)
+            self.sink.report(PARAMETER_NOT_SET.at(where or declared or place, name=name, remedy=remedy))
+        else:
+            self.inside.report(XACRO_FAILED.at(place or where, problem=" ".join(failed.reason.split())))
+
+    def unknown_arguments(self, declared: Mapping[str, Place]) -> None:
+        first = next((self._declared(declared, name) for name in declared), None)
+        note = Note("its arguments are declared here" if declared else "this file declares no arguments", first)
+        for name, entry in self.use.arguments.entries.items():
+            if name not in declared:
+                self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=declared, notes=[note]))
+
+    def _declared(self, declared: Mapping[str, Place], name: str) -> Span | None:
+        element = self.written.element(declared[name]) if name in declared else None
+        return element.span if element else None
+
+    def _place(self, failed: Failed) -> Span | None:
+        if failed.line is not None and failed.file:
+            file = self.loader.open_xml(failed.file, Diagnostics())
+            return Span(file, failed.line, 1, failed.line, 1) if file else None
+        element = self.written.element(failed.place) if failed.place else None
+        return element.span if element else None

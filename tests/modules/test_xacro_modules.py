@@ -1,0 +1,209 @@
+"""A vendor's xacro as a module, unchanged: its arguments, its packages, its places, and what it may not do."""
+
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile import Compilation, compile_file
+
+pytest.importorskip("xacro")
+
+FLOOR = "{inertial: {mass: 10, inertia: {ixx: 1, iyy: 1, izz: 1}}}"
+ARM = """\
+<?xml version="1.0"?>
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="reach" default="0.5"/>
+  <xacro:arg name="has_cover" default="false"/>
+  <xacro:arg name="label" default="plain"/>
+  <xacro:include filename="$(find arm_parts)/urdf/segment.xacro"/>
+  <xacro:property name="table" value="${xacro.load_yaml('$(find arm_parts)/config/masses.yaml')}"/>
+  <link name="base"/>
+  <xacro:segment name="upper" parent="base" length="$(arg reach)" mass="${table['upper']}">
+    <origin xyz="0 0 0.1"/>
+  </xacro:segment>
+  <xacro:segment name="lower" parent="upper" length="${$(arg reach) / 2}" mass="${table['lower']}">
+    <origin xyz="0 0 $(arg reach)"/>
+  </xacro:segment>
+  <xacro:if value="$(arg has_cover)">
+    <link name="cover"/>
+    <joint name="cover_joint" type="fixed"><parent link="lower"/><child link="cover"/></joint>
+  </xacro:if>
+  <gazebo><plugin name="p" filename="libp.so"><label>$(arg label)</label></plugin></gazebo>
+</robot>
+"""
+SEGMENT = """\
+<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="segment" params="name parent length mass *origin">
+    <link name="${name}">
+      <visual><geometry><box size="0.05 0.05 ${length}"/></geometry></visual>
+      <collision><geometry><box size="0.05 0.05 ${length}"/></geometry></collision>
+      <inertial>
+        <mass value="${mass}"/>
+        <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/>
+      </inertial>
+    </link>
+    <joint name="${name}_joint" type="revolute">
+      <parent link="${parent}"/><child link="${name}"/>
+      <xacro:insert_block name="origin"/>
+      <axis xyz="0 1 0"/>
+      <limit lower="-1" upper="1" effort="10" velocity="1"/>
+    </joint>
+  </xacro:macro>
+</robot>
+"""
+
+
+@pytest.fixture
+def vendor(tmp_path: Path) -> Path:
+    """Return the folder of a package of a vendor, with nothing that says where it is."""
+    package = tmp_path / "vendor"
+    for folder in ("urdf", "config"):
+        (package / folder).mkdir(parents=True)
+    (package / "urdf" / "arm.urdf.xacro").write_text(ARM, "utf-8")
+    (package / "urdf" / "segment.xacro").write_text(SEGMENT, "utf-8")
+    (package / "config" / "masses.yaml").write_text("upper: 2.5\nlower: 1.25\n", "utf-8")
+    return package
+
+
+def cell(folder: Path, modules: str, packages: str = "{arm_parts: vendor}") -> Compilation:
+    spec = folder / "cell.robot.yaml"
+    text = f"linkforge: 1\nname: cell\npackages: {packages}\nlinks: {{floor: {FLOOR}}}\nmodules:\n  {modules}\n"
+    spec.write_text(text, "utf-8")
+    return compile_file(spec)
+
+
+def place(compilation: Compilation) -> tuple[str, int, str]:
+    """Return where the one diagnostic stands, and what it says."""
+    [diagnostic] = compilation.diagnostics
+    return Path(diagnostic.span.file.name).name, diagnostic.span.line, diagnostic.message
+
+
+def test_two_uses_with_their_own_arguments_prefixes_and_overrides(vendor, tmp_path):
+    compilation = cell(
+        tmp_path,
+        "left: {use: package://arm_parts/urdf/arm.urdf.xacro, parent: floor, with: {reach: 60 cm, has_cover: true}}\n"
+        "  right: {use: vendor/urdf/arm.urdf.xacro, parent: floor, "
+        "with: {reach: $(0.4 * 2)}, override: {joints: {upper_joint: {limits: {effort: 99}}}}}",
+    )
+    robot = compilation.result()
+    assert robot.joint("left_lower_joint").origin.xyz.z == 0.6
+    assert robot.joint("right_lower_joint").origin.xyz.z == 0.8
+    assert "left_cover" in robot.links
+    assert "right_cover" not in robot.links
+    assert [robot.joint(f"{side}_upper_joint").limits.effort for side in ("left", "right")] == [10, 99]
+    assert robot.link("right_lower").inertial.mass == 1.25
+    names = {path.name for path in compilation.files}
+    assert names == {"cell.robot.yaml", "arm.urdf.xacro", "segment.xacro", "masses.yaml"}
+
+
+def test_what_is_wrong_is_told_in_the_macro_that_wrote_it(vendor, tmp_path):
+    (vendor / "urdf" / "segment.xacro").write_text(SEGMENT.replace('izz="0.01"', 'izz="-1"'), "utf-8")
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
+    [first, *_] = compilation.diagnostics
+    assert (Path(first.span.file.name).name, first.span.line) == ("segment.xacro", 8)
+    assert "used here" in [note.message for note in first.notes]
+
+
+def test_an_argument_that_it_does_not_have_is_told_with_those_that_it_has(vendor, tmp_path):
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor, with: {reech: 1}}")
+    file, line, message = place(compilation)
+    assert (file, line) == ("cell.robot.yaml", 6)
+    assert message == "no parameter named 'reech'; did you mean 'reach'?"
+    note = compilation.diagnostics[0].notes[0]
+    assert (Path(note.span.file.name).name, note.span.line) == ("arm.urdf.xacro", 3)
+
+
+def test_an_argument_without_a_value_is_told_at_the_use(vendor, tmp_path):
+    arm = vendor / "urdf" / "arm.urdf.xacro"
+    arm.write_text(ARM.replace('  <xacro:arg name="reach" default="0.5"/>\n', ""), "utf-8")
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
+    assert place(compilation) == (
+        "cell.robot.yaml",
+        6,
+        "parameter 'reach' has no default and must be set; write 'with: {reach: VALUE}'",
+    )
+
+
+def test_an_argument_is_no_list(vendor, tmp_path):
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor, with: {reach: [1, 2]}}")
+    assert compilation.diagnostics[0].code.id == "LF8033"
+
+
+def test_a_package_that_is_nowhere_is_told_at_the_use(vendor, tmp_path):
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}", packages="{arm_part: vendor}")
+    file, line, message = place(compilation)
+    assert (file, line) == ("cell.robot.yaml", 6)
+    assert message.startswith("no package named 'arm_parts'")
+    assert "did you mean 'arm_part'" in message
+
+
+@pytest.mark.parametrize(
+    ("change", "line", "message"),
+    [
+        (("${table['lower']}", "${table['nope']}"), 12, "nope"),
+        (("xacro:if", "xacro:of"), 15, "of"),
+        (("</robot>", "</robto>"), 20, "mismatched tag"),
+    ],
+)
+def test_what_xacro_cannot_do_is_told_where_it_is(change, line, message, vendor, tmp_path):
+    (vendor / "urdf" / "arm.urdf.xacro").write_text(ARM.replace(*change), "utf-8")
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
+    told = place(compilation)
+    assert told[:2] == ("arm.urdf.xacro", line)
+    assert told[2].startswith("xacro gives up here: ")
+    assert message in told[2]
+
+
+def test_what_xacro_says_is_told(vendor, tmp_path):
+    arm = ARM.replace("  <gazebo>", "  ${xacro.warning('it is old')}\n  <gazebo>")
+    (vendor / "urdf" / "arm.urdf.xacro").write_text(arm, "utf-8")
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
+    assert "xacro says: it is old" in [diagnostic.message for diagnostic in compilation.diagnostics]
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("${[0 for i in range(10**9)]}", ""),
+        ("${'a' * 10**10}", "memory"),
+        ('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', "without an end"),
+    ],
+)
+def test_a_file_without_bounds_comes_to_an_end(text, reason, vendor, tmp_path, monkeypatch):
+    monkeypatch.setattr("linkforge_compile.importers.xacro.run.MOST_SECONDS", 3)
+    (vendor / "urdf" / "arm.urdf.xacro").write_text(ARM.replace("  <gazebo>", f"  {text}<gazebo>"), "utf-8")
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
+    [diagnostic] = compilation.diagnostics
+    assert diagnostic.code.id == "LF8032"
+    assert reason in diagnostic.message
+
+
+def test_without_the_package_it_is_told_how_to_have_it(vendor, tmp_path, monkeypatch):
+    (tmp_path / "none" / "xacro").mkdir(parents=True)
+    (tmp_path / "none" / "xacro" / "__init__.py").write_text("raise ImportError", "utf-8")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path / "none"))
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
+    assert compilation.diagnostics[0].code.id == "LF8031"
+    assert place(compilation) == (
+        "cell.robot.yaml",
+        6,
+        "'vendor/urdf/arm.urdf.xacro' needs the xacro package, which runs its expressions: "
+        "pip install 'linkforge-compile[xacro]'",
+    )
+
+
+def test_the_environment_can_forbid_xacro(vendor, tmp_path, monkeypatch):
+    monkeypatch.setenv("LINKFORGE_NO_XACRO", "1")
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
+    assert compilation.diagnostics[0].code.id == "LF8035"
+
+
+def test_a_xacro_compiles_alone_with_the_arguments_of_the_command_line(vendor):
+    compilation = compile_file(
+        vendor / "urdf" / "arm.urdf.xacro",
+        parameters=["reach:=0.8"],
+        packages={"arm_parts": vendor},
+    )
+    robot = compilation.result()
+    assert robot.joint("lower_joint").origin.xyz.z == 0.8
+    assert robot.joint("lower_joint").source.span.file.name.endswith("segment.xacro")
