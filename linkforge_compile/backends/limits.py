@@ -7,6 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.element import InsideError, RestatedAttributeError, attributes, elements, inside_of
+from linkforge_compile.backends.namespaces import undeclared_prefixes
 from linkforge_compile.backends.srdf import render_srdf
 from linkforge_compile.backends.unwritable import extended_parts, refused, unwritable_texts
 from linkforge_compile.backends.urdf import capsules, render_urdf, require_dialect
@@ -52,6 +53,7 @@ def srdf_limits(robot: Robot) -> Iterator[Diagnostic]:
     """Yield what `render_srdf` refuses."""
     yield from unwritable_texts(robot.semantic)
     if robot.says_semantic:
+        yield from undeclared_prefixes(robot.semantic, robot.semantic)
         yield from check_attributes(robot.semantic, robot, partial(render_srdf, robot))
 
 
@@ -60,6 +62,7 @@ def check_texts(robot: Robot) -> Iterator[Diagnostic]:
     yield from refused(lambda: attributes(robot), robot.source, "extra_attributes")
     yield from refused(lambda: elements(robot), robot.source, "extra")
     yield from unwritable_texts(_collections(robot))
+    yield from undeclared_prefixes(robot, _collections(robot))
 
 
 def check_attributes(parts: object, robot: Robot, render: Callable[[], str]) -> Iterator[Diagnostic]:

@@ -62,6 +62,11 @@ def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -
     return Xml("\n".join(_lines(content)))
 
 
+def nodes_of(text: str) -> list[Node]:
+    """Return the elements of raw XML; raise as `raw_elements` does where it is not well-formed."""
+    return [item for item in _parse(text, None, ()) if isinstance(item, Node)]
+
+
 def parameter_elements(parameters: Mapping[str, object], source: SourceRef | None = None, *path: str | int) -> Xml:
     """Return the parameters of a free part as child elements.
 

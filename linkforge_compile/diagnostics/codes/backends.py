@@ -29,6 +29,11 @@ MESH_BESIDE_THE_SPEC = Code(
     "'{path}' leads nowhere from '{folder}', where the URDF goes, for it lies beside the spec; "
     "write 'package://NAME/PATH', or the URDF into '{back}'",
 )
+UNDECLARED_PREFIX = Code(
+    "LF7006",
+    Severity.ERROR,
+    "no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into the robot's 'extra_attributes'",
+)
 NO_JOINT_TO_SENSE = Code(
     "LF7101",
     Severity.WARNING,

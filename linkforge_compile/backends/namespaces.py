@@ -1,0 +1,87 @@
+"""Finds the prefixes of raw XML, as in `drake:joint`, that no `xmlns` around them declares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import fields, is_dataclass
+
+from linkforge_compile.backends.element import Extended
+from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.part import Element, attribute_pairs
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.codes.backends import UNDECLARED_PREFIX
+from linkforge_compile.source import SourceRef
+
+_OF_XML = frozenset({"xml", "xmlns"})
+_DECLARATION = "xmlns:"
+
+
+def undeclared_prefixes(root: Extended, parts: object) -> Iterator[Diagnostic]:
+    """Yield an error for each prefix in a root element or its parts, at any depth, that is not declared around it."""
+    known = _OF_XML | _declared_by(_names(root))
+    yield from _in_extras(root, known, root.source)
+    yield from _in_part(parts, known, root.source)
+
+
+def _in_part(part: object, known: frozenset[str], where: SourceRef | None) -> Iterator[Diagnostic]:
+    if isinstance(part, Element | Link | Interface):
+        where = part.source or where
+        known |= _declared_by(_names(part))
+        yield from _in_extras(part, known, where)
+        for field in fields(part) if is_dataclass(part) else ():
+            yield from _in_part(getattr(part, field.name), known, where)
+    elif isinstance(part, Mapping):
+        for item in part.values():
+            yield from _in_part(item, known, where)
+    elif isinstance(part, Sequence) and not isinstance(part, str):
+        for item in part:
+            yield from _in_part(item, known, where)
+
+
+def _in_extras(part: Extended, known: frozenset[str], where: SourceRef | None) -> Iterator[Diagnostic]:
+    yield from _told(_unknown(_names(part), known), where, "extra_attributes")
+    for text in part.extra_elements:
+        # Only what holds a colon is read once more.
+        yield from _told(_in_xml(text, known) if ":" in text else (), where, "extra")
+
+
+def _names(part: Extended) -> list[str]:
+    return [name for name, _ in attribute_pairs(part.extra_attributes)]
+
+
+def _in_xml(text: str, known: frozenset[str]) -> Iterator[str]:
+    """Yield the prefixes of raw XML that nothing declares; nothing for XML that cannot be read, which is told."""
+    from linkforge_compile.backends.raw import Node, nodes_of
+
+    def unknown(node: Node, known: frozenset[str]) -> Iterator[str]:
+        names = [name for name, _ in node.attributes]
+        known |= _declared_by(names)
+        yield from _unknown([node.tag, *names], known)
+        for child in node.content:
+            if isinstance(child, Node):
+                yield from unknown(child, known)
+
+    try:
+        nodes = nodes_of(text)
+    except RobotGeneratorError:
+        return
+    for node in nodes:
+        yield from unknown(node, known)
+
+
+def _declared_by(names: Iterable[str]) -> frozenset[str]:
+    return frozenset(name.removeprefix(_DECLARATION) for name in names if name.startswith(_DECLARATION))
+
+
+def _unknown(names: Iterable[str], known: frozenset[str]) -> Iterator[str]:
+    for name in names:
+        prefix, colon, _ = name.partition(":")
+        if colon and prefix not in known:
+            yield prefix
+
+
+def _told(prefixes: Iterable[str], where: SourceRef | None, key: str) -> Iterator[Diagnostic]:
+    for prefix in dict.fromkeys(prefixes):
+        yield UNDECLARED_PREFIX.at(where, key, prefix=prefix)
