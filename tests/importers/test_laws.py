@@ -1,0 +1,72 @@
+"""What holds for every robot that URDF can say: written as URDF, imported and compiled, it is the robot that it was."""
+
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+from xml.etree import ElementTree
+
+from hypothesis import given, settings
+
+from linkforge_compile import import_urdf, render_srdf, render_urdf
+from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.models.robot import Robot
+from tests.writers.test_laws import compiled, robots
+
+few = settings(max_examples=25, deadline=None)
+
+
+def said_by_urdf(robot: Robot) -> Robot:
+    """Return a robot without what an import says in another place: Gazebo's sensors, and materials of one visual."""
+    robot = robot.clone()
+    robot.links = [
+        replace(link, visuals=[replace(visual, material=None) for visual in link.visuals]) for link in robot.links
+    ]
+    robot.sensors, robot.gazebo_elements = (), ()
+    return robot
+
+
+def imported(robot: Robot) -> str:
+    with tempfile.TemporaryDirectory() as folder:
+        urdf, srdf = Path(folder) / "robot.urdf", Path(folder) / "robot.srdf"
+        urdf.write_text(render_urdf(robot), "utf-8")
+        srdf.write_text(render_srdf(robot), "utf-8")
+        read = import_urdf(urdf, srdf=srdf)
+    assert read.text is not None, read.diagnostics
+    assert not read.losses
+    return read.text
+
+
+def is_writable(robot: Robot) -> bool:
+    try:
+        render_urdf(robot), render_srdf(robot)
+    except RobotGeneratorError:
+        return False
+    return True
+
+
+def elements(document: str) -> object:
+    """Return what a document says: its elements in any order, for what is kept raw comes behind what is not."""
+    return _sorted(ElementTree.fromstring(document))
+
+
+def _sorted(element: ElementTree.Element) -> tuple[object, ...]:
+    children = sorted(map(_sorted, element), key=repr)
+    return element.tag, sorted(element.attrib.items()), (element.text or "").strip(), children
+
+
+@few
+@given(robots.map(said_by_urdf).filter(is_writable))
+def test_an_imported_robot_has_all_its_elements(robot: Robot):
+    again = compiled(imported(robot))
+    assert elements(render_urdf(again)) == elements(render_urdf(robot))
+    assert elements(render_srdf(again)) == elements(render_srdf(robot))
+
+
+@few
+@given(robots.map(said_by_urdf).filter(is_writable))
+def test_what_came_in_once_stays_as_it_is(robot: Robot):
+    first = compiled(imported(robot))
+    spec = imported(first)
+    second = compiled(spec)
+    assert (render_urdf(second), render_srdf(second)) == (render_urdf(first), render_srdf(first))
+    assert imported(second) == spec
