@@ -26,7 +26,7 @@ from linkforge_compile.modules.module_overrides import Body
 from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.own_names import asked_in
-from linkforge_compile.modules.uses import XACRO, UseSite, locate, mesh_base, name_from, open_use
+from linkforge_compile.modules.uses import XACRO, UseSite, locate, mesh_base, name_from, open_use, with_semantic
 from linkforge_compile.modules.variants import tell_unknown_variant, variants_of
 from linkforge_compile.schema.shapes import FREE, shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
@@ -156,6 +156,10 @@ class _Expansion:
             spec = open_use(site, self._shared.loader, sink)
         if spec is None:
             return _unread(entry)
+        if isinstance(srdf := entry.ref.node.child("srdf"), YamlScalar):
+            spec = with_semantic(spec, site, names.own.site(srdf.text, srdf.span), self._shared.loader, sink)
+            if spec is None:
+                return _unread(entry)
         given = Given(arguments, sink, entry.tree, entry.use.span)
         use = _Use(spec, given, entry, outer, _sites(outer, names))
         instance = self.instance(use) if self._is_bounded(use, sink) else None

@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
+from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, SRDF_BESIDE_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
+from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.source import Span
@@ -58,6 +59,27 @@ def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | Non
     target = locate(site, loader, sink)
     spec = loader.open(target.path, sink, package=target.package, used=site.used) if target else None
     return replace(spec, packages=site.packages) if spec and lowered.endswith(_URDF_ENDING) else spec
+
+
+def with_semantic(spec: SpecFile, use: UseSite, srdf: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:
+    """Return a vendor's robot with what its SRDF says; None where there is none, which is reported there."""
+    if use.text.lower().endswith(_SPEC_ENDINGS):
+        sink.report(SRDF_BESIDE_SPEC.at(srdf.where, path=use.text))
+        return None
+    target = locate(srdf, loader, sink)
+    file = loader.open_xml(target.path, sink, srdf.used) if target else None
+    if target is None or file is None:
+        return None
+    from linkforge_compile.importers.comments import Comments
+    from linkforge_compile.importers.document import Imported
+    from linkforge_compile.importers.srdf import with_srdf
+
+    read = with_srdf(Imported(spec.tree, Comments({}, {})), file, lambda _: (), used_from(sink, (srdf.where,)))
+    if read is None:
+        return None
+    tree = read[0].tree
+    part = SpecFile(file, tree, target.path.parent, target.package)
+    return replace(spec, tree=tree, included={**spec.included, file: part})
 
 
 def locate(site: UseSite, loader: Loader, sink: Diagnostics) -> Target | None:

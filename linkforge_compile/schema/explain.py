@@ -10,7 +10,6 @@ from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.schema import (
     MISSING_KEY,
     MISSING_VERSION,
-    NOT_BUILT_YET,
     OTHER_VERSION,
     UNKNOWN_KEY,
     UNKNOWN_WORD,
@@ -20,7 +19,6 @@ from linkforge_compile.diagnostics.codes.schema import (
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
-from linkforge_compile.schema.unbuilt import UNBUILT
 from linkforge_compile.schema.words import (
     COMMON_KEYS,
     alternatives,
@@ -93,22 +91,14 @@ def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:
     for entry in node if isinstance(node, YamlMap) else ():
         if entry.name in known or any(re.search(pattern, entry.name) for pattern in patterns):
             continue
-        if entry.name in UNBUILT.get(str(schema["title"]), ()):
-            yield _not_built(entry.key, path)
-        else:
-            yield Judgement(_unknown_key(entry.key, schema), (*path, entry.name))
-
-
-def _not_built(key: YamlScalar, owner: Path) -> Judgement:
-    diagnostic = NOT_BUILT_YET.at(key.span, name=key.text)
-    return Judgement(diagnostic, (*owner, key.text))
+        yield Judgement(_unknown_key(entry.key, schema), (*path, entry.name))
 
 
 def _unknown_key(key: YamlScalar, schema: Schema) -> Diagnostic:
     """Say where the key belongs, else which was meant, else which there are."""
     owner, known = str(schema["title"]), mapping(schema.get("properties", {}))
     own = [name for name in known if name not in COMMON_KEYS]
-    near = [*known, *sorted(UNBUILT.get(owner, ()))]
+    near = [*known]
     hint = _HINTS_FOR_OWNER.get((owner, key.text)) or _HINTS.get(key.text, "")
     parts = {name: part for name, part in known.items() if name not in _NOT_HOMES}
     if not hint and (homes := [f"'{name}'" for name, part in parts.items() if key.text in _keys_within(part)]):

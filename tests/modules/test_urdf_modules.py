@@ -168,3 +168,28 @@ def test_a_vendor_s_robot_moves_as_it_does_alone(name: str, tmp_path: Path):
             theirs = alone_data.oMf[alone.getFrameId(frame.name, frame.type)]
             assert np.allclose(ours.translation, theirs.translation + np.array([1, 2, 3]), atol=1e-12)
             assert np.allclose(ours.rotation, theirs.rotation, atol=1e-12)
+
+
+SRDF = """\
+<robot name="gripper">
+  <group name="fingers"><joint name="slide"/></group>
+  <group_state name="open" group="fingers"><joint name="slide" value="0.04"/></group_state>
+  <disable_collisions link1="palm" link2="finger" reason="Adjacent"/>
+</robot>
+"""
+
+
+def test_its_srdf_joins_under_the_prefix(tmp_path):
+    (tmp_path / "gripper.srdf").write_text(SRDF, "utf-8")
+    compilation = compiled(tmp_path, "left: {use: vendor/gripper.urdf, srdf: gripper.srdf, parent: table}")
+    semantic = compilation.result().semantic
+    assert [(group.name, group.joints) for group in semantic.groups] == [("left_fingers", ("left_slide",))]
+    assert [state.joint_values for state in semantic.group_states] == [{"left_slide": (0.04,)}]
+    assert [(pair.link1, pair.link2) for pair in semantic.disabled_collisions] == [("left_palm", "left_finger")]
+    assert "gripper.srdf" in {path.name for path in compilation.files}
+
+
+def test_what_is_wrong_with_its_srdf_is_told_in_it(tmp_path):
+    (tmp_path / "gripper.srdf").write_text(SRDF.replace('link2="finger"', 'link2="fingre"'), "utf-8")
+    compilation = compiled(tmp_path, "left: {use: vendor/gripper.urdf, srdf: gripper.srdf, parent: table}")
+    assert {Path(one.span.file.name).name for one in compilation.diagnostics} == {"gripper.srdf"}

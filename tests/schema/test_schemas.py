@@ -8,7 +8,6 @@ from jsonschema import Draft7Validator
 
 from linkforge_compile.schema.registry import Schema, definitions, load_files
 from linkforge_compile.schema.repetition import RAW, WORDS
-from linkforge_compile.schema.unbuilt import UNBUILT
 from linkforge_compile.units import Dimension, parse_quantity, units_of
 
 WHOLE = definitions()
@@ -112,12 +111,6 @@ def test_a_quantity_takes_every_unit_of_its_dimension_and_offers_right_ones(name
 @pytest.mark.parametrize("text", ["", "mm", "3", "3 mm 4", "three mm", "1,5 mm"])
 def test_what_is_no_number_with_a_unit_is_no_quantity(text: str):
     assert not re.search(WHOLE["length"]["pattern"], text)
-
-
-def test_keys_that_are_not_built_yet_have_owners_and_no_schema():
-    keys = {schema["title"]: set(schema.get("properties", {})) for _, schema in OBJECTS}
-    assert set(UNBUILT) <= set(keys)
-    assert not [(owner, key) for owner, unbuilt in UNBUILT.items() for key in unbuilt & keys[owner]]
 
 
 def test_owners_are_told_apart_by_their_titles():

@@ -22,6 +22,7 @@ MODULE_WITHOUT_FILE = Code("LF3010", _E, "module '{name}' has no 'use'; write 'u
 MODULE_FIELD = Code("LF3011", _E, "'{field}' of module '{name}' takes {expected}, found {found}")
 NOT_A_MODULE = Code("LF3015", _E, "module '{name}' is a map with 'use', found {found}")
 MODULES_NOT_MAP = Code("LF3016", _E, "'modules' is a map of modules by name, found {found}")
+SRDF_BESIDE_SPEC = Code("LF3017", _E, "'srdf' stands beside a URDF or a xacro; '{path}' has 'semantic' for it")
 USE_CIRCLE = Code("LF3012", _E, "modules use each other in a circle: {path}")
 USE_TOO_DEEP = Code("LF3013", _E, "modules are used inside modules more than {limit} deep")
 

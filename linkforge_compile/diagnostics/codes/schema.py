@@ -10,9 +10,6 @@ MISSING_VERSION = Code(
 OTHER_VERSION = Code("LF2002", Severity.ERROR, "'linkforge' takes 1, the version of the language, found {found}")
 MISSING_KEY = Code("LF2003", Severity.ERROR, "{owner} needs a '{name}'")
 UNKNOWN_KEY = Code("LF2101", Severity.ERROR, "'{name}' is not a key of {owner}{hint}", _WRITER)
-NOT_BUILT_YET = Code(
-    "LF2102", Severity.ERROR, "'{name}' is part of the language, but this version does not compile it yet"
-)
 WRONG_KIND = Code("LF2201", Severity.ERROR, "{field} takes {expected}, found {found}", _KIND)
 UNKNOWN_WORD = Code("LF2202", Severity.ERROR, "{field} takes {expected}, found '{name}'", _WRITER)
 WRONG_LENGTH = Code("LF2203", Severity.ERROR, "{field} takes {expected}, found {found}", _KIND)
