@@ -290,3 +290,21 @@ def test_a_fault_in_every_round_of_a_for_is_told_once_and_counted(tmp_path: Path
     told = refused(lambda _: HEAD + "  l_$(i): {for: {i: 2000}, inertial: {mass: $(-i - 1)}}\n", "LF5006", tmp_path)
     assert "more like this at the same place" in told
     assert told.count("[LF5006]") == 3
+
+
+def test_a_file_of_comments_that_ignore_is_read_in_time(tmp_path: Path):
+    write(
+        tmp_path,
+        "a.robot.yaml",
+        HEAD + "# linkforge: ignore\n" * 5_000 + "x-a: [\n" + "1, # linkforge: ignore\n" * 5_000 + "]\n",
+    )
+    done = run("check", "a.robot.yaml", folder=tmp_path)
+    assert (done.returncode, done.stderr.count("[LF1201]"), done.stderr.count("[LF3303]")) == (0, 99, 1), done.stderr[
+        -500:
+    ]
+
+
+def test_a_urdf_of_comments_is_imported_in_time(tmp_path: Path):
+    write(tmp_path, "a.urdf", "<robot name='r'><link name='a'/>" + "<!-- b -->\n" * 20_000 + "</robot>")
+    done = run("import", "a.urdf", folder=tmp_path)
+    assert (done.returncode, done.stdout.count("# b\n"), done.stderr) == (0, 20_000, "")

@@ -13,6 +13,7 @@ from linkforge_compile.diagnostics.codes.ignoring import (
     NOTHING_TO_IGNORE,
 )
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
+from linkforge_compile.diagnostics.sink import Diagnostics
 from linkforge_compile.source import Span
 
 
@@ -35,8 +36,13 @@ def heed(diagnostics: tuple[Diagnostic, ...], ignores: tuple[Ignore, ...], *, is
     asked = {(ignore.span.file.name, ignore.line, code) for ignore in ignores for code, _ in ignore.codes}
     ignored = {_key(one) for one in diagnostics if one.severity is not Severity.ERROR} & asked
     kept = [one for one in diagnostics if one.severity is Severity.ERROR or _key(one) not in ignored]
-    faults = {str(fault): fault for ignore in ignores for fault in _faults(ignore, ignored, is_whole)}
-    return tuple(sorted((*kept, *faults.values()), key=lambda one: one.order))
+    # A file may be all comments: no more is told of them than of anything else.
+    faults, told = Diagnostics(), set()
+    for fault in (fault for ignore in ignores for fault in _faults(ignore, ignored, is_whole)):
+        if (line := hash(str(fault))) not in told:
+            told.add(line)
+            faults.report(fault)
+    return tuple(sorted((*kept, *faults.sorted()), key=lambda one: one.order))
 
 
 def _key(diagnostic: Diagnostic) -> tuple[str, int, str]:

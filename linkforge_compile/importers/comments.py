@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterator
+from itertools import accumulate
 from textwrap import dedent
 from typing import NamedTuple
 
 from linkforge_compile.importers.draft import Draft
-from linkforge_compile.importers.xml import XmlComment, XmlContent, XmlDocument, XmlElement
+from linkforge_compile.importers.xml import XmlComment, XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode
 
 
@@ -28,24 +30,28 @@ def placed_comments(document: XmlDocument, draft: Draft, tree: YamlMap) -> Comme
         elif item is document.root:
             placing.comments_of(document.root, None)
             above = None
-    return Comments(placing.above, placing.endings)
+    return Comments(_joined(placing.above), _joined(placing.endings))
 
 
 class _Placing:
     def __init__(self, draft: Draft, tree: YamlMap) -> None:
-        self.above: dict[YamlNode, str] = {}
-        self.endings: dict[YamlNode, str] = {}
+        self.above: defaultdict[YamlNode, list[str]] = defaultdict(list)
+        self.endings: defaultdict[YamlNode, list[str]] = defaultdict(list)
         self._draft, self._tree = draft, tree
         # What was made and then said by a shorter form, or not at all, has no place.
         self._present = set(_nodes(tree))
 
     def comments_of(self, element: XmlElement, holder: YamlNode | None) -> None:
         """Place the comments in an element; `holder` is the nearest key or item that the text has for it."""
-        for place, item in enumerate(element.content):
+        keys = [self._key(item) if isinstance(item, XmlElement) else None for item in element.content]
+        # Of each place the nearest key before it and behind it, in one pass each: a file may be all comments.
+        before = accumulate(keys, _latest)
+        behind = list(accumulate(reversed(keys), _latest))[::-1]
+        for item, key, last, following in zip(element.content, keys, before, behind, strict=True):
             if isinstance(item, XmlComment):
-                self._comment(item, element, place, holder)
+                near = last if item.follows and last is not None else following
+                self._comment(item, element, near, holder)
             elif isinstance(item, XmlElement) and item not in self._draft.raw:
-                key = self._key(item)
                 self.comments_of(item, holder if key is None else key)
 
     def put(self, comment: XmlComment, above: YamlNode | None, ending: YamlNode | None = None) -> None:
@@ -53,25 +59,30 @@ class _Placing:
         comments, node = (self.endings, ending or self._tree) if above is None else (self.above, above)
         text = _text(comment.text)
         if text:
-            comments[node] = f"{comments[node]}\n{text}" if node in comments else text
+            comments[node].append(text)
 
-    def _comment(self, comment: XmlComment, element: XmlElement, place: int, holder: YamlNode | None) -> None:
-        if comment.follows and (before := self._nearest(element.content[place - 1 :: -1])) is not None:
-            self.put(comment, before)
-        elif (behind := self._nearest(element.content[place + 1 :])) is not None:
-            self.put(comment, behind)
+    def _comment(
+        self, comment: XmlComment, element: XmlElement, near: YamlNode | None, holder: YamlNode | None
+    ) -> None:
+        body = self._draft.bodies.get(element)
+        if near is not None:
+            self.put(comment, near)
+        elif isinstance(body, YamlMap) and len(body) > 0 and body in self._present:
+            self.put(comment, None, body)
         else:
-            body = self._draft.bodies.get(element)
-            has_end = isinstance(body, YamlMap) and len(body) > 0 and body in self._present
-            self.put(comment, None if has_end else holder, body if has_end else None)
-
-    def _nearest(self, content: Sequence[XmlContent]) -> YamlNode | None:
-        keys = (self._key(item) for item in content if isinstance(item, XmlElement))
-        return next((key for key in keys if key is not None), None)
+            self.put(comment, holder)
 
     def _key(self, element: XmlElement) -> YamlNode | None:
         key = self._draft.keys.get(element)
         return key if key in self._present else None
+
+
+def _latest(last: YamlNode | None, key: YamlNode | None) -> YamlNode | None:
+    return last if key is None else key
+
+
+def _joined(comments: dict[YamlNode, list[str]]) -> dict[YamlNode, str]:
+    return {node: "\n".join(texts) for node, texts in comments.items()}
 
 
 def _nodes(node: YamlNode) -> Iterator[YamlNode]:

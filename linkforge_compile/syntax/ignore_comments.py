@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from bisect import bisect_right
+from collections.abc import Callable, Iterator
 
 import yaml
 from yaml.events import ScalarEvent
@@ -31,27 +32,41 @@ def ignore_comments(file: SourceFile) -> Iterator[Ignore]:
     found = list(_COMMENT.finditer(marks.text))
     if not found or (texts := _texts(marks)) is None:
         return
+    starts, line_meant = [text.start for text in texts], _lines_meant(file)
     for comment in found:
         span = marks.part(comment.start(), len(comment[0]))
-        if any(text.start <= span.start < text.end for text in texts):
+        before = bisect_right(starts, span.start)
+        if before and span.start < texts[before - 1].end:
             continue
         codes = (
             (code[0], marks.part(code.start(), len(code[0])))
             for code in _CODE.finditer(marks.text, *comment.span("codes"))
         )
-        yield Ignore(span, _line_meant(file, span), tuple(codes))
+        yield Ignore(span, line_meant(span.line), tuple(codes))
 
 
-def _line_meant(file: SourceFile, comment: Span) -> int:
-    """Return the line that a comment is about: its own, or where it has no other words the next that has some."""
-    line = comment.line
-    while line < len(file.lines) and _NOTHING_BUT_COMMENT.fullmatch(file.line(line)):
-        line += 1
-    return line
+def _lines_meant(file: SourceFile) -> Callable[[int], int]:
+    """Return what gives the line that a comment on a line is about: that, or the next that has other words.
+
+    It is asked for lines from the first to the last, and looks at each line once, however many comments there are.
+    """
+    meant = 0
+
+    def line_meant(line: int) -> int:
+        nonlocal meant
+        meant = max(meant, line)
+        while meant < len(file.lines) and _NOTHING_BUT_COMMENT.fullmatch(file.line(meant)):
+            meant += 1
+        return meant
+
+    return line_meant
 
 
 def _texts(marks: Marks) -> tuple[Span, ...] | None:
-    """Return where the file's scalars are: what looks like a comment in them is none. None for what is no YAML."""
+    """Return where the file's scalars are, in its order: what looks like a comment in them is none.
+
+    None for what is no YAML.
+    """
     for parser in (PARSER, yaml.BaseLoader):
         try:
             events = yaml.parse(marks.text, Loader=parser)
