@@ -216,32 +216,39 @@ class Import:
         return tuple(diagnostic for diagnostic in self.diagnostics if diagnostic.code in LOSSES)
 
 
-def import_urdf(path: str | Path, *, srdf: str | Path | None = None) -> Import:
+def import_urdf(path: str | Path, *, srdf: str | Path | None = None, arguments: Parameters = ()) -> Import:
     """Read a URDF file, and the SRDF of the same robot, as a spec that compiles to the same robot.
 
-    Its errors are told where those files have them.
+    Its errors are told where those files have them. A xacro file is expanded with the arguments first.
     """
-    return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf)))
+    return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), arguments))
 
 
-def _imported(urdf: Path, srdf: Path | None) -> Import:
+def _imported(urdf: Path, srdf: Path | None, given: Parameters) -> Import:
     sink = Diagnostics()
     try:
-        text = _imported_text(urdf, srdf, sink)
+        text = _imported_text(urdf, srdf, given, sink)
     except BeyondLimitError as beyond:
         sink.end(beyond)
         text = None
     return Import(text, sink.sorted())
 
 
-def _imported_text(urdf: Path, srdf: Path | None, sink: Diagnostics) -> str | None:
+def _imported_text(urdf: Path, srdf: Path | None, given: Parameters, sink: Diagnostics) -> str | None:
     from linkforge_compile.importers.srdf import with_srdf
     from linkforge_compile.importers.urdf import read_urdf
     from linkforge_compile.syntax import write
 
     loader = Loader()
-    file = loader.open_xml(urdf, sink)
-    robot = read_urdf(file, sink) if file else None
+    if urdf.suffix.lower() == XACRO:
+        from linkforge_compile.modules.xacro import XacroUse, read_xacro
+
+        arguments = _Settings(given, None, None, "gz").arguments(sink)
+        expanded = read_xacro(XacroUse(urdf, Used(str(urdf), None), arguments), loader, sink)
+        file, robot = (expanded.file, expanded.imported) if expanded else (None, None)
+    else:
+        file = loader.open_xml(urdf, sink)
+        robot = read_urdf(file, sink) if file else None
     semantic = loader.open_xml(srdf, sink) if robot and srdf else None
     if file is None or robot is None or (srdf and semantic is None):
         return None

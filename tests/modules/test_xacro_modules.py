@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile import Compilation, compile_file
+from linkforge_compile import Compilation, compile_file, compile_text, import_urdf
 
 pytest.importorskip("xacro")
 
@@ -207,3 +207,10 @@ def test_a_xacro_compiles_alone_with_the_arguments_of_the_command_line(vendor):
     robot = compilation.result()
     assert robot.joint("lower_joint").origin.xyz.z == 0.8
     assert robot.joint("lower_joint").source.span.file.name.endswith("segment.xacro")
+
+
+def test_a_xacro_is_imported_as_what_it_expands_to(vendor):
+    (vendor / "package.xml").write_text("<package><name>arm_parts</name></package>", "utf-8")
+    imported = import_urdf(vendor / "urdf" / "arm.urdf.xacro", arguments=["reach:=0.8"])
+    assert imported.text is not None, imported.diagnostics
+    assert compile_text(imported.text).result().joint("lower_joint").origin.xyz.z == 0.8

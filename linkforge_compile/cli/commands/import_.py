@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import one_spec
+from linkforge_compile.cli.options import split_assignments
 from linkforge_compile.cli.telling import add_telling_options, say, tell
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ examples:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.usage = "linkforge import [options] ROBOT.urdf"
+    parser.usage = "linkforge import [options] ROBOT.urdf | ROBOT.urdf.xacro [ARGUMENT:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument("words", metavar="ROBOT.urdf", nargs="+", help="the robot; a xacro is expanded first")
     parser.add_argument("--srdf", metavar="ROBOT.srdf", help="what planners know of the same robot")
@@ -34,14 +35,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    urdf = one_spec(arguments.words)
+    files, assignments = split_assignments(arguments.words)
+    urdf = one_spec(files)
     sources = {Path(file).resolve() for file in (urdf, arguments.srdf) if file is not None}
     if arguments.output is not None and Path(arguments.output).resolve() in sources:
         raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
     from linkforge_compile.pipeline import import_urdf
 
-    imported = import_urdf(urdf, srdf=arguments.srdf)
+    imported = import_urdf(urdf, srdf=arguments.srdf, arguments=assignments)
     is_faulty = tell(imported.diagnostics, arguments) or imported.has_errors
     if imported.text is None or (arguments.strict and (imported.losses or is_faulty)):
         return FAULTY_SPEC
