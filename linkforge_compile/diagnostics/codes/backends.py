@@ -30,7 +30,7 @@ MESH_BESIDE_THE_SPEC = Code(
     "write 'package://NAME/PATH', or the URDF into '{back}'",
 )
 UNDECLARED_PREFIX = Code(
-    "LF7006",
+    "LF7007",
     Severity.ERROR,
     "no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into the robot's 'extra_attributes'",
 )
