@@ -59,6 +59,7 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     meshes.check_fine_collisions,
     sensors.check_sensor_links,
     sensors.check_sensor_frames,
+    sensors.check_contacts,
     sensors.check_topics,
     sensors.check_shared_topics,
     hardware.check_transmission_joints,

@@ -8,7 +8,13 @@ from collections.abc import Iterator
 from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
-from linkforge_compile.diagnostics.codes.names import REFUSED_TOPIC, SHARED_TOPIC, UNKNOWN_FRAME, UNKNOWN_LINK
+from linkforge_compile.diagnostics.codes.names import (
+    REFUSED_TOPIC,
+    SHARED_TOPIC,
+    UNKNOWN_COLLISION,
+    UNKNOWN_FRAME,
+    UNKNOWN_LINK,
+)
 
 _STRANGE = re.compile(r"[^A-Za-z0-9_/~{}]")
 _SUBSTITUTION = re.compile(r"\{[A-Za-z_][A-Za-z0-9_]*\}")
@@ -38,6 +44,27 @@ def check_sensor_frames(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
         if sensor.frame
     )
     yield from unknown(frames, UNKNOWN_FRAME, robot.links.names, gaps)
+
+
+def check_contacts(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+    """A contact sensor watches a collision of the robot, by that collision's name.
+
+    Gazebo makes a sensor for a collision that it does not know, and it never reports a contact. On loading a URDF it
+    also makes names of its own, of the link and `_collision`, and others where it merges fixed joints: names that may
+    be such are not told.
+    """
+    names = [collision.name for link in robot.links for collision in link.collisions if collision.name]
+    contacts = (
+        Use(sensor.contact_info.collision, f"sensor '{sensor.name}'", sensor.contact_info.source, ("collision",))
+        for sensor in robot.sensors
+        if sensor.contact_info and not _may_be_made(sensor.contact_info.collision, robot)
+    )
+    yield from unknown(contacts, UNKNOWN_COLLISION, names, gaps)
+
+
+def _may_be_made(name: str, robot: Robot) -> bool:
+    link, made, _ = name.partition("_collision")
+    return "_lump__" in name or bool(made and link in robot.links)
 
 
 def check_topics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

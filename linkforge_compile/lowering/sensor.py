@@ -74,6 +74,7 @@ def _sensor(fields: Fields, name: str) -> Sensor | None:
     always_on, visualize = fields.flag("always_on"), fields.flag("visualize")
     origin, topic, frame = fields.origin(), fields.text("topic"), fields.text("frame")
     plugin = fields.map("plugin")
+    lowered_plugin, extras = lower_plugin(plugin) if plugin else None, extras_of(fields)
     own = _OWN_INFO.get(sensor_type) if sensor_type else None
     infos = _infos(fields, own)
     if sensor_type is None or link is None or (own and getattr(infos, own) is None):
@@ -89,10 +90,10 @@ def _sensor(fields: Fields, name: str) -> Sensor | None:
             *infos,
             origin,
             topic,
-            lower_plugin(plugin) if plugin else None,
+            lowered_plugin,
             frame=frame,
             source=fields.ref,
-            **extras_of(fields),
+            **extras,
         )
     )
 
@@ -122,11 +123,11 @@ def _camera(info: Fields) -> CameraInfo | None:
     unsaid = CameraInfo()
     return info.build(
         lambda: CameraInfo(
-            or_default(info.number("horizontal_fov", Dimension.ANGLE), unsaid.horizontal_fov),
-            or_default(info.integer("width"), unsaid.width),
-            or_default(info.integer("height"), unsaid.height),
+            or_default(info.number("horizontal_fov", Dimension.ANGLE, bound=ABOVE_ZERO), unsaid.horizontal_fov),
+            or_default(info.integer("width", bound=ABOVE_ZERO), unsaid.width),
+            or_default(info.integer("height", bound=ABOVE_ZERO), unsaid.height),
             or_default(info.text("format"), unsaid.format),
-            or_default(info.number("near_clip", Dimension.LENGTH), unsaid.near_clip),
+            or_default(info.number("near_clip", Dimension.LENGTH, bound=ABOVE_ZERO), unsaid.near_clip),
             or_default(_sight(info, "far_clip"), unsaid.far_clip),
             _noise(info, "noise"),
             source=info.ref,
@@ -145,7 +146,7 @@ def _lidar(info: Fields) -> LidarInfo | None:
     unsaid = LidarInfo()
     return info.build(
         lambda: LidarInfo(
-            or_default(info.integer("horizontal_samples"), unsaid.horizontal_samples),
+            or_default(info.integer("horizontal_samples", bound=ABOVE_ZERO), unsaid.horizontal_samples),
             or_default(info.number("horizontal_resolution"), unsaid.horizontal_resolution),
             or_default(info.number("horizontal_min_angle", Dimension.ANGLE), unsaid.horizontal_min_angle),
             or_default(info.number("horizontal_max_angle", Dimension.ANGLE), unsaid.horizontal_max_angle),
@@ -153,9 +154,9 @@ def _lidar(info: Fields) -> LidarInfo | None:
             or_default(info.number("vertical_resolution"), unsaid.vertical_resolution),
             or_default(info.number("vertical_min_angle", Dimension.ANGLE), unsaid.vertical_min_angle),
             or_default(info.number("vertical_max_angle", Dimension.ANGLE), unsaid.vertical_max_angle),
-            or_default(info.number("range_min", Dimension.LENGTH), unsaid.range_min),
+            or_default(info.number("range_min", Dimension.LENGTH, bound=ABOVE_ZERO), unsaid.range_min),
             or_default(_sight(info, "range_max"), unsaid.range_max),
-            or_default(info.number("range_resolution", Dimension.LENGTH), unsaid.range_resolution),
+            or_default(info.number("range_resolution", Dimension.LENGTH, bound=ABOVE_ZERO), unsaid.range_resolution),
             _noise(info, "noise", Dimension.LENGTH),
             source=info.ref,
             **extras_of(info),

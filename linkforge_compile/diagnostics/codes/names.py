@@ -31,3 +31,4 @@ SHARED_TOPIC = Code("LF4109", Severity.WARNING, "sensors '{first}' and '{second}
 UNKNOWN_GAZEBO_REFERENCE = Code("LF4201", Severity.WARNING, "no link or joint named '{name}'")
 UNKNOWN_FRAME = Code("LF4202", Severity.WARNING, "no link named '{name}', so tf2 cannot tell where this frame is")
 UNKNOWN_PLUGIN_JOINT = Code("LF4203", Severity.NOTE, "no joint named '{name}' for plugin '{plugin}'")
+UNKNOWN_COLLISION = Code("LF4204", Severity.WARNING, "no collision named '{name}', so this sensor will touch nothing")
