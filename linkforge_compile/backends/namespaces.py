@@ -19,7 +19,7 @@ _DECLARATION = "xmlns:"
 
 
 def undeclared_prefixes(root: Extended, parts: object) -> Iterator[Diagnostic]:
-    """Yield an error for each prefix in a root element or its parts, at any depth, that is not declared around it."""
+    """Yield a warning for each prefix in a root element or its parts, at any depth, that is not declared around it."""
     known = _OF_XML | _declared_by(_names(root))
     yield from _in_extras(root, known, root.source)
     yield from _in_part(parts, known, root.source)

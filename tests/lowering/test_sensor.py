@@ -57,8 +57,8 @@ def test_an_info_that_says_nothing_is_one():
     assert sensor("type: imu, link: base, imu: {}").imu_info == IMUInfo()
 
 
-def test_a_faulty_sensor_is_told_whole_and_left_out():
-    assert not robot_of("""
+def test_a_faulty_sensor_is_told_whole_and_others_may_still_name_it():
+    assert robot_of("""
         name: cart
         links: {base: }
         sensors:

@@ -31,7 +31,7 @@ MESH_BESIDE_THE_SPEC = Code(
 )
 UNDECLARED_PREFIX = Code(
     "LF7007",
-    Severity.ERROR,
+    Severity.WARNING,
     "no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into the robot's 'extra_attributes'",
 )
 NO_JOINT_TO_SENSE = Code(
