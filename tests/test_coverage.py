@@ -49,6 +49,7 @@ class Said(NamedTuple):
 
 
 KEY = {"name": "the key of its entry"}
+STATED = {"stated": "which keys are there though they say the default"}
 INFOS = {f"{info}_info": info for info in ("camera", "lidar", "imu", "gps", "contact", "force_torque")}
 
 LANGUAGE: dict[type, Said] = {
@@ -62,12 +63,17 @@ LANGUAGE: dict[type, Said] = {
         frozenset({"linkforge", "description", "parameters", "variables", "data", "variants", "packages", "include"})
         | {"defaults", "frames", "mount", "modules"},
     ),
-    link.Link: Said(("a link",), {"visuals": "visual", "collisions": "collision"}, KEY, frozenset({"gazebo"})),
+    link.Link: Said(
+        ("a link",),
+        {"visuals": "visual", "collisions": "collision"},
+        {**KEY, "collisions_first": "whether `collision` stands before `visual`"},
+        frozenset({"gazebo"}),
+    ),
     link.Visual: Said(("a visual",), {"geometry": SHAPES}),
     link.Collision: Said(("a collision",), {"geometry": SHAPES}),
     link.Inertial: Said(("an inertial",), only_in_the_schema=frozenset({"density"})),
     link.InertiaTensor: Said(("an inertia tensor",)),
-    link.LinkPhysics: Said(("a link's physics",), {}, {"stated": "which keys are there though they say the default"}),
+    link.LinkPhysics: Said(("a link's physics",), {}, STATED),
     geometry.Vector3: Said((), {}, dict.fromkeys("xyz", "its place in a list of three numbers")),
     geometry.Transform: Said(("an origin",)),
     geometry.Box: Said(("a box",)),
@@ -89,7 +95,7 @@ LANGUAGE: dict[type, Said] = {
     joint.JointSafetyController: Said(("a joint's safety controller",)),
     joint.JointCalibration: Said(("a joint's calibration",)),
     measuring.Sensor: Said(("a sensor",), {"link_name": "link", **INFOS}, KEY),
-    measuring.SensorNoise: Said(("a noise",)),
+    measuring.SensorNoise: Said(("a noise",), {}, STATED),
     measuring.CameraInfo: Said(("a camera's picture",)),
     measuring.LidarInfo: Said(("a laser scanner's rays",)),
     measuring.IMUInfo: Said(("an inertial unit's noise",)),
@@ -97,8 +103,8 @@ LANGUAGE: dict[type, Said] = {
     measuring.ContactInfo: Said(("what a contact sensor feels with",)),
     measuring.ForceTorqueInfo: Said(("how a force and torque sensor measures",)),
     driving.Transmission: Said(("a transmission",), {}, KEY),
-    driving.TransmissionJoint: Said(("a joint of a transmission",), {}, KEY),
-    driving.TransmissionActuator: Said(("an actuator",), {}, KEY),
+    driving.TransmissionJoint: Said(("a joint of a transmission",), {}, KEY | STATED),
+    driving.TransmissionActuator: Said(("an actuator",), {}, KEY | STATED),
     rc.Ros2Control: Said(("a ros2_control block",), {}, KEY),
     rc.Ros2ControlJoint: Said(("a joint of ros2_control",), {}, KEY),
     rc.Ros2ControlSensor: Said(("a sensor of ros2_control",), {}, KEY),

@@ -18,7 +18,7 @@ from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, Ya
 from linkforge_compile.units import Dimension, Quantity
 
 ELSEWHERE = {"linkforge", "description", "parameters", "variables", "data", "variants", "packages", "defaults"}
-ELSEWHERE |= {"modules", "use", "prefix", "with", "override"}
+ELSEWHERE |= {"modules", "use", "srdf", "prefix", "with", "override"}
 """Keys that the stages before lowering read, or that only people do."""
 
 

@@ -41,7 +41,6 @@ SENTENCES = {
         "'stick' is not a key of a joint's dynamics; its keys are damping and friction"
     ),
     "sensor: {}": "'sensor' is not a key of a robot; did you mean 'sensors'?",
-    "modules: {arm: {srdf: arm.srdf}}": "'srdf' is part of the language, but this version does not compile it yet",
     "sensors: {eye: {width: 640}}": "'width' is not a key of a sensor; it belongs under 'camera'",
     "sensors: {eye: {type: lidar, lidar: {noise: 3}}}": (
         "'noise' takes a map of type, mean, stddev, bias_mean and bias_stddev, found 3"
