@@ -333,8 +333,8 @@ def _robot(spec: SpecFile, settings: _Settings, loader: Loader, meshes: MeshSoli
     arguments = settings.arguments(sink)
     instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant)
     lowered = lower(instance, sink, meshes)
-    for component in lowered.unmerged:
-        sink.report_all(check(component, Gaps()))
+    for alone in lowered.unmerged:
+        sink.report_all(check(alone.robot, Gaps(removed=alone.removed)))
     if lowered.robot is not None:
         sink.report_all(check(lowered.robot, lowered.gaps))
         sink.report_all(urdf_limits(lowered.robot, gazebo=settings.gazebo))

@@ -84,7 +84,10 @@ def check_single_root(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     strays = [link for link in roots if link is not root]
     yield SEVERAL_ROOTS.at(
         _missing_joint(strays[0], root),
-        notes=[_beginning(link, below[link.name]) for link in (root, *strays)[:SHOWN]],
+        notes=[
+            *_base_by_omission(strays[0], root),
+            *(_beginning(link, below[link.name]) for link in (root, *strays)[:SHOWN]),
+        ],
         count=len(roots),
         roots=listed([link.name for link in roots]),
         strays=listed([link.name for link in strays]),
@@ -98,6 +101,14 @@ def _missing_joint(stray: Link, root: Link) -> Where:
     of_root = root.source.trail if root.source else ()
     uses = [use for use in trail if use not in of_root]
     return uses[-1] if uses else stray.source
+
+
+def _base_by_omission(stray: Link, root: Link) -> Iterator[Note]:
+    """Yield the other way out where the root came with a module, which hangs on nothing."""
+    of_stray = stray.source.trail if stray.source else ()
+    uses = [use for use in (root.source.trail if root.source else ()) if use not in of_stray]
+    if uses:
+        yield Note(f"or hang this module, which has no 'parent' and so is the base: 'parent: {stray.name}'", uses[-1])
 
 
 def _links_below(root: str, graph: Graph) -> int:

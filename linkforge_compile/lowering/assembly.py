@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.graph import refuse_cycles
@@ -31,11 +31,22 @@ PartKey: TypeAlias = tuple[str, Hashable]
 """What no two parts of a robot may share: a kind, "link", and the name or whatever else tells its parts apart."""
 
 
+class Unmerged(NamedTuple):
+    """The robot of a module that could not be joined, free of gaps, and why it lacks what it was told to leave out."""
+
+    robot: Robot
+    removed: Removed
+
+    @property
+    def name(self) -> str:
+        return self.robot.name
+
+
 @dataclass(frozen=True, slots=True)
 class Lowered:
     """What lowering makes of an instance and of all its modules.
 
-    `robot` is None where its file could not be read. `unmerged` are the robots of modules, each free of gaps,
+    `robot` is None where its file could not be read. `unmerged` are the robots of modules
     that could not be joined to it because they are no tree or repeat a name: checking them alone tells why.
     `gaps` names what the robot lacks because of faults, the parts of `unmerged` among them.
     `mount` is the joint by which it hangs where it is used, with `world` for the link that it hangs on.
@@ -43,7 +54,7 @@ class Lowered:
     """
 
     robot: Robot | None
-    unmerged: tuple[Robot, ...]
+    unmerged: tuple[Unmerged, ...]
     gaps: Gaps
     under_a_prefix: tuple[Diagnostic, ...] = ()
     mount: ModuleJoint | None = None
@@ -78,7 +89,7 @@ class _Fold:
         self._states = file.states
         self._gaps = file.gaps | Gaps(removed=instance.removed)
         self._sink = sink
-        self._unmerged: list[Robot] = []
+        self._unmerged: list[Unmerged] = []
         self._parts = dict(_parts(file.robot))
         self._parts.update((("group state", state.key), state.fields.ref) for state in file.states)
         self._owners: dict[PartKey, Instance] = {}
@@ -106,10 +117,11 @@ class _Fold:
             joined = self._leave_out(component, module.prefix, lowered.gaps)
         elif clashes := tuple(self._clashes(component)):
             self._sink.report_all(told_of_clashes(module, clashes))
-            joined = self._leave_out(component, "", lowered.gaps)
+            joined = self._leave_out(component, "", lowered.gaps.with_prefix(module.prefix))
         else:
             held = hanging is not None or final_root in self._held
-            joined = self._join(component, module, lowered.gaps, final_root if held else None)
+            gaps = lowered.gaps.with_prefix(module.prefix)
+            joined = self._join(component, module, gaps, final_root if held else None)
         if hanging and not (joined and self._connect(hanging)):
             self._gaps |= gaps_of([hanging.name])
 
@@ -232,7 +244,7 @@ class _Fold:
         names = (key for (_, key), _ in _parts(component) if isinstance(key, str))
         self._gaps |= Gaps(frozenset(prefix + name for name in names))
         if not gaps:
-            self._unmerged.append(component)
+            self._unmerged.append(Unmerged(component, gaps.removed))
         return False
 
 

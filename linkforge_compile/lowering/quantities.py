@@ -48,6 +48,7 @@ class Bound:
 ABOVE_ZERO = Bound("above 0", lambda value: value > 0)
 NOT_NEGATIVE = Bound("0 or above", lambda value: value >= 0)
 NOT_ZERO = Bound("other than 0", lambda value: value != 0)
+UP_TO_HALF_A_TURN = Bound("above 0 and at most pi", lambda value: 0 < value <= math.pi * (1 + 1e-9))
 ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1)
 
 

@@ -21,7 +21,7 @@ from linkforge_compile.core.models.sensor import (
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.gazebo import lower_plugin
-from linkforge_compile.lowering.quantities import ABOVE_ZERO, Measure
+from linkforge_compile.lowering.quantities import ABOVE_ZERO, UP_TO_HALF_A_TURN, Measure
 from linkforge_compile.units import Dimension
 
 T = TypeVar("T")
@@ -123,7 +123,7 @@ def _camera(info: Fields) -> CameraInfo | None:
     unsaid = CameraInfo()
     return info.build(
         lambda: CameraInfo(
-            or_default(info.number("horizontal_fov", Dimension.ANGLE, bound=ABOVE_ZERO), unsaid.horizontal_fov),
+            or_default(info.number("horizontal_fov", Dimension.ANGLE, bound=UP_TO_HALF_A_TURN), unsaid.horizontal_fov),
             or_default(info.integer("width", bound=ABOVE_ZERO), unsaid.width),
             or_default(info.integer("height", bound=ABOVE_ZERO), unsaid.height),
             or_default(info.text("format"), unsaid.format),

@@ -184,7 +184,7 @@ def test_a_module_that_is_no_tree_is_handed_out_for_its_own_check():
         )
     )
     (unmerged,) = result.unmerged
-    assert names(unmerged.links) == ["palm", "finger"]
+    assert names(unmerged.robot.links) == ["palm", "finger"]
     assert all(name in result.gaps for name in ("left_palm", "left_finger", "left_hand", "left_joint"))
     assert names(result.robot.links) == ["torso"]
 
