@@ -74,8 +74,10 @@ def check_mesh_files(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     """
     finder = MeshFinder(robot)
     missing: dict[Path, list[MeshUse]] = {}
-    for use in {(use.mesh.resource, use.mesh.scale): use for use in reversed(_mesh_uses(robot))}.values():
-        path = None if _is_read_for_inertia(use) else finder.path(use.mesh.resource)
+    every = _mesh_uses(robot)
+    read_already = {use.mesh.resource for use in every if _is_read_for_inertia(use)}
+    for use in {(use.mesh.resource, use.mesh.scale): use for use in reversed(every)}.values():
+        path = None if use.mesh.resource in read_already else finder.path(use.mesh.resource)
         if path and finder.names_instead_of(path) is not None:
             missing.setdefault(path if path.parent.is_dir() else path.parent, []).append(use)
         elif path and (diagnostic := _fault_in(look_at(path), use.mesh)):

@@ -101,7 +101,9 @@ class Loader:
             if text is None:
                 return None
             source = self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
-            self._specs[real] = _urdf(source, sink, used) if is_urdf else self._whole(source, path.parent, sink)
+            # A file that is used twice is read once: what is wrong in it is told with its first use.
+            inside = used_from(sink, (used.where,) if used and used.where else ())
+            self._specs[real] = _urdf(source, inside) if is_urdf else self._whole(source, path.parent, inside)
         whole = self._specs[real]
         return _spec(whole, path.parent, package) if whole else None
 
@@ -160,11 +162,11 @@ class Loader:
         return judge_places(validate(tree, sink, is_included=source.included is not None), sink)
 
 
-def _urdf(source: SourceFile, sink: Diagnostics, used: Used | None) -> Whole | None:
-    """Read a URDF as a spec; what is wrong with it is told where it has it, with its first use."""
+def _urdf(source: SourceFile, sink: Diagnostics) -> Whole | None:
+    """Read a URDF as a spec; what is wrong with it is told where it has it."""
     from linkforge_compile.importers.urdf import read_urdf
 
-    imported = read_urdf(source, used_from(sink, (used.where,) if used and used.where else ()))
+    imported = read_urdf(source, sink)
     return Whole(source, imported.tree) if imported else None
 
 
