@@ -126,7 +126,11 @@ def test_the_family_has_the_vendors_ur5e_in_it(variant: str | None, name: str, s
 def test_a_model_of_the_family_reaches_as_far_as_its_published_dimensions_say(
     model: str, dimensions: tuple[float, ...]
 ):
-    """The Denavit-Hartenberg parameters give the tool at joint angles 0; our x and y are the controller's turned."""
+    """The Denavit-Hartenberg parameters give the tool at joint angles 0; our x and y are the controller's turned.
+
+    They are Universal Robots' own, from "DH Parameters for calculations of kinematics and dynamics"
+    (universal-robots.com, articles, application installation).
+    """
     pinocchio = pytest.importorskip("pinocchio")
     family = compile_file(ROOT / "examples" / "04_ur_family" / "ur.robot.yaml", parameters={"model": model})
     assert not family.diagnostics
