@@ -21,15 +21,14 @@ if TYPE_CHECKING:
     from linkforge_compile.backends.source_map import SourceMap, render_srdf_with_map, render_urdf_with_map
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
+    from linkforge_compile.importing import Import, import_urdf
     from linkforge_compile.pipeline import (
         Compilation,
         CompileError,
-        Import,
         check_file,
         check_text,
         compile_file,
         compile_text,
-        import_urdf,
     )
     from linkforge_compile.source import Span
     from linkforge_compile.writers import write_spec
@@ -62,7 +61,7 @@ _HOMES = {
     "CompileError": "pipeline",
     "Diagnostic": "diagnostics",
     "Diagnostics": "diagnostics",
-    "Import": "pipeline",
+    "Import": "importing",
     "Robot": "core",
     "Severity": "diagnostics",
     "SourceMap": "backends.source_map",
@@ -71,7 +70,7 @@ _HOMES = {
     "check_text": "pipeline",
     "compile_file": "pipeline",
     "compile_text": "pipeline",
-    "import_urdf": "pipeline",
+    "import_urdf": "importing",
     "render_srdf": "backends",
     "render_srdf_with_map": "backends.source_map",
     "render_urdf": "backends",

@@ -6,15 +6,13 @@ Values flow down, faults flow sideways into the sink, and no stage stops the lin
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.checks import check
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Gaps, Severity
-from linkforge_compile.diagnostics.codes.importing import LOSSES
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.diagnostics.ignores import heed
 from linkforge_compile.lowering import MeshSolids, lower
@@ -40,24 +38,23 @@ from linkforge_compile.syntax import ignore_comments
 if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
-    from linkforge_compile.syntax import YamlMap
 
 __all__ = [
     "Compilation",
     "CompileError",
-    "Import",
     "ListedParameter",
     "Listing",
     "Packages",
     "Parameters",
     "Plain",
+    "Settings",
     "check_file",
     "check_text",
     "check_variants",
     "compile_file",
     "compile_text",
-    "import_urdf",
     "parameters_of",
+    "robot_of",
 ]
 
 Parameters: TypeAlias = Mapping[str, object] | Iterable[str]
@@ -121,7 +118,7 @@ def compile_file(
 
     """
     folder = Path(output) if output is not None else None
-    return _compile_file(path, _Settings(parameters, packages, variant, gazebo, output=folder))
+    return _compile_file(path, Settings(parameters, packages, variant, gazebo, output=folder))
 
 
 def compile_text(
@@ -135,7 +132,7 @@ def compile_text(
     gazebo: Gazebo = "gz",
 ) -> Compilation:
     """Compile a spec given as text; `name` stands in its diagnostics, `folder` is where relative paths start."""
-    return _compile(_text(text, name, folder), _Settings(parameters, packages, variant, gazebo))
+    return _compile(_text(text, name, folder), Settings(parameters, packages, variant, gazebo))
 
 
 def check_file(
@@ -147,7 +144,7 @@ def check_file(
     gazebo: Gazebo = "gz",
 ) -> Compilation:
     """Tell all that is wrong with a spec file; what depends on a required parameter without a value is not judged."""
-    return _compile_file(path, _Settings(parameters, packages, variant, gazebo, Unset.NOTE))
+    return _compile_file(path, Settings(parameters, packages, variant, gazebo, Unset.NOTE))
 
 
 def check_text(
@@ -161,7 +158,7 @@ def check_text(
     gazebo: Gazebo = "gz",
 ) -> Compilation:
     """Tell all that is wrong with a spec given as text, as `check_file` does."""
-    return _compile(_text(text, name, folder), _Settings(parameters, packages, variant, gazebo, Unset.NOTE))
+    return _compile(_text(text, name, folder), Settings(parameters, packages, variant, gazebo, Unset.NOTE))
 
 
 def check_variants(
@@ -196,88 +193,16 @@ def parameters_of(path: str | Path) -> tuple[Listing | None, tuple[Diagnostic, .
     return listing, sink.sorted()
 
 
-@dataclass(frozen=True, slots=True)
-class Import:
-    """What reading a robot that was written elsewhere gave: a spec, and what is to be told about it.
-
-    `text` is None where the file is not the robot that it is said to be.
-    """
-
-    text: str | None
-    diagnostics: tuple[Diagnostic, ...]
-
-    @property
-    def has_errors(self) -> bool:
-        return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
-
-    @property
-    def losses(self) -> tuple[Diagnostic, ...]:
-        """What of the robot is not in the spec."""
-        return tuple(diagnostic for diagnostic in self.diagnostics if diagnostic.code in LOSSES)
-
-
-def import_urdf(path: str | Path, *, srdf: str | Path | None = None, arguments: Parameters = ()) -> Import:
-    """Read a URDF file, and the SRDF of the same robot, as a spec that compiles to the same robot.
-
-    Its errors are told where those files have them. A xacro file is expanded with the arguments first.
-    """
-    return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), arguments))
-
-
-def _imported(urdf: Path, srdf: Path | None, given: Parameters) -> Import:
-    sink = Diagnostics()
-    try:
-        text = _imported_text(urdf, srdf, given, sink)
-    except BeyondLimitError as beyond:
-        sink.end(beyond)
-        text = None
-    return Import(text, sink.sorted())
-
-
-def _imported_text(urdf: Path, srdf: Path | None, given: Parameters, sink: Diagnostics) -> str | None:
-    from linkforge_compile.importers.srdf import with_srdf
-    from linkforge_compile.importers.urdf import read_urdf
-    from linkforge_compile.syntax import write
-
-    loader = Loader()
-    if urdf.suffix.lower() == XACRO:
-        from linkforge_compile.modules.xacro import XacroUse, read_xacro
-
-        arguments = _Settings(given, None, None, "gz").arguments(sink)
-        expanded = read_xacro(XacroUse(urdf, Used(str(urdf), None), arguments), loader, sink)
-        file, robot = (expanded.file, expanded.imported) if expanded else (None, None)
-    else:
-        file = loader.open_xml(urdf, sink)
-        robot = read_urdf(file, sink) if file else None
-    semantic = loader.open_xml(srdf, sink) if robot and srdf else None
-    if file is None or robot is None or (srdf and semantic is None):
-        return None
-    judge = partial(_faults_of, SpecFile(file, robot.tree, urdf.parent), loader)
-    judged = with_srdf(robot, semantic, judge, sink) if semantic else (robot, judge(robot.tree))
-    if judged is None:
-        return None
-    # The tree has the spans of the files, so what is wrong with the robot is told there.
-    whole, faults = judged
-    sink.report_all(faults)
-    return write(whole.tree, *whole.comments)
-
-
-def _faults_of(spec: SpecFile, loader: Loader, tree: YamlMap) -> tuple[Diagnostic, ...]:
-    judged = Diagnostics()
-    _robot(replace(spec, tree=tree), _Settings((), None, None, "gz"), loader, MeshSolids(), judged)
-    return tuple(fault for fault in judged if fault.severity is Severity.ERROR)
-
-
 _Read: TypeAlias = Callable[[Loader, Diagnostics], SpecFile | None]
 
 
-class _Settings(NamedTuple):
+class Settings(NamedTuple):
     """How to compile a spec."""
 
-    parameters: Parameters
-    packages: Packages | None
-    variant: str | None
-    gazebo: Gazebo
+    parameters: Parameters = ()
+    packages: Packages | None = None
+    variant: str | None = None
+    gazebo: Gazebo = "gz"
     unset: Unset = Unset.ERROR
     output: Path | None = None
 
@@ -287,7 +212,7 @@ class _Settings(NamedTuple):
         return arguments_from_text(tuple(self.parameters), sink)
 
 
-def _compile_file(path: str | Path, settings: _Settings) -> Compilation:
+def _compile_file(path: str | Path, settings: Settings) -> Compilation:
     file = Path(path)
     if file.suffix.lower() != XACRO:
         return _compile(lambda loader, sink: loader.open(file, sink), settings)
@@ -306,11 +231,11 @@ def _text(text: str, name: str, folder: str | Path | None) -> _Read:
     return lambda loader, sink: loader.parse(text, name, place, sink)
 
 
-def _compile(read: _Read, settings: _Settings) -> Compilation:
+def _compile(read: _Read, settings: Settings) -> Compilation:
     return with_room(lambda: _compiled(read, settings))
 
 
-def _compiled(read: _Read, settings: _Settings) -> Compilation:
+def _compiled(read: _Read, settings: Settings) -> Compilation:
     require_dialect(settings.gazebo)
     sink = Diagnostics()
     loader = Loader({name: Path(folder) for name, folder in (settings.packages or {}).items()})
@@ -318,7 +243,7 @@ def _compiled(read: _Read, settings: _Settings) -> Compilation:
     robot = None
     try:
         spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them
-        robot = _robot(spec, settings, loader, meshes, sink) if spec else None
+        robot = robot_of(spec, settings, loader, meshes, sink) if spec else None
     except BeyondLimitError as beyond:
         sink.end(beyond)
     is_whole = not any(diagnostic.code is NOT_JUDGED for diagnostic in sink)
@@ -329,7 +254,8 @@ def _compiled(read: _Read, settings: _Settings) -> Compilation:
     return Compilation(robot, report, (*loader.files, *meshes.files))
 
 
-def _robot(spec: SpecFile, settings: _Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:
+def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:
+    """Expand, lower and check a spec that was read: the robot, as far as its faults leave one."""
     arguments = settings.arguments(sink)
     instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant)
     lowered = lower(instance, sink, meshes)

@@ -28,7 +28,8 @@ MAY_IMPORT = {
     "writers": "source units syntax core modules",
     "compare": "core",
     "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core writers stack",
-    "cli": "source diagnostics core checks schema pipeline backends writers compare resources _version",
+    "importing": "source diagnostics syntax importers modules lowering backends pipeline stack",
+    "cli": "source diagnostics core checks schema pipeline importing backends writers compare resources _version",
 }
 
 # `Robot.export_urdf` and `export_srdf` are methods because the contract says so: the one place that reaches up.

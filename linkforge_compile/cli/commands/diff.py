@@ -91,7 +91,8 @@ def _is_urdf(word: str) -> bool:
 
 def _robot(word: str, assignments: list[str], arguments: argparse.Namespace) -> Robot | None:
     if _is_urdf(word):
-        from linkforge_compile.pipeline import compile_text, import_urdf
+        from linkforge_compile.importing import import_urdf
+        from linkforge_compile.pipeline import compile_text
 
         imported = import_urdf(word)
         if tell((*_errors(imported.diagnostics), *imported.losses), arguments) or imported.text is None:

@@ -41,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output is not None and Path(arguments.output).resolve() in sources:
         raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
-    from linkforge_compile.pipeline import import_urdf
+    from linkforge_compile.importing import import_urdf
 
     imported = import_urdf(urdf, srdf=arguments.srdf, arguments=assignments)
     is_faulty = tell(imported.diagnostics, arguments) or imported.has_errors

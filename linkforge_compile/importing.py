@@ -1,0 +1,100 @@
+"""The way in: a robot that was written as URDF, SRDF or xacro becomes a spec, and is judged as one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
+from linkforge_compile.diagnostics.codes.importing import LOSSES
+from linkforge_compile.importers.document import Imported
+from linkforge_compile.lowering import MeshSolids
+from linkforge_compile.modules import XACRO, Loader, SpecFile, Used
+from linkforge_compile.pipeline import Parameters, Settings, robot_of
+from linkforge_compile.source import SourceFile
+from linkforge_compile.stack import with_room
+from linkforge_compile.syntax import YamlMap
+
+
+@dataclass(frozen=True, slots=True)
+class Import:
+    """What reading a robot that was written elsewhere gave: a spec, and what is to be told about it.
+
+    `text` is None where the file is not the robot that it is said to be.
+    """
+
+    text: str | None
+    diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def has_errors(self) -> bool:
+        return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
+
+    @property
+    def losses(self) -> tuple[Diagnostic, ...]:
+        """What of the robot is not in the spec."""
+        return tuple(diagnostic for diagnostic in self.diagnostics if diagnostic.code in LOSSES)
+
+
+def import_urdf(path: str | Path, *, srdf: str | Path | None = None, arguments: Parameters = ()) -> Import:
+    """Read a URDF file, and the SRDF of the same robot, as a spec that compiles to the same robot.
+
+    Its errors are told where those files have them. A xacro file is expanded with the arguments first.
+    """
+    return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), arguments))
+
+
+def _imported(urdf: Path, srdf: Path | None, given: Parameters) -> Import:
+    sink = Diagnostics()
+    try:
+        text = _imported_text(urdf, srdf, given, sink)
+    except BeyondLimitError as beyond:
+        sink.end(beyond)
+        text = None
+    return Import(text, sink.sorted())
+
+
+def _imported_text(urdf: Path, srdf: Path | None, given: Parameters, sink: Diagnostics) -> str | None:
+    from linkforge_compile.importers.srdf import with_srdf
+    from linkforge_compile.syntax import write
+
+    loader = Loader()
+    read = _read_xacro(urdf, given, loader, sink) if urdf.suffix.lower() == XACRO else _read_urdf(urdf, loader, sink)
+    semantic = loader.open_xml(srdf, sink) if read and srdf else None
+    if read is None or (srdf and semantic is None):
+        return None
+    file, robot = read
+    judge = partial(_faults_of, SpecFile(file, robot.tree, urdf.parent), loader)
+    judged = with_srdf(robot, semantic, judge, sink) if semantic else (robot, judge(robot.tree))
+    if judged is None:
+        return None
+    # The tree has the spans of the files, so what is wrong with the robot is told there.
+    whole, faults = judged
+    sink.report_all(faults)
+    return write(whole.tree, *whole.comments)
+
+
+_Read = tuple[SourceFile, Imported]
+
+
+def _read_urdf(urdf: Path, loader: Loader, sink: Diagnostics) -> _Read | None:
+    from linkforge_compile.importers.urdf import read_urdf
+
+    file = loader.open_xml(urdf, sink)
+    robot = read_urdf(file, sink) if file else None
+    return (file, robot) if file and robot else None
+
+
+def _read_xacro(xacro: Path, given: Parameters, loader: Loader, sink: Diagnostics) -> _Read | None:
+    from linkforge_compile.modules.xacro import XacroUse, read_xacro
+
+    arguments = Settings(given).arguments(sink)
+    expanded = read_xacro(XacroUse(xacro, Used(str(xacro), None), arguments), loader, sink)
+    return (expanded.file, expanded.imported) if expanded else None
+
+
+def _faults_of(spec: SpecFile, loader: Loader, tree: YamlMap) -> tuple[Diagnostic, ...]:
+    judged = Diagnostics()
+    robot_of(replace(spec, tree=tree), Settings(), loader, MeshSolids(), judged)
+    return tuple(fault for fault in judged if fault.severity is Severity.ERROR)
