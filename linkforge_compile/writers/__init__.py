@@ -4,13 +4,25 @@ from __future__ import annotations
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.syntax import write
+from linkforge_compile.writers.computed_inertia import ComputedFrom
 from linkforge_compile.writers.explain import Explanation, UnknownPathError, explain
 from linkforge_compile.writers.pen import Pen
+from linkforge_compile.writers.place import Place
 from linkforge_compile.writers.provenance import compiled_folder, origin_of
 from linkforge_compile.writers.robot import spec_of
 from linkforge_compile.writers.stories import NameStory
 
-__all__ = ["Explanation", "NameStory", "Pen", "UnknownPathError", "explain", "spec_of", "write_spec"]
+__all__ = [
+    "ComputedFrom",
+    "Explanation",
+    "NameStory",
+    "Pen",
+    "Place",
+    "UnknownPathError",
+    "explain",
+    "spec_of",
+    "write_spec",
+]
 
 
 def write_spec(robot: Robot, *, banner: str | None = None, origins: bool = False) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -10,7 +10,9 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.source import Span
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, write
+from linkforge_compile.writers.computed_inertia import ComputedFrom, computed_from
 from linkforge_compile.writers.pen import Pen
+from linkforge_compile.writers.place import Place, place_of
 from linkforge_compile.writers.robot import spec_of
 from linkforge_compile.writers.stories import NameStory, stories
 
@@ -19,12 +21,16 @@ _SHORT_FORMS = {"origin": "xyz", "box": "size", "sphere": "radius", "mesh": "fil
 
 
 class UnknownPathError(LookupError):
-    """A path leads nowhere: `owner` is as far as it leads, "" for the robot itself, and `names` is what is there."""
+    """A path leads nowhere: `owner` is as far as it leads, "" for the robot itself, and `names` is what is there.
 
-    def __init__(self, owner: str, name: str, names: Sequence[str]) -> None:
+    `paths` lead to what has a name, by that name: for who gives the name alone.
+    """
+
+    def __init__(self, owner: str, name: str, names: Sequence[str], paths: Mapping[str, str]) -> None:
         self.owner = owner
         self.name = name
         self.names = tuple(names)
+        self.paths = paths
         place = f"'{owner}'" if owner else "the robot"
         super().__init__(f"there is no '{name}' in {place}")
 
@@ -40,16 +46,18 @@ class Explanation:
     one that it makes itself, or where `names` say so.
     `trail` lists the `use` that brought the file in, and so on outwards. `replaced` is where that was written which
     this value took the place of, as an override or as an entry's own word before a default; the last one first.
+    `computed_from` is what a link's inertial was computed from, None for all else.
     """
 
     text: str
     is_written: bool = False
-    place: Span | None = None
+    place: Place | None = None
     expression: str | None = None
     origin: Span | None = None
     names: tuple[NameStory, ...] = ()
     trail: tuple[Span, ...] = ()
-    replaced: tuple[Span, ...] = ()
+    replaced: tuple[Place, ...] = ()
+    computed_from: ComputedFrom | None = None
 
 
 class _Step(NamedTuple):
@@ -81,12 +89,13 @@ def explain(robot: Robot, path: str) -> Explanation:
     keys = (*field, *(step.key for step in steps[last + 1 :]))
     node, is_written = _deepest(source.node, steps[last].key, keys)
     place = source.span if node is source.node else node.span
+    trail, computed = source.trail_to(place), computed_from(robot, [step.key for step in steps[1:]])
     if not is_written:
-        return Explanation(text, False, place, trail=source.trail_to(place))
+        return Explanation(text, False, place_of(place), trail=trail, computed_from=computed)
     expression = _expression(place)
     names, origin = ((), None) if expression is None or not isinstance(node, YamlNode) else stories(node)
     replaced = _replaced(source.node, steps[last].key, keys)
-    return Explanation(text, True, place, expression, origin, names, source.trail_to(place), replaced)
+    return Explanation(text, True, place_of(place), expression, origin, names, trail, replaced, computed)
 
 
 def _steps(node: YamlNode, path: str, before: str) -> tuple[_Step, ...]:
@@ -94,21 +103,28 @@ def _steps(node: YamlNode, path: str, before: str) -> tuple[_Step, ...]:
     if not path:
         return ()
     fault: UnknownPathError | None = None
-    for step, rest in _ways(node, path):
+    for step, rest in _ways(node, path, before.rpartition("/")[2]):
         here = f"{before}/{step.key}".strip("/")
         try:
             return (step, *_steps(step.node, rest, here))
         except UnknownPathError as error:
             fault = fault or error
-    raise fault or UnknownPathError(before, path.partition("/")[0], _names(node))
+    paths = {} if before else _paths(node)
+    raise fault or UnknownPathError(before, path.partition("/")[0], _names(node), paths)
 
 
-def _ways(node: YamlNode, path: str) -> Iterator[tuple[_Step, str]]:
-    """Yield the first steps that a path may begin with and what remains of it, longest names first."""
+def _ways(node: YamlNode, path: str, key: str) -> Iterator[tuple[_Step, str]]:
+    """Yield the first steps that a path may begin with and what remains of it, longest names first.
+
+    `key` is that of the node: of an object with a short form, `box/0` is `box/size/0`.
+    """
     if isinstance(node, YamlMap):
         for name in sorted(node.entries, key=len, reverse=True):
             if f"{path}/".startswith(f"{name}/"):
                 yield _Step(name, node.entries[name].value), path[len(name) + 1 :]
+        short = _SHORT_FORMS.get(key, "")
+        if isinstance(inner := node.get(short), YamlList) and path.partition("/")[0].isdecimal():
+            yield _Step(short, inner), path
     elif isinstance(node, YamlList):
         first, _, rest = path.partition("/")
         if first.isdecimal() and int(first) < len(node):
@@ -123,6 +139,15 @@ def _names(node: YamlNode) -> Sequence[str]:
     return tuple(map(str, range(len(node)))) if isinstance(node, YamlList) else ()
 
 
+def _paths(robot: YamlNode) -> Mapping[str, str]:
+    """Return the path of every entry of a robot's sections by its name, that of the first of a name."""
+    paths: dict[str, str] = {}
+    for section in robot if isinstance(robot, YamlMap) else ():
+        for name in section.value.entries if isinstance(section.value, YamlMap) else ():
+            paths.setdefault(name, f"{section.name}/{name}")
+    return paths
+
+
 def _deepest(node: Located, name: str, keys: Sequence[str]) -> tuple[Located, bool]:
     """Follow the keys from what was written under `name`, and return how far that leads; True for all the way."""
     for key in keys:
@@ -133,7 +158,7 @@ def _deepest(node: Located, name: str, keys: Sequence[str]) -> tuple[Located, bo
     return node, True
 
 
-def _replaced(node: Located, name: str, keys: Sequence[str]) -> tuple[Span, ...]:
+def _replaced(node: Located, name: str, keys: Sequence[str]) -> tuple[Place, ...]:
     """Return where what the value took the place of was written: at the deepest key of its way that replaced any."""
     entry: YamlEntry | None = None
     for key in keys:
@@ -143,11 +168,11 @@ def _replaced(node: Located, name: str, keys: Sequence[str]) -> tuple[Span, ...]
         if inner is None:
             break
         node, name = inner, key
-    spans = []
+    places = []
     while entry:
-        spans.append(entry.value.span)
+        places.append(place_of(entry.value.span))
         entry = entry.replaced
-    return tuple(spans)
+    return tuple(places)
 
 
 def _written_child(node: Located, name: str, key: str) -> Located | None:

@@ -68,6 +68,10 @@ def test_parameters_are_set_before(cell: Path):
     [
         (("arm.robot.yaml",), "takes a spec and a path, such as joints/elbow/limits/effort"),
         (("arm.robot.yaml", "joints/elbwo"), "there is no 'elbwo' in 'joints'; did you mean 'elbow'?"),
+        (("arm.robot.yaml", "joint/elbow"), "there is no 'joint' in the robot; did you mean 'joints'?"),
+        (("arm.robot.yaml", "elbow"), "there is no 'elbow' in the robot; did you mean 'joints/elbow'?"),
+        (("cell.robot.yaml", "elbow/limits"), "there is no 'elbow' in the robot; did you mean 'joints/left_elbow'?"),
+        (("cell.robot.yaml", "joints/elbow"), "there is no 'elbow' in 'joints'; did you mean 'left_elbow'?"),
     ],
 )
 def test_wrong_usage_is_told(cell: Path, words: tuple[str, ...], said: str):
@@ -93,11 +97,87 @@ def test_what_an_override_and_a_default_gave_way_to_is_told(tmp_path: Path):
     assert told[0].startswith("written at cell.robot.yaml:5:")
     assert told[1:3] == [
         "instead of what is written at arm.robot.yaml:7:22",
-        "instead of what is written at arm.robot.yaml:8:37",
+        "instead of the default at arm.robot.yaml:8:37",
     ]
     unchanged = linkforge("explain", "cell.robot.yaml", "joints/left_elbow/limits/velocity", cwd=tmp_path)
-    assert "instead of what is written at arm.robot.yaml:8:50" in unchanged.stdout
+    assert "instead of the default at arm.robot.yaml:8:50" in unchanged.stdout
     assert "cell.robot.yaml:5:15" not in run.stdout
+
+
+BLOCKS = """\
+linkforge: 1
+name: blocks
+defaults: {link: {inertial: {density: 700}}}
+links:
+  oak: {visual: {sphere: 1}, collision: [{box: [1, 1, 1]}, {box: [1, 1, 1], origin: [0, 0, 2]}]}
+  elm: {visual: {box: [1, 1, 1]}, inertial: {mass: 3}}
+  tin: {inertial: {mass: 3, inertia: {ixx: 1, iyy: 1, izz: 1}}}
+joints:
+  a: {type: fixed, parent: oak, child: elm}
+  b: {type: fixed, parent: oak, child: tin}
+"""
+
+
+def blocks(folder: Path, path: str) -> list[str]:
+    """Return what is told of a value of BLOCKS, without the source lines."""
+    (folder / "blocks.robot.yaml").write_text(BLOCKS)
+    run = linkforge("explain", "blocks.robot.yaml", path, cwd=folder)
+    assert (run.returncode, run.stderr) == (0, "")
+    return [line for line in run.stdout.splitlines() if "|" not in line]
+
+
+def test_a_computed_inertia_is_told_with_what_it_was_computed_from(tmp_path: Path):
+    assert blocks(tmp_path, "links/oak/inertial/mass") == [
+        "links/oak/inertial/mass: 1400 kg",
+        "computed from the density, even over the shapes of the link",
+        "the density is written as a default at blocks.robot.yaml:3:39",
+        "collision/0, a box, is written at blocks.robot.yaml:5:42",
+        "collision/1, a box, is written at blocks.robot.yaml:5:60",
+    ]
+    assert blocks(tmp_path, "links/elm/inertial/inertia/izz") == [
+        "links/elm/inertial/inertia/izz: 0.5 kg*m^2",
+        "computed from the mass, even over the shapes of the link",
+        "the mass is written at blocks.robot.yaml:6:52",
+        "visual/0, a box, is written at blocks.robot.yaml:6:17",
+    ]
+
+
+def test_what_is_written_of_an_inertial_is_not_called_computed(tmp_path: Path):
+    assert "written at blocks.robot.yaml:6:52" in blocks(tmp_path, "links/elm/inertial/mass")
+    assert "written at blocks.robot.yaml:7:44" in blocks(tmp_path, "links/tin/inertial/inertia/ixx")
+    assert "nothing is written for it" in blocks(tmp_path, "links/tin/inertial/origin")
+
+
+def test_a_value_from_the_defaults_is_called_so(tmp_path: Path):
+    assert (
+        blocks(tmp_path, "links/oak/inertial")[-4:]
+        == [
+            "written as a default at blocks.robot.yaml:3:29",
+            *blocks(tmp_path, "links/oak/inertial/mass")[1:],
+        ][-4:]
+    )
+    lines = ARM.replace(", velocity: 1", "") + "defaults: {joint: {limits: {velocity: 9}}}\n"
+    (tmp_path / "arm.robot.yaml").write_text(lines)
+    run = linkforge("explain", "arm.robot.yaml", "joints/elbow/limits/velocity", cwd=tmp_path)
+    assert run.stdout.splitlines()[:2] == [
+        "joints/elbow/limits/velocity: 9 rad/s",
+        "written as a default at arm.robot.yaml:8:39",
+    ]
+
+
+def test_a_number_of_a_short_form_is_reached_without_the_key_that_was_left_out(tmp_path: Path):
+    assert blocks(tmp_path, "links/oak/collision/1/origin/2")[0] == "links/oak/collision/1/origin/xyz/2: 2 m"
+    assert blocks(tmp_path, "links/elm/visual/box/0")[0] == "links/elm/visual/0/box/size/0: 1 m"
+
+
+def test_what_is_no_error_elsewhere_in_the_spec_is_not_told(cell: Path):
+    spec = ARM.replace(
+        "base: , upper: ", "base: {visual: {sphere: 1}}, upper: {visual: {sphere: 1}, collision: visual}"
+    )
+    (cell / "arm.robot.yaml").write_text(spec)
+    assert "LF5010" in linkforge("check", "arm.robot.yaml", cwd=cell).stderr
+    run = linkforge("explain", "arm.robot.yaml", "name", cwd=cell)
+    assert (run.returncode, run.stderr) == (0, "")
 
 
 def test_a_code_is_explained_by_its_page_of_the_manual(tmp_path: Path):

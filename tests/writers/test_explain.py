@@ -56,14 +56,14 @@ def arm() -> Robot:
 
 def line(explanation: Explanation) -> int:
     assert explanation.place is not None
-    return explanation.place.line
+    return explanation.place.span.line
 
 
 def test_a_value_is_told_with_its_unit_and_its_place(arm: Robot):
     mass = explain(arm, "links/upper/inertial/mass")
     assert (mass.text, mass.is_written, mass.expression) == ("links/upper/inertial/mass: 2 kg", True, None)
     assert mass.place is not None
-    assert (mass.place.line, mass.place.text) == (6, "2 kg")
+    assert (mass.place.span.line, mass.place.span.text) == (6, "2 kg")
 
 
 def test_a_computed_value_is_told_with_its_expression_and_the_uses_that_led_there(cell: Robot):

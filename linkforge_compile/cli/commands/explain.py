@@ -15,7 +15,7 @@ from linkforge_compile.cli.telling import add_telling_options, tell
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.writers import Explanation, NameStory
+    from linkforge_compile.writers import ComputedFrom, Explanation, NameStory, Place, UnknownPathError
 
 _EXAMPLES = """\
 PATH is that of the value in the finished robot: the language's keys in their long form, and final names.
@@ -74,6 +74,8 @@ def _explain_value(arguments: argparse.Namespace) -> int:
         raise UsageError("takes a spec and a path, such as joints/elbow/limits/effort, or a code, such as LF4102")
     *specs, path = words
     compilation = compile_spec(one_spec(specs), assignments, arguments)
+    # Whoever asks of one value is not told of the rest of the spec, unless that leaves no robot to ask of.
+    arguments.quiet = True
     if tell(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import write_to_stdout
@@ -82,11 +84,18 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     try:
         explanation = explain(compilation.robot, path)
     except UnknownPathError as error:
-        from linkforge_compile.diagnostics.suggest import did_you_mean
-
-        raise UsageError(f"{error}{did_you_mean(error.name, error.names)}") from None
+        raise UsageError(f"{error}{_hint(error)}") from None
     write_to_stdout("".join(f"{line}\n" for line in _lines(explanation)))
     return OK
+
+
+def _hint(error: UnknownPathError) -> str:
+    from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
+
+    if hint := did_you_mean(error.name, error.names):
+        return hint
+    meant = nearest(error.name, error.paths)
+    return "" if meant is None else f"; did you mean '{error.paths[meant]}'?"
 
 
 def _lines(explanation: Explanation) -> Iterator[str]:
@@ -94,23 +103,43 @@ def _lines(explanation: Explanation) -> Iterator[str]:
     if explanation.place is None:
         yield "written in no file"
         return
+    yield from _said(explanation, explanation.place)
+    for replaced in explanation.replaced:
+        yield from told(
+            "instead of the default" if replaced.is_default else "instead of what is written", replaced.span
+        )
+    for included in explanation.place.span.file.includes:
+        yield from told("included", included)
+    for use in explanation.trail:
+        yield from told("used", use)
+
+
+def _said(explanation: Explanation, place: Place) -> Iterator[str]:
+    """Yield what made the value, which or around which something was written at the place."""
     if explanation.is_written:
-        yield from told("written", explanation.place)
+        yield from told(_written(place), place.span)
         if explanation.expression:
             yield f"computed: {explanation.expression}"
             for name in explanation.names:
                 yield from _name(name, "  ")
         if explanation.origin:
             yield from told("the value itself is written", explanation.origin)
-    else:
+    elif explanation.computed_from is None:
         yield "nothing is written for it"
-        yield from told("what it belongs to is written", explanation.place)
-    for replaced in explanation.replaced:
-        yield from told("instead of what is written", replaced)
-    for included in explanation.place.file.includes:
-        yield from told("included", included)
-    for use in explanation.trail:
-        yield from told("used", use)
+        yield from told(f"what it belongs to is {_written(place)}", place.span)
+    if explanation.computed_from:
+        yield from _computed(explanation.computed_from)
+
+
+def _computed(inertial: ComputedFrom) -> Iterator[str]:
+    yield f"computed from the {inertial.quantity}, even over the shapes of the link"
+    yield from told(f"the {inertial.quantity} is {_written(inertial.place)}", inertial.place.span)
+    for shape in inertial.shapes:
+        yield f"{shape.path}, a {shape.geometry}" + (f", is written at {shape.place}" if shape.place else "")
+
+
+def _written(place: Place) -> str:
+    return "written as a default" if place.is_default else "written"
 
 
 def _name(name: NameStory, indent: str) -> Iterator[str]:
