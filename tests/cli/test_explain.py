@@ -171,9 +171,7 @@ def test_a_number_of_a_short_form_is_reached_without_the_key_that_was_left_out(t
 
 
 def test_what_is_no_error_elsewhere_in_the_spec_is_not_told(cell: Path):
-    spec = ARM.replace(
-        "base: , upper: ", "base: {visual: {sphere: 1}}, upper: {visual: {sphere: 1}, collision: visual}"
-    )
+    spec = ARM.replace("axis: z", "axis: z, origin: [200, 0, 0]")
     (cell / "arm.robot.yaml").write_text(spec)
     assert "LF5010" in linkforge("check", "arm.robot.yaml", cwd=cell).stderr
     run = linkforge("explain", "arm.robot.yaml", "name", cwd=cell)
