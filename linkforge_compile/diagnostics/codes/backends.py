@@ -1,4 +1,4 @@
-"""LF7xxx: what an output format cannot say."""
+"""LF7xxx: what an output format cannot say, and what output on disk is not."""
 
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
 
@@ -34,6 +34,12 @@ UNDECLARED_PREFIX = Code(
     Severity.WARNING,
     "no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into the robot's 'extra_attributes'",
 )
+STALE_OUTPUT = Code(
+    "LF7095",
+    Severity.ERROR,
+    "here '{spec}' compiles to {expected}; compile it again, and edit it rather than this file",
+)
+MISSING_OUTPUT = Code("LF7096", Severity.ERROR, "there is no '{path}', which '{spec}' compiles to; compile it again")
 NO_JOINT_TO_SENSE = Code(
     "LF7101",
     Severity.WARNING,

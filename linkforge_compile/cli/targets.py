@@ -1,0 +1,110 @@
+"""Where a compile writes: from `-o` and `--format` to a file for each format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.cli.exits import UsageError
+
+if TYPE_CHECKING:
+    import argparse
+
+FORMATS = ("urdf", "srdf")
+_FILE_ENDINGS = (".urdf", ".srdf", ".xml")
+
+
+class Targets(NamedTuple):
+    """Where each format goes, by name, None for standard output; `srdf` may be left out unless it was asked for."""
+
+    paths: Mapping[str, Path | None]
+    is_srdf_asked_for: bool = True
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder that the URDF is for, None where that is not known."""
+        urdf = self.paths.get("urdf")
+        return urdf.parent if urdf else None
+
+    def without_srdf(self) -> Targets:
+        return Targets(MappingProxyType({format_: path for format_, path in self.paths.items() if format_ != "srdf"}))
+
+    def require_files(self, option: str, why: str) -> None:
+        """Refuse an option that has no meaning where the output is no file."""
+        if any(path is None or (path.exists() and not path.is_file()) for path in self.paths.values()):
+            raise UsageError(f"{option} {why}, so it takes -o with a folder or a file")
+
+
+def add_target_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="PATH",
+        dest="outputs",
+        action="append",
+        default=[],
+        help="a folder for NAME.urdf and NAME.srdf, or a file that ends in .urdf, .srdf or .xml; "
+        "once more for the file of the other format",
+    )
+    parser.add_argument("--format", choices=FORMATS, help="only this one (standard output: urdf unless said)")
+
+
+def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets:
+    """Return where each format of a spec goes; UsageError for outputs that cannot be meant together."""
+    if not outputs:
+        return Targets({chosen or "urdf": None})
+    if len(outputs) > 1:
+        return Targets(_several(outputs, chosen))
+    (output,) = outputs
+    if _is_file(output):
+        return Targets({_format_of_file(output, chosen): Path(output)})
+    folder, name = Path(output), name_of(spec)
+    paths = {format_: folder / f"{name}.{format_}" for format_ in FORMATS if chosen in (None, format_)}
+    return Targets(paths, is_srdf_asked_for=chosen == "srdf")
+
+
+def name_of(spec: str) -> str:
+    """Return what the files of a spec are named after: arm for arm.robot.yaml."""
+    if spec == "-":
+        return "robot"
+    name = Path(spec).name
+    for ending in (".yaml", ".yml", ".robot"):
+        name = name.removesuffix(ending)
+    return name
+
+
+def _several(outputs: Sequence[str], chosen: str | None) -> dict[str, Path | None]:
+    paths: dict[str, Path | None] = {}
+    for output in outputs:
+        if not _is_file(output):
+            raise UsageError(f"-o takes several files, one a format, or one folder; found the folder '{output}'")
+        format_ = _format_of_file(output, chosen)
+        if format_ in paths:
+            raise UsageError(f"'{paths[format_]}' and '{output}' would be the same {format_}; name one of them")
+        paths[format_] = Path(output)
+    return paths
+
+
+def _format_of_file(output: str, chosen: str | None) -> str:
+    other = "srdf" if chosen == "urdf" else "urdf"
+    if chosen and Path(output).suffix == f".{other}":
+        raise UsageError(f"--format {chosen} does not go into '{output}'")
+    return chosen or ("srdf" if Path(output).suffix == ".srdf" else "urdf")
+
+
+def _is_file(output: str) -> bool:
+    """Whether `-o` names a file: one with one of the endings, a device or a pipe; all else are folders.
+
+    An ending that is neither is refused: `-o arm.robot.yaml` would else replace the spec, or make a folder of it.
+    """
+    path = Path(output)
+    if output.endswith(("/", "\\")) or path.is_dir():
+        return False
+    if path.suffix and path.suffix not in _FILE_ENDINGS:
+        raise UsageError(
+            f"-o takes a folder, or a file that ends in .urdf, .srdf or .xml; found '{output}'"
+            f" (for a folder of that name, write '{output}/')"
+        )
+    return bool(path.suffix) or (path.exists() and not path.is_file())

@@ -1,0 +1,123 @@
+"""`linkforge compile --check`, and the hooks of pre-commit that call it."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from linkforge_compile.cli.main import main
+from tests.conftest import ROOT
+
+SPEC = """\
+linkforge: 1
+name: arm
+parameters: {reach: {type: length, default: 50 cm}}
+links: {base: , rod: {visual: {box: [$(reach), 1, 1]}}}
+joints: {turn: {type: fixed, parent: base, child: rod}}
+semantic: {groups: {arm: {joints: [turn]}}}
+"""
+
+
+@pytest.fixture
+def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working folder, with a spec and what it compiles to."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "arm.robot.yaml").write_text(SPEC)
+    assert main(["compile", "arm.robot.yaml", "-o", "urdf/"]) == 0
+    return tmp_path
+
+
+def check(*words: str) -> int:
+    return main(["compile", "arm.robot.yaml", "-o", "urdf/", "--check", *words])
+
+
+def test_files_that_are_up_to_date_pass(arm: Path, capfd: pytest.CaptureFixture[str]):
+    capfd.readouterr()
+    assert check() == 0
+    assert capfd.readouterr().err == "urdf/arm.urdf is up to date\nurdf/arm.srdf is up to date\n"
+
+
+def test_a_changed_spec_is_told_at_the_first_line_that_differs(arm: Path, capfd: pytest.CaptureFixture[str]):
+    before = (arm / "urdf" / "arm.urdf").read_bytes()
+    line = before.decode().splitlines().index('        <box size="0.5 1 1"/>') + 1
+    assert check("reach:=0.7") == 1
+    told = capfd.readouterr().err
+    assert f"urdf/arm.urdf:{line}:1: error: here 'arm.robot.yaml' compiles to '<box size=\"0.7 1 1\"/>'; " in told
+    assert "[LF7095]" in told
+    assert "arm.srdf:" not in told
+    assert (arm / "urdf" / "arm.urdf").read_bytes() == before
+
+
+def test_a_file_that_is_not_there_is_told_and_not_written(arm: Path, capfd: pytest.CaptureFixture[str]):
+    (arm / "urdf" / "arm.srdf").unlink()
+    assert check() == 1
+    told = capfd.readouterr().err
+    assert "error: there is no 'urdf/arm.srdf', which 'arm.robot.yaml' compiles to; compile it again [LF7096]" in told
+    assert not (arm / "urdf" / "arm.srdf").exists()
+
+
+def test_a_file_with_lines_behind_the_end_is_told(arm: Path, capfd: pytest.CaptureFixture[str]):
+    with (arm / "urdf" / "arm.urdf").open("a") as urdf:
+        urdf.write("<!-- mine -->\n")
+    assert check() == 1
+    assert "here 'arm.robot.yaml' compiles to nothing;" in capfd.readouterr().err
+
+
+def test_the_line_ends_of_windows_are_no_difference(arm: Path):
+    urdf = arm / "urdf" / "arm.urdf"
+    urdf.write_bytes(urdf.read_bytes().replace(b"\n", b"\r\n"))
+    assert check() == 0
+
+
+def test_a_spec_with_errors_is_told_before_its_output(arm: Path, capfd: pytest.CaptureFixture[str]):
+    (arm / "arm.robot.yaml").write_text(SPEC.replace("child: rod", "child: rood"))
+    assert check() == 1
+    told = capfd.readouterr().err
+    assert "[LF4102]" in told
+    assert "[LF7095]" not in told
+
+
+def test_standard_output_is_nothing_to_compare_with(arm: Path, capfd: pytest.CaptureFixture[str]):
+    assert main(["compile", "arm.robot.yaml", "--check"]) == 2
+    assert "--check compares with files, so it takes -o" in capfd.readouterr().err
+
+
+def test_each_format_may_go_into_its_own_file(arm: Path):
+    words = ("compile", "arm.robot.yaml", "-o", "robots/a.urdf", "-o", "config/a.srdf")
+    assert main(words) == 0
+    assert (arm / "robots" / "a.urdf").read_bytes() == (arm / "urdf" / "arm.urdf").read_bytes()
+    assert (arm / "config" / "a.srdf").read_bytes() == (arm / "urdf" / "arm.srdf").read_bytes()
+
+
+def test_an_srdf_that_is_asked_for_by_its_name_is_one(arm: Path, capfd: pytest.CaptureFixture[str]):
+    (arm / "arm.robot.yaml").write_text(SPEC.partition("semantic")[0])
+    assert main(["compile", "arm.robot.yaml", "-o", "a.urdf", "-o", "a.srdf"]) == 1
+    assert "there is no SRDF to write" in capfd.readouterr().err
+    assert not (arm / "a.urdf").exists()
+
+
+@pytest.mark.parametrize(
+    ("outputs", "said"),
+    [
+        (("a.urdf", "b.urdf"), "'a.urdf' and 'b.urdf' would be the same urdf; name one of them"),
+        (("a.urdf", "build/"), "one folder; found the folder 'build/'"),
+    ],
+)
+def test_outputs_that_cannot_be_meant_together_are_told(
+    arm: Path, capfd: pytest.CaptureFixture[str], outputs: tuple[str, str], said: str
+):
+    assert main(["compile", "arm.robot.yaml", "-o", outputs[0], "-o", outputs[1]]) == 2
+    assert said in capfd.readouterr().err
+
+
+def test_the_hooks_of_pre_commit_are_commands_of_ours(arm: Path):
+    check_hook, uptodate_hook = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
+    assert (check_hook["id"], uptodate_hook["id"]) == ("linkforge-check", "linkforge-uptodate")
+    program, *words = check_hook["entry"].split()
+    assert program == "linkforge"
+    assert main([*words, "arm.robot.yaml"]) == 0
+    program, *words = uptodate_hook["entry"].split()
+    assert program == "linkforge"
+    assert main([*words, "arm.robot.yaml", "-o", "urdf/"]) == 0
+    (arm / "urdf" / "arm.urdf").write_text("<robot/>")
+    assert main([*words, "arm.robot.yaml", "-o", "urdf/"]) == 1
