@@ -146,6 +146,27 @@ def test_a_model_of_the_family_reaches_as_far_as_its_published_dimensions_say(
     assert tool == pytest.approx([-(a2 + a3), d4 + d6, d1 - d5], abs=1e-8)
 
 
+@pytest.mark.parametrize(
+    ("lesson", "variant", "arguments"),
+    [
+        ("06_rover", None, []),
+        ("06_rover", "sim", ["hardware:=gazebo"]),
+        ("07_quadruped", None, []),
+    ],
+)
+def test_the_xacro_that_the_lines_are_compared_with_gives_the_same_robot(
+    lesson: str, variant: str | None, arguments: list[str], shared: Path, tmp_path: Path
+):
+    name = lesson.partition("_")[2]
+    ours, theirs = tmp_path / "ours.urdf", tmp_path / "theirs.urdf"
+    spec = compile_file(ROOT / "examples" / lesson / f"{name}.robot.yaml", variant=variant)
+    ours.write_text(render_urdf(spec.result()))
+    program = "import sys, xacro; xacro.main()"
+    xacro = ROOT / "benchmarks" / "xacro" / f"{name}.urdf.xacro"
+    subprocess.run([sys.executable, "-c", program, str(xacro), *arguments, "-o", str(theirs)], check=True, timeout=60)
+    judge(shared, str(theirs), str(ours), "--with", "xml,pin,mujoco,urdfdom")
+
+
 def test_the_gripper_is_the_vendors_gripper(shared: Path, tmp_path: Path):
     urdf = tmp_path / "gripper.urdf"
     urdf.write_text(render_urdf(compiled(ROOT / "examples" / "05_gripper" / "robotiq_2f_85.robot.yaml")))

@@ -2,6 +2,9 @@
 
 import re
 
+import pytest
+
+from benchmarks import lines
 from linkforge_compile import compile_text, render_urdf
 from linkforge_compile.diagnostics.render import render_text
 from linkforge_compile.units import UNITS
@@ -41,3 +44,8 @@ def test_the_mistakes_of_the_readme_are_told_as_it_shows():
 def test_the_readme_names_every_unit():
     line = next(line for line in README.splitlines() if line.startswith("Units: "))
     assert set(UNITS) <= set(re.findall(r"[^\s`;]+", line))
+
+
+@pytest.mark.parametrize("counted", [*lines.ROBOTS, *lines.TWINS], ids=lambda counted: counted.name)
+def test_the_readme_says_how_many_lines_a_robot_takes(counted: lines.Robot | lines.Twin):
+    assert f"| {lines.of_xacro(counted)} | {lines.of_ours(counted)} |" in README
