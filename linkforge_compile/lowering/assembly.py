@@ -66,14 +66,22 @@ def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = Non
     A module's parts take its prefix and are followed by its connecting joint. Every fault is reported, and what
     is faulty left out. `meshes` are those read so far in this compile, and takes up more.
     """
+    lowered = _lowered(instance, sink, meshes or MeshSolids())
+    if any(one.defaults is not None for one in instance.with_modules):
+        from linkforge_compile.lowering.defaults import judge_defaults
+
+        judge_defaults(instance, sink)
+    return lowered
+
+
+def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids) -> Lowered:
     if instance.tree is None:
         return Lowered(None, (), Gaps(prefixes=("",)))
-    meshes = meshes or MeshSolids()
     reader = MeshReader(instance.find_mesh, meshes)
     file = lower_file(instance.tree, instance.mesh_bases, instance.trail, sink, reader)
     fold = _Fold(file, instance, sink)
     for module in instance.modules:
-        fold.add(module, lower(module, sink, meshes))
+        fold.add(module, _lowered(module, sink, meshes))
     lowered = fold.finished(hangs_alone=instance.entry is None)
     if instance.references and lowered.robot:
         known = gaps_of([lowered.mount.name]) if lowered.mount else Gaps()

@@ -52,6 +52,9 @@ _MOTIONS = {
     JointType.FLOATING: _Motion(),
     JointType.PLANAR: _Motion(),
 }
+_ANY_MOTION = _Motion(
+    _TURNING.position + _SLIDING.position, _TURNING.effort + _SLIDING.effort, _TURNING.velocity + _SLIDING.velocity
+)
 _WITHOUT_AXIS = (JointType.FIXED, JointType.FLOATING)
 
 # What stands in for what is faulty, which has been told: the joint stays, so that its ends and the tree are judged.
@@ -94,6 +97,17 @@ class Ends(NamedTuple):
 def lower_joints(file: Fields) -> Iterator[tuple[str, Joint | None]]:
     """Lower the joints of a file, None for one that is lost."""
     return file.each("joints", "joint", _joint)
+
+
+def read_joint_of_any_type(fields: Fields, name: str) -> None:
+    """Read what a joint may say of its motion, for what there is to tell of it where its type may not be known."""
+    joint_type = fields.choice("type", JointType)
+    motion = _MOTIONS[joint_type] if joint_type else _ANY_MOTION
+    fields.origin()
+    _axis(fields, joint_type)
+    _limits(fields, joint_type, motion)
+    for read in (_dynamics, _mimic, _safety_controller, _calibration):
+        read(fields, motion)
 
 
 def _joint(fields: Fields, name: str) -> Joint | None:
@@ -151,7 +165,7 @@ def _joint_of_no_type(fields: Fields, name: str | None, ends: Ends) -> Joint | N
     )
 
 
-def _axis(fields: Fields, joint_type: JointType) -> tuple[Vector3 | None, Vector3 | None]:
+def _axis(fields: Fields, joint_type: JointType | None) -> tuple[Vector3 | None, Vector3 | None]:
     """Return the unit axis, and the axis as written where that is no unit vector."""
     if joint_type in _WITHOUT_AXIS:
         _refuse(fields, "axis", joint_type)
@@ -176,7 +190,7 @@ def _axis(fields: Fields, joint_type: JointType) -> tuple[Vector3 | None, Vector
     return Vector3(*(component / length for component in written)), written
 
 
-def _limits(fields: Fields, joint_type: JointType, motion: _Motion) -> JointLimits | None:
+def _limits(fields: Fields, joint_type: JointType | None, motion: _Motion) -> JointLimits | None:
     if joint_type is JointType.FIXED:
         _refuse(fields, "limits", joint_type)
         return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -34,6 +34,7 @@ class Instance:
     make it relative to the compiled file: "../arm/", or "package://arm_description/robots/"; "" for no other file.
     `references` are the names that expressions asked for, which must be names of this file or its modules.
     `find_mesh` finds the meshes that an inertia is to be computed from.
+    `defaults` are those of the file, evaluated, None for none: the tree has them where an entry took them over.
     `removed` says of names of this file why it has nothing of that name: a `when`, or an override.
     `trail` lists the `use` that brought the file in, then the use of the file that wrote that, and outwards.
     """
@@ -48,3 +49,11 @@ class Instance:
     references: tuple[NameReference, ...] = ()
     find_mesh: FindMesh = no_mesh
     removed: Removed = field(default_factory=Removed)
+    defaults: YamlMap | None = None
+
+    @property
+    def with_modules(self) -> Iterator[Instance]:
+        """The use itself, and each use below it."""
+        yield self
+        for module in self.modules:
+            yield from module.with_modules

@@ -31,13 +31,11 @@ def without_repetition(defaults: YamlNode, sink: Diagnostics) -> YamlNode:
     return _without_for(defaults, shape) if any(_keys_of_for(defaults, shape)) else defaults
 
 
-def with_defaults(tree: YamlMap, defaults: YamlNode) -> YamlMap:
+def with_defaults(tree: YamlMap, defaults: YamlMap) -> YamlMap:
     """Return a file's tree with its computed defaults in every link, joint and sensor; both are left as they are.
 
     An entry's own word goes first: maps merge, a list is as the entry has it, one of a choice leaves the others out.
     """
-    if not isinstance(defaults, YamlMap):
-        return tree
     sections = dict(tree.entries)
     for name, kind in _SECTIONS.items():
         section, default = tree.get(name), defaults.get(kind)

@@ -106,8 +106,9 @@ class _Expansion:
         file = UseOfFile(use.spec, use.given, use.prefix, use.trail)
         names = FileNames(file, self._shared, used_from(self._sink, use.trail))
         names.judge_parameters()
-        body = Body(_tree(use, names.tree), tuple(_entries(use, names.tree)), names.tree.disabled.removed)
-        tree = body.tree
+        tree, defaults = _tree(use, names.tree), _defaults(use, names.tree)
+        tree = with_defaults(tree, defaults) if defaults else tree
+        body = Body(tree, tuple(_entries(use, names.tree)), names.tree.disabled.removed)
         for override in use.entry.overrides if use.entry else ():
             body = body.under(override)
         asked = names.own.asked
@@ -129,6 +130,7 @@ class _Expansion:
             modules=modules,
             references=asked,
             removed=body.removed,
+            defaults=defaults,
         )
 
     def _count(self, use: _Use, tree: YamlMap) -> None:
@@ -196,16 +198,23 @@ def _sites(use: _Use, names: FileNames) -> dict[SourceFile, MakeSite]:
 
 
 def _tree(use: _Use, tree: TreeEvaluator) -> YamlMap:
-    """Return what a file says of the robot, computed, with its defaults in it."""
+    """Return what a file says of the robot, computed, without its defaults."""
     computed = tree.node(_robot_part(use.spec.tree), shapes())
     assert isinstance(computed, YamlMap), "a map that is computed is a map"
+    return computed
+
+
+def _defaults(use: _Use, tree: TreeEvaluator) -> YamlMap | None:
+    """Return the defaults of a file, computed; None where it has none, or no map."""
     defaults = use.spec.tree.get("defaults")
     if defaults is None:
-        return computed
+        return None
     filling = tree.part(without_repetition(defaults, tree.sink), shapes().under("defaults"), "defaults")
-    if not (filling is None or isinstance(filling, YamlMap | YamlFault) or is_null(filling)):
+    if filling is None or isinstance(filling, YamlMap):
+        return filling
+    if not (isinstance(filling, YamlFault) or is_null(filling)):
         tree.sink.report(WRONG_KIND.at(filling.span, field="'defaults'", expected="a map", found=found(filling)))
-    return with_defaults(computed, filling) if filling else computed
+    return None
 
 
 def _entries(use: _Use, tree: TreeEvaluator) -> Iterator[ModuleEntry]:

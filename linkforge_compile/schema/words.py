@@ -64,9 +64,9 @@ def _nouns(schema: Schema) -> list[str]:
 
 
 def words_of(schema: Schema) -> list[str]:
-    """Return the words of the enum that the schema is, or holds as a branch."""
+    """Return the words of the enum that the schema is, or holds as a branch; in a patch, null goes without saying."""
     listed = [branch.get("enum") for branch in branches(schema)]
-    return [str(word) for words in listed if isinstance(words, list) for word in words]
+    return [str(word) for words in listed if isinstance(words, list) for word in words if word is not None]
 
 
 def found(node: YamlNode) -> str:
