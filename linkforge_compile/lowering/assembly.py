@@ -20,6 +20,7 @@ from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.lowering.module_joint import ModuleJoint, lower_module_joint, module_fields
 from linkforge_compile.lowering.mount import handed_on, hang_on_world, hung_by, only_mount
 from linkforge_compile.modules.assembly import Instance
+from linkforge_compile.modules.module_entry import joint_name_of
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
@@ -118,12 +119,16 @@ class _Fold:
         component = lowered.robot
         root = _root_of(component) if component else None
         final_root = None if root is None else module.prefix + root
-        hanging = self._module_joint(module, lowered.mount, final_root)
+        is_whole = component is not None and (root is not None or bool(lowered.gaps))
+        is_named = component is not None and is_whole and self._prefixed(component, module)
+        clashes = tuple(self._clashes(component)) if component and is_named else ()
+        # What a clash keeps out is not judged for where it would hang.
+        hanging = self._module_joint(module, lowered.mount, None if clashes else final_root)
         if component is None:
             joined = False
-        elif (root is None and not lowered.gaps) or not self._prefixed(component, module):
+        elif not is_named:
             joined = self._leave_out(component, module.prefix, lowered.gaps)
-        elif clashes := tuple(self._clashes(component)):
+        elif clashes:
             self._sink.report_all(told_of_clashes(module, clashes))
             joined = self._leave_out(component, "", lowered.gaps.with_prefix(module.prefix))
         else:
@@ -138,6 +143,9 @@ class _Fold:
         if own is None:
             return lower_module_joint(module, root, self._sink)
         if module.entry is not None and module.entry.node.child("parent") is not None:
+            if module.entry.node.child("joint") is not None:
+                # It may not name one, which is told: whoever names that joint goes by the same mistake.
+                self._gaps |= gaps_of([joint_name_of(module.name, module.entry.node)])
             return hung_by(own, module, root, self._sink)
         self._mounts.append(handed_on(own, module.prefix))
         return lower_module_joint(module, root, self._sink)
@@ -148,6 +156,7 @@ class _Fold:
         One that has a mount and is nobody's module (`hangs_alone`) hangs on the world by it.
         """
         mount = only_mount(self._mounts, self._sink)
+        self._gaps |= gaps_of(other.name for other in self._mounts[1:])
         if mount and hangs_alone and not hang_on_world(self._robot, mount, _root_of(self._robot), self._sink):
             self._gaps |= gaps_of([mount.name])
         if self._states:

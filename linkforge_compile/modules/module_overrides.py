@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from linkforge_compile.diagnostics import Removed
-from linkforge_compile.modules.module_entry import ModuleEntry, with_fields
+from linkforge_compile.modules.module_entry import ModuleEntry, joint_name_of, with_fields
 from linkforge_compile.modules.overrides import Override
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
@@ -33,7 +33,9 @@ class Body:
             if entry.name in left
         )
         names = dict(patch.deleted(whole, patched))
-        starts = {entry.prefix: names[entry.name] for entry in self.entries if entry.name in names}
+        gone = [(entry, names[entry.name]) for entry in self.entries if entry.name in names]
+        names |= {joint_name_of(entry.name, entry.ref.node): note for entry, note in gone}
+        starts = {entry.prefix: note for entry, note in gone}
         removed = Removed(names, starts) | self.removed
         tree = YamlMap({name: one for name, one in patched.entries.items() if name != "modules"}, patched.span)
         return Body(tree, entries, removed)

@@ -235,12 +235,13 @@ def _without_links(tree: YamlMap, links: set[str]) -> YamlMap:
     if not links:
         return tree
     sections = dict(tree.entries)
-    joints, gazebo, semantic = tree.get("joints"), tree.get("gazebo"), tree.get("semantic")
+    gazebo, semantic = tree.get("gazebo"), tree.get("semantic")
     gone = set(links)
-    if isinstance(joints, YamlMap):
-        kept = [entry for entry in joints if _text(entry.value, "child") not in links]
-        gone |= joints.entries.keys() - {entry.name for entry in kept}
-        sections["joints"] = YamlEntry(sections["joints"].key, _map_of(kept, joints.span))
+    for name in ("joints", "mount"):
+        if isinstance(joints := tree.get(name), YamlMap):
+            kept = [entry for entry in joints if _text(entry.value, "child") not in links]
+            gone |= joints.entries.keys() - {entry.name for entry in kept}
+            sections[name] = YamlEntry(sections[name].key, _map_of(kept, joints.span))
     if isinstance(gazebo, YamlList | YamlMap):
         blocks = gazebo.items if isinstance(gazebo, YamlList) else (gazebo,)
         about = tuple(block for block in blocks if _text(block, "reference") not in gone)

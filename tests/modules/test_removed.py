@@ -19,14 +19,16 @@ PAIR = """
     semantic: {groups: {g: {links: [base]}}}
     modules:
       a1: {use: arm.robot.yaml, parent: base}
-      a2: {use: arm.robot.yaml, parent: base}
+      a2: {use: arm.robot.yaml, parent: base, joint: wrist}
+      a3: {use: arm.robot.yaml, parent: base, joint: {name: thumb}}
 """
 CELL = """
     links: {table: }
     modules:
       left: {use: arm.robot.yaml, parent: table}
       right: {when: false, use: arm.robot.yaml, parent: table, prefix: r_, joint: mount}
-      pair: {use: pair.robot.yaml, parent: table, override: {modules: {a1: null}, semantic: {groups: {g: null}}}}
+      pair: {use: pair.robot.yaml, parent: table, override:
+        {modules: {a1: null, a2: null, a3: null}, semantic: {groups: {g: null}}}}
       w$(i): {for: {i: 2}, when: $(i > 0), use: arm.robot.yaml, parent: table}
 """
 
@@ -42,10 +44,12 @@ CELL = """
         ("{links: [r_base]}", "LF4102", "'right' is disabled by 'when' here cell.robot.yaml:6:17"),
         ("{subgroups: [r_g]}", "LF4104", "'right' is disabled by 'when' here cell.robot.yaml:6:17"),
         ("{joints: [mount]}", "LF4103", "'right' is disabled by 'when' here cell.robot.yaml:6:17"),
-        ("{links: [w0_base]}", "LF4102", "'w0' is disabled by 'when' here cell.robot.yaml:8:30"),
-        ("{links: [pair_a1_base]}", "LF4102", "'a1' is deleted by this override cell.robot.yaml:7:68"),
-        ("{joints: [pair_a1_joint]}", "LF4103", "'a1' is deleted by this override cell.robot.yaml:7:68"),
-        ("{subgroups: [pair_g]}", "LF4104", "'g' is deleted by this override cell.robot.yaml:7:99"),
+        ("{links: [w0_base]}", "LF4102", "'w0' is disabled by 'when' here cell.robot.yaml:9:30"),
+        ("{links: [pair_a1_base]}", "LF4102", "'a1' is deleted by this override cell.robot.yaml:8:19"),
+        ("{joints: [pair_a1_joint]}", "LF4103", "'a1' is deleted by this override cell.robot.yaml:8:19"),
+        ("{joints: [pair_wrist]}", "LF4103", "'a2' is deleted by this override cell.robot.yaml:8:29"),
+        ("{joints: [pair_thumb]}", "LF4103", "'a3' is deleted by this override cell.robot.yaml:8:39"),
+        ("{subgroups: [pair_g]}", "LF4104", "'g' is deleted by this override cell.robot.yaml:8:70"),
     ],
 )
 def test_a_name_that_was_taken_out_is_told_once_with_the_place(tmp_path: Path, use: str, code: str, why: str):
