@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.groups import group_links
 from linkforge_compile.checks.ranges import ROUNDING, missed_range
-from linkforge_compile.checks.references import Use, listed, own_positions
+from linkforge_compile.checks.references import SHOWN, Use, listed, own_positions
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
@@ -66,11 +66,17 @@ def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
 def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[object, ...]) -> Iterator[Diagnostic]:
     count, expected = VALUES_IN_A_STATE.get(joint.type, (len(values), ""))
     if len(values) != count:
-        yield use.told(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=len(values))
+        yield use.told(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=_counted(values))
     elif isinstance(joint, Joint) and values and isinstance(position := values[0], int | float):
         span = missed_range(joint, position, position)
         if span:
             yield use.told(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=f"{position:.6g}")
+
+
+def _counted(values: tuple[object, ...]) -> str:
+    """Return "none", or how many values there are and the first of them: "2: [0, 0.5]"."""
+    shown = [f"{value:.6g}" if isinstance(value, int | float) else str(value) for value in values[:SHOWN]]
+    return f"{len(values)}: [{', '.join((*shown, *(['…'] if len(values) > SHOWN else [])))}]" if values else "none"
 
 
 def check_states_of_mimics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

@@ -9,11 +9,11 @@ from linkforge_compile.diagnostics.codes.ignoring import NOTHING_TO_IGNORE
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note
 
 
-def told_once(runs: Mapping[str, Iterable[Diagnostic]], *, every: str) -> tuple[Diagnostic, ...]:
-    """Return what was told in any of the runs, in reading order, with a note that says in which.
+def told_once(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...]:
+    """Return what was told in any of the runs, in reading order, with a note on what only some of them tell.
 
-    The runs are named as after "with": "the defaults", "variant 'sim'"; `every` names them all together. Each run
-    read the files anew, so a fault is known by what a person sees of it: its code, its place and its words.
+    The runs are named as after "with": "the defaults", "variant 'sim'". Each run read the files anew, so a fault is
+    known by what a person sees of it: its code, its place and its words.
     """
     first: dict[tuple[str, str, str], Diagnostic] = {}
     told_in: dict[tuple[str, str, str], list[str]] = {}
@@ -26,13 +26,11 @@ def told_once(runs: Mapping[str, Iterable[Diagnostic]], *, every: str) -> tuple[
     told = {
         key: one for key, one in first.items() if one.code is not NOTHING_TO_IGNORE or len(told_in[key]) == len(runs)
     }
-    noted = (_with_note(diagnostic, told_in[key], len(runs), every) for key, diagnostic in told.items())
+    noted = (_with_note(one, told_in[key]) if len(told_in[key]) < len(runs) else one for key, one in told.items())
     return tuple(sorted(noted, key=lambda diagnostic: diagnostic.order))
 
 
-def _with_note(diagnostic: Diagnostic, runs: list[str], of: int, every: str) -> Diagnostic:
-    if len(runs) == of:
-        return diagnostic if of == 1 else replace(diagnostic, notes=(*diagnostic.notes, Note(f"with {every}")))
+def _with_note(diagnostic: Diagnostic, runs: list[str]) -> Diagnostic:
     *others, last = runs
     words = f"{', '.join(others)} and {last}" if others else f"{last} only"
     return replace(diagnostic, notes=(*diagnostic.notes, Note(f"with {words}")))

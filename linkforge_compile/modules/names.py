@@ -75,6 +75,8 @@ class FileNames:
         self.declared = declarations(spec.tree.get("parameters"))
         self._unset: list[Declaration] = []
         self._sink = sink
+        self._of_two: set[str] = set()
+        """The names that two sections declare: what is meant where they are used nobody knows, which has been told."""
         self._parameters = {
             name: Lazy(partial(self._parameter, declaration), declaration.key.span)
             for name, declaration in self.declared.items()
@@ -88,7 +90,7 @@ class FileNames:
             "prefix": use.prefix,
         }
         self.own = OwnNames(spec, use.prefix, lambda: self.packages, shared.loader, use.trail)
-        values = {**always, **self._variables, **self._data, **self._parameters}
+        values = {**always, **self._variables, **self._data, **self._parameters, **dict.fromkeys(self._of_two, FAULT)}
         scope = Scope(values, self._names_unread(), self.own.functions, self._loader.budget)
         self.tree = TreeEvaluator(scope, shared.expressions, sink, self._paths_seen_from_elsewhere())
 
@@ -154,6 +156,7 @@ class FileNames:
         for entry in declared if isinstance(declared, YamlMap) else ():
             other = self._kind_of_other(entry.name, section)
             if other:
+                self._of_two.add(entry.name)
                 notes = [Note(f"the {other[0]} is declared here", other[1].span)]
                 kinds = f"a {other[0]} and a {kind}"
                 self._sink.report(NAME_OF_TWO_KINDS.at(entry.key.span, name=entry.name, kinds=kinds, notes=notes))

@@ -39,7 +39,8 @@ _STUCK = re.compile(r"[A-Za-z_]\w*:\S.*")
 def read(file: SourceFile, sink: Diagnostics, budget: Budget | None = None) -> YamlMap | None:
     """Read the one YAML document of a file; None where its text or its top level is at fault, which is reported.
 
-    A node at fault becomes a YamlFault, a repeated key is dropped, and reading goes on; only malformed YAML ends it.
+    A node at fault becomes a YamlFault, as does what a repeated key says, and reading goes on; only malformed YAML ends
+    it.
     What it holds is counted in the budget, each alias as a copy of its own; without one it is a compile by itself.
     """
     root = _root(file, sink, budget or Budget(), None)
@@ -263,7 +264,7 @@ class _Reader:
         if any(isinstance(node, _CutExpression) for entry in entries for node in entry):
             return YamlFault(span)
         named = [entry for key, value in entries for entry in self._entry(key, value, flow)]
-        return YamlMap(self._merged(self._unique(named)), span)
+        return YamlMap(self._merged(self._unique(named, is_top=depth == 1)), span)
 
     def _key(self, event: events.Event, depth: int, flow: bool) -> YamlNode:
         if isinstance(event, events.ScalarEvent) and event.anchor is None and event.tag is None:
@@ -290,14 +291,25 @@ class _Reader:
         else:
             yield YamlEntry(key, value)
 
-    def _unique(self, entries: Iterable[YamlEntry]) -> dict[str, YamlEntry]:
-        """Return the entries by name, the first of each."""
-        first: dict[str, YamlEntry] = {}
+    def _unique(self, entries: Iterable[YamlEntry], *, is_top: bool = False) -> dict[str, YamlEntry]:
+        """Return the entries by name; which of two is meant nobody knows, so that what they say is a fault.
+
+        Two sections of one name, at the top, are one with the entries of both, since others use the names in them.
+        """
+        unique: dict[str, YamlEntry] = {}
+        again: dict[str, list[YamlEntry]] = {}
         for entry in entries:
-            if entry is not (kept := first.setdefault(entry.name, entry)):
+            if entry is not (kept := unique.setdefault(entry.name, entry)):
                 note = Note("first written here", kept.key.span)
                 self._sink.report(codes.DUPLICATE_KEY.at(entry.key.span, key=entry.name, notes=[note]))
-        return first
+                again.setdefault(entry.name, [kept]).append(entry)
+        for name, (first, *others) in again.items():
+            value: YamlNode = YamlFault(first.value.span)
+            maps = [one.value for one in (first, *others) if isinstance(one.value, YamlMap)]
+            if is_top and len(maps) == len(others) + 1:
+                value = YamlMap(self._unique(entry for each in maps for entry in each), first.value.span)
+            unique[name] = YamlEntry(first.key, value)
+        return unique
 
     def _merged(self, entries: dict[str, YamlEntry]) -> dict[str, YamlEntry]:
         """Lay what `<<` names where it stands; the map's own entries win, then those of the earlier map."""

@@ -218,7 +218,7 @@ def test_a_field_of_a_flow_map_may_be_left_empty():
     tree, told = read_text("a: 1\na: 2\nb: {mass:}\nc: {mass:, d: [{e:}]}\n")
     assert told == ["2:1 the key 'a' is written twice"]
     assert tree is not None
-    assert plain(tree) == {"a": 1, "b": {"mass": None}, "c": {"mass": None, "d": [{"e": None}]}}
+    assert plain(tree) == {"a": "FAULT", "b": {"mass": None}, "c": {"mass": None, "d": [{"e": None}]}}
 
 
 @pytest.mark.skipif(not yaml.__with_libyaml__, reason="without libyaml, its own parser reads all")
@@ -237,7 +237,13 @@ def test_what_libyaml_alone_can_name_is_passed_on():
 def test_reading_goes_on_behind_a_fault():
     tree, told = read_text("a: 1\na: 2\nb: !x 3\nc: [*y, 4]\nd: {e: $(f(1, 2)), g: 5}\nh: 6\n")
     assert [line.split()[0] for line in told] == ["2:1", "3:4", "4:5", "5:8"]
-    assert plain(tree) == {"a": 1, "b": "FAULT", "c": ["FAULT", 4], "d": "FAULT", "h": 6}
+    assert plain(tree) == {"a": "FAULT", "b": "FAULT", "c": ["FAULT", 4], "d": "FAULT", "h": 6}
+
+
+def test_two_sections_of_one_name_are_one_with_the_entries_of_both():
+    tree, told = read_text("a: {b: 1, c: 2}\nd: {e: {f: 1}, e: {g: 2}}\na: {c: 3, h: 4}\n")
+    assert [line.split()[0] for line in told] == ["2:16", "3:1", "3:5"]
+    assert plain(tree) == {"a": {"b": 1, "c": "FAULT", "h": 4}, "d": {"e": "FAULT"}}
 
 
 def test_the_first_of_two_equal_keys_is_shown():

@@ -95,7 +95,7 @@ def _one_report(compilations: Mapping[str | None, Compilation]) -> tuple[Diagnos
         "the defaults" if variant is None else f"variant '{variant}'": compilation.diagnostics
         for variant, compilation in compilations.items()
     }
-    return told_once(runs, every="the defaults and every variant")
+    return told_once(runs)
 
 
 def _counted(count: int, noun: str) -> str:
