@@ -24,16 +24,19 @@ def write_to_stdout(text: str) -> None:
         raise UsageError(f"cannot write to standard output: {error.strerror}") from error
 
 
-def put_json(text: str, output: str | None) -> None:
-    """Write JSON to the file of `-o`, None for standard output; UsageError for a file of another kind."""
+def put_json(text: str, output: str | None, *, quiet: bool) -> None:
+    """Write JSON to the file of `-o`, None for standard output; UsageError for a file of another kind.
+
+    What was done is said to standard error unless that is to be `quiet`.
+    """
     if output is None:
         write_to_stdout(text)
     elif not output.endswith(".json"):
         raise UsageError(f"-o takes a file that ends in .json, found '{output}'")
-    elif write_if_changed(Path(output), text):
-        print(f"wrote {output}", file=sys.stderr)
     else:
-        print(f"{output} is up to date", file=sys.stderr)
+        is_new = write_if_changed(Path(output), text)
+        if not quiet and sys.stderr is not None:
+            sys.stderr.write(f"wrote {output}\n" if is_new else f"{output} is up to date\n")
 
 
 def write_if_changed(path: Path, text: str) -> bool:

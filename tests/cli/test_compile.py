@@ -1,5 +1,6 @@
 """`linkforge compile`, run as a program."""
 
+import json
 import os
 import stat
 import subprocess
@@ -70,7 +71,9 @@ def test_no_srdf_is_written_without_a_semantic_part(pendulum: Path):
 def test_asking_for_srdf_without_a_semantic_part_is_told(pendulum: Path):
     run = linkforge("compile", "swing.robot.yaml", "--format", "srdf", cwd=pendulum)
     assert (run.returncode, run.stdout) == (1, "")
-    assert "no `semantic` part" in run.stderr
+    assert "swing.robot.yaml:2:7: error: robot 'pendulum' has no 'semantic' part" in run.stderr
+    run = linkforge("compile", "swing.robot.yaml", "--format", "srdf", "--diagnostics", "json", cwd=pendulum)
+    assert [one["code"] for one in json.loads(run.stderr)["diagnostics"]] == ["LF7085"]
 
 
 @pytest.mark.parametrize("words", [("-o", "out.srdf"), ("-o", "out.xml", "--format", "srdf")])

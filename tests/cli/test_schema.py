@@ -21,5 +21,6 @@ def test_the_schema_goes_to_a_file_that_is_one(tmp_path: Path):
     (tmp_path / "arm.robot.yaml").write_text("linkforge: 1")
     assert linkforge("schema", "-o", "arm.robot.yaml", cwd=tmp_path).returncode == 2
     assert (tmp_path / "arm.robot.yaml").read_text() == "linkforge: 1"
-    assert linkforge("schema", "-o", "robot.schema.json", cwd=tmp_path).returncode == 0
+    assert linkforge("schema", "-o", "robot.schema.json", cwd=tmp_path).stderr == "wrote robot.schema.json\n"
+    assert linkforge("schema", "-o", "robot.schema.json", "-q", cwd=tmp_path).stderr == ""
     assert (tmp_path / "robot.schema.json").read_text() == linkforge("schema", cwd=tmp_path).stdout

@@ -59,10 +59,25 @@ def test_a_document_and_a_spec_that_changed_are_told(build: Path):
     (build / "arm.robot.yaml").write_text("# new\n" + ARM)
     run = linkforge("where", "build/cell.urdf", "left_elbow", cwd=build)
     assert run.returncode == 0
-    assert "build/cell.urdf changed since its map was written" in run.stderr
-    assert "arm.robot.yaml changed since it was compiled" in run.stderr
+    assert "build/cell.urdf:1:1: warning: this file changed since its map was written" in run.stderr
+    assert "arm.robot.yaml:1:1: warning: this file changed since it was compiled" in run.stderr
     (build / "arm.robot.yaml").unlink()
-    assert "there is no file 'arm.robot.yaml'" in linkforge("where", "build/cell.urdf", "left_elbow", cwd=build).stderr
+    run = linkforge("where", "build/cell.urdf", "left_elbow", cwd=build)
+    assert "arm.robot.yaml:1:1: warning: what is written here cannot be shown: there is no file" in run.stderr
+
+
+@pytest.mark.parametrize(
+    ("options", "codes", "returncode"),
+    [((), ["LF7086"], 0), (("--werror",), ["LF7086"], 1), (("--ignore", "LF7086"), [], 0), (("-q",), [], 0)],
+)
+def test_its_warnings_are_chosen_as_everywhere(
+    build: Path, options: tuple[str, ...], codes: list[str], returncode: int
+):
+    (build / "arm.robot.yaml").write_text("# new\n" + ARM)
+    words = ("where", "build/cell.urdf", "left_elbow", "--diagnostics", "json", *options)
+    run = linkforge(*words, cwd=build)
+    assert [one["code"] for one in json.loads(run.stderr)["diagnostics"]] == codes
+    assert (run.returncode, run.stdout.startswith("build/cell.urdf:")) == (returncode, True)
 
 
 def test_without_a_map_the_header_tells_how_to_get_one(build: Path):

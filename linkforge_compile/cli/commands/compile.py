@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
 
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.pipeline import Compilation
 
 _EXAMPLES = """\
 examples:
@@ -68,14 +68,22 @@ def run(arguments: argparse.Namespace) -> int:
     compilation = compile_spec(spec, assignments, arguments, targets.folder)
     outputs = None if compilation.robot is None else _outputs(compilation.robot, spec, targets, arguments)
     stale = _stale(outputs, spec) if arguments.check and outputs else ()
-    if tell((*compilation.diagnostics, *stale), arguments) or compilation.robot is None:
-        return FAULTY_SPEC
-    if outputs is None:
-        print(f"{spec}: error: the robot has no `semantic` part, so there is no SRDF to write", file=sys.stderr)
+    if tell((*_report(compilation, outputs), *stale), arguments) or outputs is None:
         return FAULTY_SPEC
     for output in outputs:
         _put(output, arguments)
     return OK
+
+
+def _report(compilation: Compilation, outputs: Sequence[Output] | None) -> tuple[Diagnostic, ...]:
+    """Return what is to be told of a spec, with the part that it lacks where an SRDF is asked for in vain."""
+    robot = compilation.robot
+    if robot is None or outputs is not None:
+        return compilation.diagnostics
+    from linkforge_compile.diagnostics.codes.backends import NO_SEMANTIC_PART
+
+    missed = NO_SEMANTIC_PART.at(robot.source, "name", robot=robot.name)
+    return tuple(sorted((*compilation.diagnostics, missed), key=lambda diagnostic: diagnostic.order))
 
 
 def _outputs(robot: Robot, spec: str, targets: Targets, arguments: argparse.Namespace) -> tuple[Output, ...] | None:

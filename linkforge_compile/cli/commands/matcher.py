@@ -20,11 +20,12 @@ Where `linkforge check` is a step of its own, `--format github` needs no matcher
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
+    parser.add_argument("-q", "--quiet", action="store_true", help="say nothing when all is well")
 
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import put_json
     from linkforge_compile.resources import matcher_file
 
-    put_json(matcher_file().read_text("utf-8"), arguments.output)
+    put_json(matcher_file().read_text("utf-8"), arguments.output, quiet=arguments.quiet)
     return OK

@@ -20,11 +20,12 @@ after writing the schema beside it:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
+    parser.add_argument("-q", "--quiet", action="store_true", help="say nothing when all is well")
 
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import put_json
     from linkforge_compile.schema import bundle_text
 
-    put_json(bundle_text(), arguments.output)
+    put_json(bundle_text(), arguments.output, quiet=arguments.quiet)
     return OK

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.cli.exits import OK, UsageError
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.source import SourceFile
 
 if TYPE_CHECKING:
     import argparse
 
     from linkforge_compile.backends.map_file import MapFile, Stretch
+    from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.source import Span
 
 _EXAMPLES = """\
@@ -36,6 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("file", metavar="FILE[:LINE[:COLUMN]]", help="a line of a URDF or SRDF file")
     parser.add_argument("name", metavar="NAME", nargs="?", help="what has this name in the file, instead of a line")
+    add_telling_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -44,15 +47,13 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("takes a line of a file, such as robot.urdf:81, or a file and a name in it")
     document = _text_of(path)
     source_map = _map_of(path, document)
+    sources = _Sources(path.parent, source_map, _faults_of(path, document, source_map))
     lines = _named(path, document, arguments.name) if line is None else [_Asked(line, column, "")]
     from linkforge_compile.cli.output import write_to_stdout
 
-    sources = _Sources(path.parent, source_map)
     rows = (row for asked in lines for row in _answer(path, document, sources, asked))
     write_to_stdout("".join(f"{row}\n" for row in rows))
-    for fault in sources.faults:
-        print(f"linkforge where: {fault}", file=sys.stderr)
-    return OK
+    return FAULTY_SPEC if tell(sources.faults, arguments) else OK
 
 
 class _Asked(NamedTuple):
@@ -87,7 +88,7 @@ def _text_of(path: Path) -> str:
 
 def _map_of(path: Path, document: str) -> MapFile:
     """Read the map of a document; UsageError for none, with how to get one."""
-    from linkforge_compile.backends.map_file import ENDING, NoMapError, hash_of, read_map
+    from linkforge_compile.backends.map_file import ENDING, NoMapError, read_map
 
     beside = path.with_name(path.name + ENDING)
     if not beside.exists():
@@ -96,15 +97,23 @@ def _map_of(path: Path, document: str) -> MapFile:
         command = f"linkforge compile {spec} -o {path} --source-map"
         raise UsageError(f"there is no map '{beside}'; `{command}`, with the options of before, writes it")
     try:
-        source_map = read_map(_text_of(beside))
+        return read_map(_text_of(beside))
     except NoMapError as error:
         raise UsageError(f"'{beside}' cannot be read: {error}") from None
-    if source_map.sha256 != hash_of(document):
-        print(
-            f"linkforge where: {path} changed since its map was written, so this may be off; compile it again",
-            file=sys.stderr,
-        )
-    return source_map
+
+
+def _faults_of(path: Path, document: str, source_map: MapFile) -> list[Diagnostic]:
+    from linkforge_compile.backends.map_file import hash_of
+
+    if source_map.sha256 == hash_of(document):
+        return []
+    return [_changed(SourceFile(str(path), document), "its map was written")]
+
+
+def _changed(file: SourceFile, when: str) -> Diagnostic:
+    from linkforge_compile.diagnostics.codes.backends import CHANGED_SINCE
+
+    return CHANGED_SINCE.at(file.whole, when=when)
 
 
 def _named(path: Path, document: str, name: str) -> list[_Asked]:
@@ -153,11 +162,11 @@ def _elements_of(path: Path, document: str) -> Iterator[_Element]:
 
 
 class _Sources:
-    """The files that a map refers to, each read once; `faults` tell of those that are not what was mapped."""
+    """The files that a map refers to, each read once; `faults` grow by those that are not what was mapped."""
 
-    def __init__(self, folder: Path, source_map: MapFile) -> None:
+    def __init__(self, folder: Path, source_map: MapFile, faults: list[Diagnostic]) -> None:
         self.map = source_map
-        self.faults: list[str] = []
+        self.faults = faults
         self._folder = folder
         self._read: dict[int, Span] = {}
 
@@ -169,19 +178,19 @@ class _Sources:
 
     def _whole(self, number: int) -> Span:
         from linkforge_compile.backends.map_file import hash_of
-        from linkforge_compile.source import SourceFile
+        from linkforge_compile.diagnostics.codes.backends import SOURCE_NOT_SHOWN
 
         source = self.map.sources[number]
         name = _from_here(self._folder / source.path)
         try:
-            text = _text_of(Path(name))
+            file = SourceFile(name, _text_of(Path(name)))
         except UsageError as error:
-            text = ""
-            self.faults.append(str(error))
+            file = SourceFile(name, "")
+            self.faults.append(SOURCE_NOT_SHOWN.at(file.whole, reason=error))
         else:
-            if hash_of(text) != source.sha256:
-                self.faults.append(f"{name} changed since it was compiled, so this may be off; compile it again")
-        self._read[number] = SourceFile(name, text).whole
+            if hash_of(file.text) != source.sha256:
+                self.faults.append(_changed(file, "it was compiled"))
+        self._read[number] = file.whole
         return self._read[number]
 
 

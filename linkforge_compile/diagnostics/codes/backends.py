@@ -34,12 +34,25 @@ UNDECLARED_PREFIX = Code(
     Severity.WARNING,
     "no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into the robot's 'extra_attributes'",
 )
+
+# LF708x, LF709x: what a command asks of an output
+NO_SEMANTIC_PART = Code(
+    "LF7085",
+    Severity.ERROR,
+    "robot '{robot}' has no 'semantic' part, so there is no SRDF to write; add one, or compile to URDF",
+)
+CHANGED_SINCE = Code(
+    "LF7086", Severity.WARNING, "this file changed since {when}, so what is told of it may be off; compile it again"
+)
+SOURCE_NOT_SHOWN = Code("LF7087", Severity.WARNING, "what is written here cannot be shown: {reason}")
 STALE_OUTPUT = Code(
     "LF7095",
     Severity.ERROR,
     "here '{spec}' compiles to {expected}; compile it again, and edit it rather than this file",
 )
 MISSING_OUTPUT = Code("LF7096", Severity.ERROR, "there is no '{path}', which '{spec}' compiles to; compile it again")
+
+# LF710x: sensors in Gazebo
 NO_JOINT_TO_SENSE = Code(
     "LF7101",
     Severity.WARNING,
