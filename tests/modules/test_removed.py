@@ -45,11 +45,11 @@ CELL = """
         ("{subgroups: [r_g]}", "LF4104", "'right' is disabled by 'when' here cell.robot.yaml:6:17"),
         ("{joints: [mount]}", "LF4103", "'right' is disabled by 'when' here cell.robot.yaml:6:17"),
         ("{links: [w0_base]}", "LF4102", "'w0' is disabled by 'when' here cell.robot.yaml:9:30"),
-        ("{links: [pair_a1_base]}", "LF4102", "'a1' is deleted by this override cell.robot.yaml:8:19"),
-        ("{joints: [pair_a1_joint]}", "LF4103", "'a1' is deleted by this override cell.robot.yaml:8:19"),
-        ("{joints: [pair_wrist]}", "LF4103", "'a2' is deleted by this override cell.robot.yaml:8:29"),
-        ("{joints: [pair_thumb]}", "LF4103", "'a3' is deleted by this override cell.robot.yaml:8:39"),
-        ("{subgroups: [pair_g]}", "LF4104", "'g' is deleted by this override cell.robot.yaml:8:70"),
+        ("{links: [pair_a1_base]}", "LF4102", "'a1' is deleted by this override cell.robot.yaml:8:16"),
+        ("{joints: [pair_a1_joint]}", "LF4103", "'a1' is deleted by this override cell.robot.yaml:8:16"),
+        ("{joints: [pair_wrist]}", "LF4103", "'a2' is deleted by this override cell.robot.yaml:8:26"),
+        ("{joints: [pair_thumb]}", "LF4103", "'a3' is deleted by this override cell.robot.yaml:8:36"),
+        ("{subgroups: [pair_g]}", "LF4104", "'g' is deleted by this override cell.robot.yaml:8:67"),
     ],
 )
 def test_a_name_that_was_taken_out_is_told_once_with_the_place(tmp_path: Path, use: str, code: str, why: str):
