@@ -1,19 +1,20 @@
 """How long merging takes: 200 modules of 10 links into one robot, ours beside LinkForge's where that is installed.
 
-    python benchmarks/merge.py [--modules 200] [--links 10] [--rounds 5]
-
-The rounds of both take turns, so that a busy machine slows both down alike; a table shows the medians.
+python benchmarks/merge.py [--modules 200] [--links 10] [--rounds 5]
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
+from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
 from itertools import pairwise
-from statistics import median
 from time import process_time
 from types import ModuleType
+
+from timing import medians
 
 LIBRARIES = {"ours": "linkforge_compile.core", "LinkForge": "linkforge.core"}
 
@@ -51,22 +52,21 @@ def seconds_to_merge(core: ModuleType, modules: int, links: int) -> float:
     return process_time() - start
 
 
+def merges(modules: int, links: int) -> dict[str, Callable[[], float]]:
+    """Return what measures each library that is installed."""
+    installed = {label: name for label, name in LIBRARIES.items() if find_spec(name.partition(".")[0]) is not None}
+    return {label: partial(seconds_to_merge, import_module(name), modules, links) for label, name in installed.items()}
+
+
 def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for option, default in (("--modules", 200), ("--links", 10), ("--rounds", 5)):
         arguments.add_argument(option, type=int, default=default)
     options = arguments.parse_args()
-    cores = {
-        label: import_module(name) for label, name in LIBRARIES.items() if find_spec(name.partition(".")[0]) is not None
-    }
-    taken: dict[str, list[float]] = {label: [] for label in cores}
-    for _ in range(options.rounds):
-        for label, core in cores.items():
-            taken[label].append(seconds_to_merge(core, options.modules, options.links))
+    taken = medians(options.rounds, merges(options.modules, options.links))
     print(f"{options.modules} modules of {options.links} links, median of {options.rounds}")
     for label, seconds in taken.items():
-        ratio = median(seconds) / median(taken["ours"])
-        print(f"{label:<10} {median(seconds) * 1000:10.1f} ms {ratio:8.1f} x")
+        print(f"{label:<10} {seconds * 1000:10.1f} ms {seconds / taken['ours']:8.1f} x")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,40 @@
+"""A chain of links as a spec: what the speed of long robots is measured with."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_LINK = """
+  link{0}:
+    visual: {{cylinder: {{radius: 0.05, length: 0.3}}, origin: {{xyz: [0, 0, 0.15]}}, material: steel}}
+    collision: {{cylinder: {{radius: 0.05, length: 0.3}}, origin: {{xyz: [0, 0, 0.15]}}}}
+    inertial: {{mass: 1.5, origin: [0, 0, 0.15], inertia: {{ixx: 0.0122, iyy: 0.0122, izz: 0.0019}}}}"""
+
+_JOINT = """
+  joint{0}:
+    type: revolute
+    parent: link{0}
+    child: link{1}
+    origin: {{xyz: [0, 0, 0.3], rpy: [0, 0, 0.1]}}
+    axis: [0, 1, 0]
+    limits: {{lower: -1.5, upper: 1.5, effort: 50, velocity: 2}}
+    dynamics: {{damping: 0.1, friction: 0.05}}"""
+
+
+def chain(links: int) -> str:
+    """Return the spec of so many links, each with what a real one has, and the joints between them."""
+    return "".join(
+        (
+            "linkforge: 1\nname: chain\nmaterials:\n  steel: {color: [0.6, 0.6, 0.65]}\nlinks:",
+            *(_LINK.format(number) for number in range(links)),
+            "\njoints:" if links > 1 else "",
+            *(_JOINT.format(number, number + 1) for number in range(links - 1)),
+            "\n",
+        )
+    )
+
+
+def write_chain(folder: Path, links: int) -> Path:
+    path = folder / f"chain_{links}.robot.yaml"
+    path.write_text(chain(links), "utf-8")
+    return path

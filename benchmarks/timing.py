@@ -1,0 +1,71 @@
+"""How the benchmarks take time: medians of runs that take turns, in seconds of the processor.
+
+Turns, so that a busy machine slows all sides alike; the processor's time, since what waits for others is not ours.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from statistics import median
+from time import process_time
+from typing import NamedTuple
+
+
+class Usage(NamedTuple):
+    """What a whole process took: its time in user and system mode [s], and its peak memory [MB]."""
+
+    seconds: float
+    megabytes: float
+
+
+def medians(rounds: int, runs: Mapping[str, Callable[[], float]]) -> dict[str, float]:
+    """Return the median of what each run answers, after a first turn that does not count."""
+    taken: dict[str, list[float]] = {label: [] for label in runs}
+    for turn in range(rounds + 1):
+        for label, run in runs.items():
+            one = run()
+            if turn:
+                taken[label].append(one)
+    return {label: median(values) for label, values in taken.items()}
+
+
+def seconds_of(action: Callable[[], object]) -> float:
+    """Return what an action takes in this process [s]."""
+    start = process_time()
+    action()
+    return process_time() - start
+
+
+def python(*arguments: str) -> Usage:
+    """Run Python as a whole process, as installed packages run: from bytecode, which the first run leaves."""
+    return _process([sys.executable, *arguments])
+
+
+def _process(command: Sequence[str]) -> Usage:
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env=_environment()) as process:
+        assert process.stderr is not None
+        told = process.stderr.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        raise SystemExit(f"{' '.join(command)}\n{told.decode()}")
+    # Linux counts in kilobytes, macOS in bytes.
+    unit = 1e6 if sys.platform == "darwin" else 1e3
+    return Usage(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / unit)
+
+
+@cache
+def _environment() -> dict[str, str]:
+    """Return our environment with bytecode on, which installers write, and bounds that admit 10,000 links."""
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    return {**kept, "PYTHONPYCACHEPREFIX": _bytecode().name, "LINKFORGE_LIMITS": "10"}
+
+
+@cache
+def _bytecode() -> tempfile.TemporaryDirectory[str]:
+    return tempfile.TemporaryDirectory(prefix="bytecode")
