@@ -22,12 +22,12 @@ from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
 from linkforge_compile.schema.words import (
     COMMON_KEYS,
     alternatives,
+    branch_meant,
     expected,
     field,
     found,
     is_number,
     shortened,
-    takes,
     words_of,
 )
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
@@ -64,25 +64,15 @@ def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
     if isinstance(node, YamlFault) or (is_null(node) and not isinstance(path[-1], int)):
         return
     misfit = Misfit(node, path, mapping(error.schema))
-    if error.validator == "anyOf" and (branch := _branch_meant(misfit)) is not None:
+    meant = None if error.validator != "anyOf" or _is_text(node) else branch_meant(misfit.schema, node)
+    if meant is not None:
         for inner in error.context or ():
-            if inner.schema_path[0] == branch:
+            if inner.schema_path[0] == meant:
                 yield from explain(inner, tree)
     elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
         yield Judgement(XACRO_EXPRESSION.at(node.span, text=facts["text"], ours=facts["ours"]), path)
     else:
         yield from _EXPLAIN[str(error.validator)](misfit)
-
-
-def _branch_meant(misfit: Misfit) -> int | None:
-    """Return the branch by which to judge: for a map the one of maps, for a list the one of lists.
-
-    None for text, which all branches judge together, since a word, a quantity and an expression are all text.
-    """
-    if _is_text(misfit.node):
-        return None
-    union = enumerate(branches(misfit.schema))
-    return next((position for position, branch in union if takes(branch, misfit.node)), None)
 
 
 def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, too_many_errors
 from linkforge_compile.schema.explain import Judgement, Path, explain
+from linkforge_compile.schema.fit import fit_of
 from linkforge_compile.schema.json_types import Schema
 from linkforge_compile.schema.registry import linked
 from linkforge_compile.schema.shapes import Shape
@@ -30,6 +31,8 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     misspelt is not told twice. What was YamlFault before is not judged.
     What is missing inside an entry, names, and the units of quantities are for later stages to judge.
     """
+    if _is_right(tree, is_included):
+        return tree
     found = (judgement for error in _errors(tree, is_included) for judgement in explain(error, tree))
     # Each is explained with all that is near it: of the hundred thousand faults of a hostile file, those that are told.
     judgements = list(islice(found, MAX_TOLD + 1))
@@ -41,11 +44,14 @@ def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics)
 
     Whether it is itself of the kind and length that stands there, its reader judges, as of any computed value.
     """
+    written = _with_units(node)
+    if fit_of(shape.schema).takes(written):
+        return node
     from jsonschema import Draft7Validator
 
     name = YamlScalar(key, key, node.span)
     tree = YamlMap({key: YamlEntry(name, node)}, node.span)
-    shown = YamlMap({key: YamlEntry(name, _with_units(node))}, node.span)
+    shown = YamlMap({key: YamlEntry(name, written)}, node.span)
     whole: Schema = {"type": "object", "properties": {key: shape.schema}}
     errors = Draft7Validator(whole).iter_errors({key: _plain(shown.entries[key].value)})
     judgements = [one for error in errors for one in explain(error, shown) if len(one.path) > 1]
@@ -61,9 +67,15 @@ def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> 
     return _pruned(tree, judgements) if judgements else tree
 
 
+def _is_right(tree: YamlMap, is_included: bool) -> bool:
+    """Whether a file is certainly as the language says; jsonschema, which takes long, is asked of others only."""
+    said = ("linkforge",) if is_included else _HEADER
+    return all(tree.get(name) is not None for name in said) and fit_of(linked()).takes(tree)
+
+
 @cache
 def _validator(is_included: bool) -> Draft7Validator:
-    # 110 ms to import: only where there is a tree to judge.
+    # 110 ms to import: only where there is something to tell.
     from jsonschema import Draft7Validator
 
     return Draft7Validator(linked() if is_included else {**linked(), "required": [*_HEADER]})

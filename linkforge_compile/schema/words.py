@@ -22,7 +22,16 @@ def alternatives(words: Sequence[str], last: str = "or") -> str:
     return f"{', '.join(words[:-1])} {last} {words[-1]}" if len(words) > 1 else words[0]
 
 
-def takes(schema: Schema, node: YamlNode) -> bool:
+def branch_meant(schema: Schema, node: YamlNode) -> int | None:
+    """Return which branch of a union a node is judged by: a map by the one of maps, a list by the one of lists.
+
+    None where no branch takes its kind. Text is judged by all branches together, since a word, a quantity and an
+    expression are all text: for others only.
+    """
+    return next((position for position, branch in enumerate(branches(schema)) if _takes(branch, node)), None)
+
+
+def _takes(schema: Schema, node: YamlNode) -> bool:
     """Tell whether the schema, itself no union, takes this kind of node, whatever it says of what is within."""
     if schema.get("title") == LONG_FORM and isinstance(node, YamlMap) and not node.entries.keys() & set(WORDS):
         return False  # a map of other keys was never meant as one
