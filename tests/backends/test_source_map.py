@@ -93,7 +93,8 @@ def test_the_parts_of_a_joint_lead_to_where_explain_finds_them(robot: Robot):
         for part in joint.iterchildren(*KEYS):
             explanation = explain(robot, f"joints/{joint.get('name')}/{KEYS[part.tag]}")
             if explanation.is_written:
-                assert written(mapped.map, part.sourceline) == explanation.place, (joint.get("name"), part.tag)
+                assert explanation.place
+                assert written(mapped.map, part.sourceline) == explanation.place.span, (joint.get("name"), part.tag)
                 told += 1
     assert told or len(robot.joints) == 0
 
@@ -106,7 +107,8 @@ def test_an_attribute_leads_to_its_own_value(robot: Robot):
             column = lines[limit.sourceline - 1].index(f"{attribute}=") + 1
             joint = limit.getparent().get("name")
             explanation = explain(robot, f"joints/{joint}/limits/{attribute}")
-            assert written(mapped.map, limit.sourceline, column) == explanation.place
+            assert explanation.place
+            assert written(mapped.map, limit.sourceline, column) == explanation.place.span
             assert mapped.map.at(limit.sourceline, column + 3).trail == explanation.trail
 
 
