@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
+import yaml
 from jsonschema import Draft7Validator
 
 from linkforge_compile.schema.registry import Schema, definitions, load_files
@@ -117,3 +118,29 @@ def test_owners_are_told_apart_by_their_titles():
     keys = {(schema["title"], *schema.get("properties", ())) for _, schema in OBJECTS}
     titles = [title for title, *known in keys if not set(known) <= set(WORDS)]
     assert len(titles) == len(set(titles))
+
+
+SNIPPETS = [
+    (f"{path}/{snippet['label']}", schema, snippet)
+    for path, schema in EVERY
+    for snippet in schema.get("defaultSnippets", ())
+]
+
+
+def filled(body: object) -> object:
+    """Return what a snippet writes where every placeholder keeps its text."""
+    if isinstance(body, dict):
+        return {filled(key): filled(value) for key, value in body.items()}
+    text = re.sub(r"\$\{\d+:([^}]*)\}", r"\1", re.sub(r"\$\{\d+\|([^,|]*)[^|]*\|\}", r"\1", str(body)))
+    return yaml.safe_load(text.replace("\\$", "$"))
+
+
+@pytest.mark.parametrize(("schema", "snippet"), [pytest.param(*found, id=path) for path, *found in SNIPPETS])
+def test_a_snippet_writes_what_its_schema_takes(schema: Schema, snippet: Schema):
+    Draft7Validator({**schema, "definitions": WHOLE}).validate(filled(snippet["body"]))
+
+
+@pytest.mark.parametrize(("schema", "snippet"), [pytest.param(*found, id=path) for path, *found in SNIPPETS])
+def test_a_snippet_hides_no_key(schema: Schema, snippet: Schema):
+    """Of a snippet and a key with one label, the language server shows one."""
+    assert snippet["label"] not in schema.get("properties", ())

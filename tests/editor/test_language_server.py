@@ -1,0 +1,268 @@
+"""What a person gets in an editor with yaml-language-server: completions, hovers and faults, at places of specs."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tests.conftest import ROOT
+from tests.editor.language_server import Fault, LanguageServer
+
+MODELINE = "# yaml-language-server: $schema=robot.schema.json\n"
+HEAD = f"{MODELINE}linkforge: 1\nname: arm\n"
+
+EVERYWHERE = {"for", "when", "extra", "extra_attributes", "extra_inside"}
+"""Keys that stand in most objects; one place says that they are offered too."""
+
+GEOMETRY = ["box", "capsule", "cylinder", "mesh", "sphere"]
+JOINT_TYPES = ["continuous", "fixed", "floating", "planar", "prismatic", "revolute"]
+JOINT_KEYS = ["axis", "calibration", "child", "dynamics", "gazebo", "limits", "mimic", "origin", "parent"]
+LINK_KEYS = ["collision", "gazebo", "inertial", "physics", "visual"]
+SENSOR_KINDS = ["camera", "contact", "depth_camera", "force_torque", "gps", "gpu_lidar", "imu", "lidar", "ray"]
+ROBOT_KEYS = [
+    *("data", "defaults", "description", "frames", "gazebo", "include", "joints", "links", "materials", "metadata"),
+    *("modules", "mount", "packages", "parameters", "robot", "ros2_control", "semantic", "sensors", "transmissions"),
+    *("variables", "variants", "version"),
+]
+SEMANTIC_KEYS = [
+    *("disabled_collisions", "enabled_collisions", "end_effectors", "group_states", "groups", "joint_properties"),
+    *("link_sphere_approximations", "no_default_collision_links", "passive_joints", "virtual_joints"),
+]
+
+OFFERED = {
+    # What is offered at the caret, in the order in which it is shown, but for the keys that stand everywhere.
+    # Where a label is no key or word of the language, it is that of a snippet.
+    "a half-typed section": ("jo|", ROBOT_KEYS),
+    "a new link": ("links:\n  |", ["link"]),
+    "a link": ("links:\n  base: |", ["link"]),
+    "in a link": ("links:\n  base:\n    |", sorted([*LINK_KEYS, "link"])),
+    "in a link that has shapes": (
+        "links:\n  base:\n    visual: {box: [1, 1, 1]}\n    |\njoints:\n",
+        ["collision", "gazebo", "inertial", "link", "physics"],
+    ),
+    "half a key of a link in flow style": ("links:\n  base: {v|}", sorted([*LINK_KEYS, "link"])),
+    "in a visual": (
+        "links:\n  base:\n    visual:\n      |",
+        sorted([*GEOMETRY, "material", "name", "origin", "visual"]),
+    ),
+    "half a shape in flow style": (
+        "links:\n  base:\n    visual: {cy|}",
+        sorted([*GEOMETRY, "material", "name", "origin", "visual"]),
+    ),
+    "in a list of collisions": (
+        # The server offers the snippet of an item twice, as a value and as keys.
+        "links:\n  base:\n    collision:\n      - sp|",
+        sorted([*GEOMETRY, "collision", "collision", "name", "origin"]),
+    ),
+    "a collision": ("links:\n  base:\n    collision: |", ["collision", "visual"]),
+    "in a cylinder": (
+        "links:\n  base:\n    visual:\n      cylinder:\n        |",
+        ["cylinder", "length", "radius"],
+    ),
+    "an origin": ("links:\n  base:\n    visual:\n      origin: |", ["[x, y, z]", "xyz, rpy"]),
+    "in an origin": ("joints:\n  elbow:\n    origin: {xy|}", ["[x, y, z]", "rpy", "xyz", "xyz, rpy"]),
+    "in an inertial": ("links:\n  base:\n    inertial:\n      |", ["density", "inertia", "inertial", "mass", "origin"]),
+    "a mass": ("links:\n  base:\n    inertial:\n      mass: |", ["1.2", "1.2 kg"]),
+    "a new joint": ("joints:\n  |", ["fixed joint", "revolute joint"]),
+    "in a joint": (
+        "joints:\n  elbow:\n    |",
+        sorted([*JOINT_KEYS, "fixed joint", "revolute joint", "safety_controller", "type"]),
+    ),
+    "a joint's type": ("joints:\n  elbow:\n    type: |", JOINT_TYPES),
+    "half a joint's type in flow style": ("joints:\n  elbow: {type: rev|}", JOINT_TYPES),
+    "an axis": ("joints:\n  elbow:\n    axis: |", ["-x", "-y", "-z", "x", "y", "z"]),
+    "a joint's limits": ("joints:\n  elbow:\n    limits: |", ["limits"]),
+    "in limits": ("joints:\n  elbow:\n    limits:\n      |", ["effort", "limits", "lower", "upper", "velocity"]),
+    "half a limit in flow style": (
+        "joints:\n  elbow: {limits: {lo|}}",
+        ["effort", "limits", "lower", "upper", "velocity"],
+    ),
+    "a flag": ("sensors:\n  front:\n    always_on: |", ["false", "true"]),
+    "in a frame": ("frames:\n  tool0: {or|}", ["frame", "joint", "origin", "parent"]),
+    "a new module": ("modules:\n  |", ["module"]),
+    "in a module": (
+        "modules:\n  arm:\n    |",
+        ["joint", "module", "origin", "override", "parent", "prefix", "srdf", "use", "with"],
+    ),
+    "half a key of a module in flow style": (
+        "modules:\n  arm: {us|}",
+        ["joint", "module", "origin", "override", "parent", "prefix", "srdf", "use", "with"],
+    ),
+    "a module's file": (
+        "modules:\n  arm:\n    use: |",
+        ["arm.robot.yaml", "package://arm_description/robots/arm.robot.yaml"],
+    ),
+    "in a module's parameters": ("modules:\n  arm:\n    with:\n      |", ["parameter"]),
+    "in an override": (
+        "modules:\n  arm:\n    override:\n      |",
+        [
+            *("gazebo", "joints", "links", "materials", "modules", "mount", "ros2_control", "semantic", "sensors"),
+            "transmissions",
+        ],
+    ),
+    "what deletes in an override": ("modules:\n  arm:\n    override:\n      links:\n        cover: |", ["null"]),
+    "in a joint of an override": (
+        "modules:\n  arm:\n    override:\n      joints:\n        elbow:\n          |",
+        sorted([*JOINT_KEYS, "safety_controller", "type"]),
+    ),
+    "a new sensor": ("sensors:\n  |", ["camera", "lidar"]),
+    "a sensor's kind": ("sensors:\n  front:\n    type: |", [*SENSOR_KINDS, "rgbd_camera"]),
+    "half a sensor's kind in flow style": ("sensors:\n  front: {type: li|}", [*SENSOR_KINDS, "rgbd_camera"]),
+    "in a camera": (
+        "sensors:\n  front:\n    camera:\n      |",
+        ["camera", "far_clip", "format", "height", "horizontal_fov", "near_clip", "noise", "width"],
+    ),
+    "in the semantic part": ("semantic:\n  |", SEMANTIC_KEYS),
+    "half a key of the semantic part in flow style": ("semantic: {gr|}", SEMANTIC_KEYS),
+    "a new group": ("semantic:\n  groups:\n    |", ["group"]),
+    "in a group": (
+        "semantic:\n  groups:\n    arm:\n      |",
+        ["chain", "chains", "group", "joints", "links", "subgroups"],
+    ),
+    "in a chain": ("semantic:\n  groups:\n    arm: {chain: {ba|}}", ["base_link", "chain", "tip_link"]),
+    "a group's states": ("semantic:\n  group_states:\n    arm: |", ["state"]),
+    "a virtual joint's type": ("semantic:\n  virtual_joints:\n    w: {type: |}", ["fixed", "floating", "planar"]),
+    "why a pair is disabled": (
+        "semantic:\n  disabled_collisions:\n    base:\n      arm: |",
+        ["Adjacent", "Always", "Default", "Never", "User"],
+    ),
+    "in a parameter": (
+        "parameters:\n  reach:\n    |",
+        ["default", "description", "enum", "maximum", "minimum", "parameter", "pattern", "type"],
+    ),
+    "in ros2_control": (
+        "ros2_control:\n  arm:\n    |",
+        ["gpios", "hardware_plugin", "joints", "parameters", "ros2_control", "sensors", "type"],
+    ),
+    "an interface": (
+        "ros2_control:\n  arm:\n    joints:\n      elbow:\n        command_interfaces: [|]",
+        ["effort", "position", "velocity"],
+    ),
+    "in a plugin": ("gazebo:\n  plugins:\n    control:\n      |", ["filename", "parameters", "plugin"]),
+}
+
+
+@pytest.mark.parametrize(("document", "labels"), OFFERED.values(), ids=OFFERED)
+def test_what_is_offered(server: LanguageServer, document: str, labels: list[str]):
+    offered = [completion.label for completion in server.completions(HEAD + document)]
+    assert [label for label in offered if label not in EVERYWHERE] == labels
+
+
+INSERTED = {
+    # What is written where one of the offered is taken.
+    "links": ("l|", "links:\n  ${1:link_name}:\n    visual:\n      box: [${2:0.1}, ${3:0.1}, ${4:0.1}]"),
+    "limits": (
+        "joints:\n  elbow:\n    |",
+        "limits:\n  lower: ${1:-90 deg}\n  upper: ${2:90 deg}\n  effort: ${3:50 N*m}\n  velocity: ${4:90 deg/s}",
+    ),
+    "cylinder": (
+        "links:\n  base:\n    visual:\n      |",
+        "cylinder:\n  radius: ${1:40 mm}\n  length: ${2:0.3}",
+    ),
+    "chain": ("semantic:\n  groups:\n    arm:\n      |", "chain:\n  base_link: ${1:base}\n  tip_link: ${2:tool0}"),
+    "link": ("links:\n  base: |", "\n  visual:\n    box: [${2:0.1}, ${3:0.1}, ${4:0.1}]"),
+    "variables": ("v|", "variables:\n  ${1:half}: \\$(${2:reach / 2})"),
+}
+
+
+@pytest.mark.parametrize(("label", "place"), INSERTED.items(), ids=INSERTED)
+def test_what_is_put_in(server: LanguageServer, label: str, place: tuple[str, str]):
+    document, text = place
+    found = {completion.label: completion.inserted for completion in server.completions(HEAD + document)}
+    assert found[label].startswith(text)
+
+
+def test_the_keys_that_stand_everywhere_are_offered_with_what_they_mean(server: LanguageServer):
+    found = {completion.label: completion.told for completion in server.completions(f"{HEAD}joints:\n  elbow:\n    |")}
+    assert found.keys() >= EVERYWHERE
+    assert "once for each item of a list" in found["for"]
+    assert "[rad]" in found["limits"] or "How far, how hard" in found["limits"]
+
+
+def test_a_new_file_is_begun_with_the_first_lines_of_a_robot(server: LanguageServer):
+    found = {completion.label: completion.inserted for completion in server.completions(f"{MODELINE}|")}
+    assert found["robot"].startswith("linkforge: 1\nname: ${1:my_robot}\nlinks:\n")
+    assert found["linkforge"] == "linkforge: 1"
+
+
+HOVERS = {
+    "links": ("li|nks: {}", ["The rigid bodies.", "inertial: {mass: 4 kg}"]),
+    "a link": ("links:\n  ba|se: {visual: {}}", ["A rigid body"]),
+    "limits": ("joints: {elbow: {lim|its: {}}}", ["How far, how hard and how fast", "velocity: 90 deg/s"]),
+    "a unit": ("joints: {elbow: {limits: {eff|ort: 3 N}}}", ["torque [N*m] or force [N]", "50 N*m"]),
+    "a word": ("joints: {elbow: {type: revo|lute}}", ["`revolute`: Turns about its axis between two limits."]),
+    "a shape": (
+        "links: {base: {visual: {cyl|inder: {}}}}",
+        ["A cylinder along z, centred on its origin.", "radius: 40 mm"],
+    ),
+    "a module's file": ("modules: {arm: {u|se: arm.robot.yaml}}", ["or a vendor's `.urdf` or `.xacro`", "Required."]),
+    "an override": ("modules: {arm: {over|ride: {}}}", ["`null` deletes", "joints: {elbow: {limits: {effort: 20}}}"]),
+    "the semantic part": ("seman|tic: {groups: {}}", ["Becomes the SRDF."]),
+    "a sensor's kind": ("sensors: {front: {type: lid|ar}}", ["`lidar`: A laser scanner; says `lidar`."]),
+}
+
+
+@pytest.mark.parametrize(("document", "phrases"), HOVERS.values(), ids=HOVERS)
+def test_what_is_told_where_the_mouse_rests(server: LanguageServer, document: str, phrases: list[str]):
+    shown = server.hover(HEAD + document)
+    assert [phrase for phrase in phrases if phrase not in shown] == []
+
+
+FAULTS = {
+    # What is underlined, and the message; flow maps of one entry, since the server joins equal messages.
+    "an unknown key": ("links: {base: {colision: visual}}", [("colision", "Property colision is not allowed.")]),
+    "an unknown key within": (
+        "joints: {elbow: {limits: {uper: 1}}}",
+        [("uper", "Property uper is not allowed.")],
+    ),
+    "no quantity": (
+        "links: {base: {inertial: {mass: heavy}}}",
+        [("heavy", "expected a number [kg] or a quantity such as '3 kg'")],
+    ),
+    "no word": (
+        "joints: {elbow: {axis: up}}",
+        [("up", 'Value is not accepted. Valid values: "x", "y", "z", "-x", "-y", "-z".')],
+    ),
+    "a list for a map": (
+        "joints: [elbow]",
+        [("[elbow]", "expected a map of joints by name")],
+    ),
+    "a number for a map": (
+        "joints: {elbow: {limits: 3}}",
+        [("3", "expected a map of lower, upper, effort and velocity")],
+    ),
+    "URDF's parent": ("joints: {elbow: {parent: {link: base}}}", [("{link: base}", "expected a name")]),
+    "two numbers for three": (
+        "joints: {elbow: {origin: [1, 2]}}",
+        [("[1, 2]", "Array has too few items. Expected 3 or more.")],
+    ),
+    "no flag": ("sensors: {front: {always_on: yes}}", [("yes", "expected true or false")]),
+    "a file for a list": ("include: palette.yaml", [("palette.yaml", "expected a list of file names")]),
+    "an empty section": ("links:\n  base:\n    visual:\njoints:\n", []),
+    "an expression": ("joints: {elbow: {type: $(kind), axis: $(axis), limits: $(limits), parent: $(a)}}", []),
+    "a name that YAML reads as another kind": ("joints: {elbow: {parent: true, child: 3}}", []),
+    "what is repeated": ("semantic: {groups: {g: {joints: [{for: {i: 3}, value: j_$(i)}, elbow]}}}", []),
+}
+
+
+@pytest.mark.parametrize(("document", "faults"), FAULTS.values(), ids=FAULTS)
+def test_what_is_underlined(server: LanguageServer, document: str, faults: list[tuple[str, str]]):
+    assert server.faults(HEAD + document) == [Fault(*fault) for fault in faults]
+
+
+SPECS = [
+    path
+    for folder in ("examples", "tests/cases/good")
+    for path in sorted((ROOT / folder).rglob("*.yaml"))
+    if path.read_text("utf-8").startswith("linkforge:") or "\nlinkforge:" in path.read_text("utf-8")
+]
+
+
+@pytest.mark.parametrize("path", SPECS, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_nothing_is_underlined_in_a_spec_that_compiles(server: LanguageServer, path: Path):
+    assert server.faults(MODELINE + path.read_text("utf-8")) == []
+
+
+def test_the_specs_are_those_of_the_examples_and_cases():
+    assert len(SPECS) > 20
+    assert all("linkforge" in yaml.safe_load(path.read_text("utf-8")) for path in SPECS)
