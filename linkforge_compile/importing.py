@@ -37,30 +37,38 @@ class Import:
         return tuple(diagnostic for diagnostic in self.diagnostics if diagnostic.code in LOSSES)
 
 
-def import_urdf(path: str | Path, *, srdf: str | Path | None = None, arguments: Parameters = ()) -> Import:
+def import_urdf(
+    path: str | Path,
+    *,
+    srdf: str | Path | None = None,
+    arguments: Parameters = (),
+    allow_outside: bool = False,
+) -> Import:
     """Read a URDF file, and the SRDF of the same robot, as a spec that compiles to the same robot.
 
-    Its errors are told where those files have them. A xacro file is expanded with the arguments first.
+    Its errors are told where those files have them. A xacro file is expanded with the arguments first, and what it
+    names is read where `compile_file` reads; `allow_outside` lets it read anything.
     """
-    return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), arguments))
+    settings = Settings(arguments, allow_outside=allow_outside)
+    return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), settings))
 
 
-def _imported(urdf: Path, srdf: Path | None, given: Parameters) -> Import:
+def _imported(urdf: Path, srdf: Path | None, settings: Settings) -> Import:
     sink = Diagnostics()
     try:
-        text = _imported_text(urdf, srdf, given, sink)
+        text = _imported_text(urdf, srdf, settings, sink)
     except BeyondLimitError as beyond:
         sink.end(beyond)
         text = None
     return Import(text, sink.sorted())
 
 
-def _imported_text(urdf: Path, srdf: Path | None, given: Parameters, sink: Diagnostics) -> str | None:
+def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
     from linkforge_compile.importers.srdf import with_srdf
     from linkforge_compile.syntax import write
 
-    loader = Loader()
-    read = _read_xacro(urdf, given, loader, sink) if urdf.suffix.lower() == XACRO else _read_urdf(urdf, loader, sink)
+    loader = settings.loader(urdf)
+    read = _read_xacro(urdf, settings, loader, sink) if urdf.suffix.lower() == XACRO else _read_urdf(urdf, loader, sink)
     semantic = loader.open_xml(srdf, sink) if read and srdf else None
     if read is None or (srdf and semantic is None):
         return None
@@ -86,10 +94,10 @@ def _read_urdf(urdf: Path, loader: Loader, sink: Diagnostics) -> _Read | None:
     return (file, robot) if file and robot else None
 
 
-def _read_xacro(xacro: Path, given: Parameters, loader: Loader, sink: Diagnostics) -> _Read | None:
+def _read_xacro(xacro: Path, settings: Settings, loader: Loader, sink: Diagnostics) -> _Read | None:
     from linkforge_compile.modules.xacro import XacroUse, read_xacro
 
-    arguments = Settings(given).arguments(sink)
+    arguments = settings.arguments(loader, sink)
     expanded = read_xacro(XacroUse(xacro, Used(str(xacro), None), arguments), loader, sink)
     return (expanded.file, expanded.imported) if expanded else None
 

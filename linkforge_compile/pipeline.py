@@ -32,6 +32,7 @@ from linkforge_compile.modules import (
     list_parameters,
     variants_of,
 )
+from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.stack import with_room
 from linkforge_compile.syntax import ignore_comments
 
@@ -106,19 +107,23 @@ def compile_file(
     variant: str | None = None,
     gazebo: Gazebo = "gz",
     output: str | Path | None = None,
+    allow_outside: bool = False,
 ) -> Compilation:
     """Compile a spec file; a required parameter without a value is an error.
 
     `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults. `gazebo`
     is the simulator, Gazebo Sim or Classic, whose limits are told; give it to `render_urdf` as well. `output` is the
     folder that the URDF is for: relative paths of meshes that lead nowhere from there are told; None for not known.
+    What a spec names is read in its own package or repository (else its folder), in `packages`, in those of
+    AMENT_PREFIX_PATH and ROS_PACKAGE_PATH, and where `parameters` name a file; `allow_outside` lets it read anything.
 
     Raises:
         ValueError: for another `gazebo` than `gz` or `classic`.
 
     """
     folder = Path(output) if output is not None else None
-    return _compile_file(path, Settings(parameters, packages, variant, gazebo, output=folder))
+    settings = Settings(parameters, packages, variant, gazebo, output=folder, allow_outside=allow_outside)
+    return _compile_file(path, settings)
 
 
 def compile_text(
@@ -130,9 +135,11 @@ def compile_text(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    allow_outside: bool = False,
 ) -> Compilation:
     """Compile a spec given as text; `name` stands in its diagnostics, `folder` is where relative paths start."""
-    return _compile(_text(text, name, folder), Settings(parameters, packages, variant, gazebo))
+    settings = Settings(parameters, packages, variant, gazebo, allow_outside=allow_outside)
+    return _compile_text(text, name, folder, settings)
 
 
 def check_file(
@@ -142,9 +149,11 @@ def check_file(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    allow_outside: bool = False,
 ) -> Compilation:
     """Tell all that is wrong with a spec file; what depends on a required parameter without a value is not judged."""
-    return _compile_file(path, Settings(parameters, packages, variant, gazebo, Unset.NOTE))
+    settings = Settings(parameters, packages, variant, gazebo, Unset.NOTE, allow_outside=allow_outside)
+    return _compile_file(path, settings)
 
 
 def check_text(
@@ -156,34 +165,38 @@ def check_text(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    allow_outside: bool = False,
 ) -> Compilation:
     """Tell all that is wrong with a spec given as text, as `check_file` does."""
-    return _compile(_text(text, name, folder), Settings(parameters, packages, variant, gazebo, Unset.NOTE))
+    settings = Settings(parameters, packages, variant, gazebo, Unset.NOTE, allow_outside=allow_outside)
+    return _compile_text(text, name, folder, settings)
 
 
 def check_variants(
-    path: str | Path, *, parameters: Parameters = (), packages: Packages | None = None, gazebo: Gazebo = "gz"
+    path: str | Path,
+    *,
+    parameters: Parameters = (),
+    packages: Packages | None = None,
+    gazebo: Gazebo = "gz",
+    allow_outside: bool = False,
 ) -> dict[str | None, Compilation]:
     """Check a spec file with its defaults (None) and with each of its variants, by name."""
-    variants = (None, *_variants(Path(path)))
-    return {
-        name: check_file(path, parameters=parameters, packages=packages, variant=name, gazebo=gazebo)
-        for name in variants
-    }
+    file, settings = Path(path), Settings(parameters, packages, None, gazebo, Unset.NOTE, allow_outside=allow_outside)
+    return {name: _compile_file(file, settings._replace(variant=name)) for name in (None, *_variants(file, settings))}
 
 
-def _variants(path: Path) -> Iterable[str]:
+def _variants(path: Path, settings: Settings) -> Iterable[str]:
     """Return the names of a spec's variants, none where it cannot be read: then its check says so."""
     try:
-        spec = Loader().open(path, Diagnostics())
+        spec = settings.loader(path).open(path, Diagnostics())
     except BeyondLimitError:
         return ()
     return variants_of(spec) if spec else ()
 
 
-def parameters_of(path: str | Path) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
+def parameters_of(path: str | Path, *, allow_outside: bool = False) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
     """List the parameters and variants of a spec file, None where it cannot be read, and what is wrong with them."""
-    sink, loader = Diagnostics(), Loader()
+    sink, loader = Diagnostics(), Settings(allow_outside=allow_outside).loader(Path(path))
     listing = None
     try:
         spec = loader.open(Path(path), sink)
@@ -205,40 +218,51 @@ class Settings(NamedTuple):
     gazebo: Gazebo = "gz"
     unset: Unset = Unset.ERROR
     output: Path | None = None
+    allow_outside: bool = False
 
-    def arguments(self, sink: Diagnostics) -> Arguments:
+    def loader(self, place: Path | None) -> Loader:
+        """Return what reads the files of one compile, the compiled one at a place; None for a text without one."""
+        packages = {name: Path(place) for name, place in (self.packages or {}).items()}
+        roots = ANYWHERE if self.allow_outside else Roots.around(place, packages.values())
+        return Loader(packages, roots)
+
+    def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:
+        """Return the parameters; the loader may read the files that they name."""
         if isinstance(self.parameters, Mapping):
-            return arguments_from_values(self.parameters)
-        return arguments_from_text(tuple(self.parameters), sink)
+            arguments = arguments_from_values(self.parameters)
+        else:
+            arguments = arguments_from_text(tuple(self.parameters), sink)
+        loader.roots = loader.roots.naming(arguments.named_files)
+        return arguments
 
 
 def _compile_file(path: str | Path, settings: Settings) -> Compilation:
     file = Path(path)
     if file.suffix.lower() != XACRO:
-        return _compile(lambda loader, sink: loader.open(file, sink), settings)
+        return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
 
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
         from linkforge_compile.modules.xacro import XacroUse, open_xacro
 
-        return open_xacro(XacroUse(file, Used(str(path), None), settings.arguments(sink)), loader, sink)
+        return open_xacro(XacroUse(file, Used(str(path), None), settings.arguments(loader, sink)), loader, sink)
 
     # The expansion has no parameters any more.
-    return _compile(read, settings._replace(parameters=()))
+    return _compile(read, file, settings._replace(parameters=()))
 
 
-def _text(text: str, name: str, folder: str | Path | None) -> _Read:
+def _compile_text(text: str, name: str, folder: str | Path | None, settings: Settings) -> Compilation:
     place = Path(folder) if folder is not None else None
-    return lambda loader, sink: loader.parse(text, name, place, sink)
+    return _compile(lambda loader, sink: loader.parse(text, name, place, sink), place, settings)
 
 
-def _compile(read: _Read, settings: Settings) -> Compilation:
-    return with_room(lambda: _compiled(read, settings))
+def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation:
+    return with_room(lambda: _compiled(read, place, settings))
 
 
-def _compiled(read: _Read, settings: Settings) -> Compilation:
+def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilation:
     require_dialect(settings.gazebo)
     sink = Diagnostics()
-    loader = Loader({name: Path(folder) for name, folder in (settings.packages or {}).items()})
+    loader = settings.loader(place)
     meshes = MeshSolids()
     robot = None
     try:
@@ -256,13 +280,13 @@ def _compiled(read: _Read, settings: Settings) -> Compilation:
 
 def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:
     """Expand, lower and check a spec that was read: the robot, as far as its faults leave one."""
-    arguments = settings.arguments(sink)
+    arguments = settings.arguments(loader, sink)
     instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant)
     lowered = lower(instance, sink, meshes)
     for alone in lowered.unmerged:
-        sink.report_all(check(alone.robot, Gaps(removed=alone.removed)))
+        sink.report_all(check(alone.robot, Gaps(removed=alone.removed, may_look=loader.roots.hold)))
     if lowered.robot is not None:
-        sink.report_all(check(lowered.robot, lowered.gaps))
+        sink.report_all(check(lowered.robot, lowered.gaps.looking(loader.roots.hold)))
         sink.report_all(urdf_limits(lowered.robot, gazebo=settings.gazebo))
         sink.report_all(srdf_limits(lowered.robot))
         if settings.output is not None:

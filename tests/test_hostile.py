@@ -113,7 +113,7 @@ SPECS: dict[str, tuple[str, str | bytes]] = {
     "an include of itself": ("LF3063", HEAD + "include: [a.robot.yaml]\n"),
     "data that names itself": ("LF3141", HEAD + "data: {d: $(e.x), e: $(d.x)}\n"),
     "a device as a module": ("LF3003", HEAD + "modules: {a: {use: /dev/zero, parent: base}}\n"),
-    "a device as data": ("LF3002", HEAD + "data: {d: /dev/zero, e: /dev/stdin}\n"),
+    "a device as data": ("LF3401", HEAD + "data: {d: /dev/zero, e: /dev/stdin}\n"),
     "long paths": ("LF3002", HEAD + f"modules: {{a: {{use: {'a/' * 5000}b.yaml}}, b: {{use: {'a' * 10_000}.yaml}}}}\n"),
     "entities": (
         "LF7001",

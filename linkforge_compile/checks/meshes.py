@@ -27,6 +27,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     MISSING_MESH,
     WIDE_MESH,
 )
+from linkforge_compile.diagnostics.codes.roots import UNSEEN_MESHES
 
 CAD_FORMATS = frozenset(
     ("step", "stp", "iges", "igs", "sldprt", "sldasm", "ipt", "iam", "catpart", "catproduct", "f3d", "3dm", "fcstd")
@@ -63,16 +64,16 @@ class MeshUse(NamedTuple):
     mesh: Mesh
 
 
-def check_mesh_files(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_mesh_files(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """A mesh that lies on this machine is there, under the very name, and holds a shape.
 
     RViz shows a link without it, and Gazebo refuses the link. A name in other capitals is found on Windows and
     macOS, and not on Linux. An empty file, or the pointer that Git LFS leaves where nothing was fetched, holds none; a
     mesh more than 100 m wide is in millimetres: write `scale: 0.001`. Meshes in packages that this machine does not
-    have, and those of other schemes than `package` and `file`, are not looked for. Each file is told of once,
-    and a folder that is not there with all its files.
+    have, and those of other schemes than `package` and `file`, are not looked for, nor are those outside of the
+    folders that a spec may make us read. Each file is told of once, and a folder that is not there with all its files.
     """
-    finder = MeshFinder(robot)
+    finder = MeshFinder(robot, gaps)
     missing: dict[Path, list[MeshUse]] = {}
     every = _mesh_uses(robot)
     read_already = {use.mesh.resource for use in every if _is_read_for_inertia(use)}
@@ -84,6 +85,8 @@ def check_mesh_files(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield diagnostic
     for path, uses in missing.items():
         yield _missing(path, uses[::-1], finder)
+    if unseen := [use for use in every if use.mesh.resource in finder.unseen]:
+        yield _told_together(unseen, UNSEEN_MESHES, "file")
 
 
 def _missing(path: Path, uses: Sequence[MeshUse], finder: MeshFinder) -> Diagnostic:
@@ -127,14 +130,14 @@ def check_mirrored_collisions(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         yield _told_together(mirrored, MIRRORED_COLLISIONS, "scale")
 
 
-def check_fine_collisions(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_fine_collisions(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """A collision is coarser than what is seen.
 
     Contacts cost time for each triangle. Told once for all links whose collision is the mesh of their visual and
     has 10,000 triangles or more, as far as binary STL files that are at hand tell. Take primitive shapes, the convex
     hull, or a mesh of some hundred triangles.
     """
-    finder = MeshFinder(robot)
+    finder = MeshFinder(robot, gaps)
     fine: list[tuple[MeshUse, int]] = []
     for use in _mesh_uses(robot):
         is_seen = any(visual.geometry == use.mesh for visual in use.link.visuals)
@@ -157,14 +160,24 @@ def _told_together(uses: Sequence[MeshUse], code: Code, key: str, **facts: str) 
 class MeshFinder:
     """Finds the mesh files of a robot: relative ones beside its spec, those of packages as its resolver does."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, gaps: Gaps) -> None:
+        self.unseen: set[str] = set()
+        """Paths of meshes, as written, that lead to where a check may not look."""
+        self._may_look = gaps.may_look
         self._resolver: IResourceResolver = robot.resource_resolver
         self._folder = _folder_of(robot)
         self._packages: dict[str, Path | None] = {}
         self._names: dict[Path, frozenset[str] | None] = {}
 
     def path(self, resource: str) -> Path | None:
-        """Return where a mesh is or should be; None where this machine cannot tell."""
+        """Return where a mesh is or should be; None where this machine cannot tell, or a check may not look."""
+        path = self._path(resource)
+        if path is None or self._may_look(path):
+            return path
+        self.unseen.add(resource)
+        return None
+
+    def _path(self, resource: str) -> Path | None:
         if not resource or "\0" in resource:
             return None
         scheme, separator, rest = resource.partition("://")

@@ -60,6 +60,7 @@ class _Settings(TypedDict):
     packages: dict[str, str]
     variant: str | None
     gazebo: Gazebo
+    allow_outside: bool
 
 
 def _settings(assignments: list[str], arguments: argparse.Namespace) -> _Settings:
@@ -68,6 +69,7 @@ def _settings(assignments: list[str], arguments: argparse.Namespace) -> _Setting
         "packages": packages_of(arguments),
         "variant": arguments.variant,
         "gazebo": arguments.gazebo,
+        "allow_outside": arguments.allow_outside,
     }
 
 

@@ -33,11 +33,21 @@ def add_spec_options(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="the folder that package://NAME/ stands for, before any other place it is looked for",
     )
+    add_outside_option(parser)
     parser.add_argument(
         "--gazebo",
         choices=("gz", "classic"),
         default="gz",
         help="the simulator that reads the sensors (gz unless said)",
+    )
+
+
+def add_outside_option(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--allow-outside",
+        action="store_true",
+        help="let the spec read any file; else what it names lies in its package or repository (or its folder), in"
+        " --package, AMENT_PREFIX_PATH or ROS_PACKAGE_PATH",
     )
 
 

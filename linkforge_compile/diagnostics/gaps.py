@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from linkforge_compile.diagnostics.diagnostic import Note
 
@@ -32,6 +33,10 @@ class Removed:
         return Removed({**other.names, **self.names}, {**other.starts, **self.starts})
 
 
+def _everywhere(_: Path) -> bool:
+    return True
+
+
 @dataclass(frozen=True, slots=True)
 class Gaps:
     """Names that the author wrote and the robot lacks.
@@ -39,11 +44,17 @@ class Gaps:
     `prefixes` stand for whole modules that could not be read: every name that begins with one may be theirs,
     and the empty prefix covers all names. True when anything is missing, so a check that judges the whole
     tree can tell that it does not see the whole tree. `removed` are no gaps, but there for whoever misses them.
+    `may_look` says whether a check may look at a file, for a spec can name any file of this machine.
     """
 
     names: frozenset[str] = frozenset()
     prefixes: tuple[str, ...] = ()
     removed: Removed = field(default_factory=Removed)
+    may_look: Callable[[Path], bool] = _everywhere
+
+    def looking(self, may_look: Callable[[Path], bool]) -> Gaps:
+        """Return the same gaps for checks that look at other files."""
+        return replace(self, may_look=may_look)
 
     def __contains__(self, name: object) -> bool:
         return name in self.names or (isinstance(name, str) and name.startswith(self.prefixes))

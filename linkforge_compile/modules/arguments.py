@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
@@ -32,6 +32,13 @@ class Arguments:
     folder: Path | None = None
     as_text: bool = False
     is_partial: bool = False
+
+    @property
+    def named_files(self) -> Iterator[Path]:
+        """The files that would be meant by values that are text, were they paths."""
+        for entry in self.entries.values():
+            if isinstance(entry.value, YamlScalar) and "\0" not in entry.value.text:
+                yield (self.folder or Path()) / entry.value.text.removeprefix("file://")
 
 
 def arguments_from_text(pairs: Sequence[str], sink: Diagnostics) -> Arguments:

@@ -11,6 +11,7 @@ from typing import Protocol
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
+from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
 from linkforge_compile.importers import EncodingError, xml_text
 from linkforge_compile.modules.file_text import MAX_BYTES, UnreadableError, file_bytes, file_text
 from linkforge_compile.modules.includes import Whole, lay_together, reached
@@ -18,6 +19,7 @@ from linkforge_compile.modules.noted import NotedSink, used_from
 from linkforge_compile.modules.packages import Package
 from linkforge_compile.modules.paths import as_typed, names_in
 from linkforge_compile.modules.places import judge_places
+from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read, read_data
@@ -60,9 +62,13 @@ class _ReadText(Protocol):
 class Loader:
     """All the files of one compile."""
 
-    def __init__(self, packages: Mapping[str, Path] | None = None) -> None:
-        """`packages` come before every other place where `package://` is looked for."""
+    def __init__(self, packages: Mapping[str, Path] | None = None, roots: Roots = ANYWHERE) -> None:
+        """`packages` come before every other place where `package://` is looked for.
+
+        What a spec names is read within the `roots`, what its user names wherever it is.
+        """
         self.packages = dict(packages or {})
+        self.roots = roots
         self._sources: list[SourceFile] = []
         self._specs: dict[str, Whole | None] = {}  # by real path
         self._data: dict[str, YamlNode | None] = {}  # by real path
@@ -97,7 +103,7 @@ class Loader:
         real = os.path.realpath(path)
         if real not in self._specs:
             is_urdf = path.suffix.lower() == ".urdf"
-            text = _text(path, used or Used(str(as_typed(path)), None), sink, _xml_text if is_urdf else file_text)
+            text = self._text(path, used or Used(str(as_typed(path)), None), sink, _xml_text if is_urdf else file_text)
             if text is None:
                 return None
             source = self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
@@ -111,7 +117,7 @@ class Loader:
         """Read a text of XML in the encoding that it says; `used` says by what, None for the command line."""
         real = os.path.realpath(path)
         if real not in self._xml:
-            text = _text(path, used or Used(str(as_typed(path)), None), sink, _xml_text)
+            text = self._text(path, used or Used(str(as_typed(path)), None), sink, _xml_text)
             if text is None:
                 return None
             self._xml[real] = self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
@@ -125,7 +131,7 @@ class Loader:
         """Read a file of data, which may be of any shape and hold `tags`; None where it cannot be had, as reported."""
         real = os.path.realpath(path)
         if real not in self._data:
-            text = _text(path, used, sink)
+            text = self._text(path, used, sink)
             if text is None:
                 return None
             source = self._source(str(as_typed(path)), text, as_typed(path), used.where)
@@ -133,12 +139,35 @@ class Loader:
             self._data[real] = read_data(source, NotedSink(sink, notes), tags, self.budget)
         return self._data[real]
 
+    def may_read(self, path: Path, used: Used, sink: Diagnostics) -> bool:
+        """Whether a file may be read by whoever names it; reports why not, be there a file or not."""
+        if used.where is None or self.roots.hold(path):
+            return True
+        notes = [Note(f"it leads to {os.path.realpath(path)}"), Note(f"what may be read lies in {self.roots}")]
+        sink.report(OUTSIDE_ROOTS.at(used.where, path=used.text, notes=notes))
+        return False
+
+    def _text(self, path: Path, used: Used, sink: Diagnostics, read: _ReadText = file_text) -> str | None:
+        if not self.may_read(path, used, sink):
+            return None
+        # Whoever compiles a pipe named it himself; a `use` of one may be a stranger's, and would make us wait.
+        try:
+            text = read(path, only_regular=used.where is not None)
+        except UnreadableError as error:
+            sink.report(UNREADABLE_FILE.at(used.where, path=used.text, reason=error))
+            return None
+        if text is None:
+            notes = [Note(f"looked for it at {as_typed(path)}")] if used.where else []
+            near = names_in(path.parent)
+            sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
+        return text
+
     def _whole(self, source: SourceFile, folder: Path | None, sink: Diagnostics) -> Whole | None:
         """Read a spec with all that it includes; None where its own text is no spec."""
         tree = self._tree(source, sink)
 
         def read_included(path: Path, item: YamlScalar) -> tuple[SourceFile, YamlMap] | None:
-            text = _text(path, Used(item.text, item.span), sink)
+            text = self._text(path, Used(item.text, item.span), sink)
             if text is None:
                 return None
             included = self._source(str(as_typed(path)), text, as_typed(path), item.span, included=item.span)
@@ -186,17 +215,3 @@ def _xml_text(path: Path, *, only_regular: bool) -> str | None:
         return None if content is None else xml_text(content)
     except EncodingError as error:
         raise UnreadableError(str(error)) from error
-
-
-def _text(path: Path, used: Used, sink: Diagnostics, read: _ReadText = file_text) -> str | None:
-    # Whoever compiles a pipe named it himself; a `use` of one may be a stranger's, and would make us wait.
-    try:
-        text = read(path, only_regular=used.where is not None)
-    except UnreadableError as error:
-        sink.report(UNREADABLE_FILE.at(used.where, path=used.text, reason=error))
-        return None
-    if text is None:
-        notes = [Note(f"looked for it at {as_typed(path)}")] if used.where else []
-        near = names_in(path.parent)
-        sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
-    return text

@@ -27,8 +27,9 @@ def mesh_finder(sites: Mapping[SourceFile, MakeSite], loader: Loader) -> FindMes
         make = sites.get(where.file)
         if make is None:
             return no_mesh(path, where, sink)
-        target = locate(make(path, where), loader, sink)
-        return target.path if target else None
+        site = make(path, where)
+        target = locate(site, loader, sink)
+        return target.path if target and loader.may_read(target.path, site.used, sink) else None
 
     return find
 

@@ -25,6 +25,7 @@ from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
+from linkforge_compile.modules.paths import as_typed
 from linkforge_compile.modules.values import plain_value
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlNode, YamlScalar
@@ -90,13 +91,13 @@ def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Robot | None
     if os.environ.get(FORBIDDEN):
         sink.report(XACRO_FORBIDDEN.at(use.used.where, path=use.used.text, variable=FORBIDDEN))
         return None
-    lost: list[str] = []
-    result = run_xacro(use.path, arguments, partial(_folder, use, loader, lost))
+    asked = _Asked(use, loader)
+    result = run_xacro(use.path, arguments, asked)
     written = _Written(result, main, loader)
     inside = used_from(sink, (use.used.where,) if use.used.where else ())
     told = _Telling(use, written, loader, sink, inside)
     if isinstance(result, Failed):
-        told.failed(result, lost)
+        told.failed(result, asked)
         return None
     told.unknown_arguments(result.arguments)
     for warning in result.warnings:
@@ -106,11 +107,29 @@ def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Robot | None
     return Robot(imported, main, (*written.files, expanded)) if imported else None
 
 
-def _folder(use: XacroUse, loader: Loader, lost: list[str], name: str) -> Path | None:
-    folder = find_package(name, {**(use.packages or {}), **loader.packages}, use.path.parent)
-    if folder is None:
-        lost.append(name)
-    return folder
+class _Asked:
+    """Answers what xacro asks while it expands a file, and keeps what it may not have."""
+
+    def __init__(self, use: XacroUse, loader: Loader) -> None:
+        self._use, self._loader = use, loader
+        self.lost: list[str] = []
+        """The names of packages that are nowhere."""
+        self.refused: list[Path] = []
+        """The files outside of the roots."""
+
+    def find(self, name: str) -> Path | None:
+        declared = {**(self._use.packages or {}), **self._loader.packages}
+        folder = find_package(name, declared, self._use.path.parent)
+        if folder is None:
+            self.lost.append(name)
+        return folder
+
+    def may_read(self, path: Path) -> bool:
+        # The file itself was read already by whoever may.
+        is_held = path == self._use.path.absolute() or self._loader.roots.hold(path)
+        if not is_held:
+            self.refused.append(path)
+        return is_held
 
 
 def _texts(use: XacroUse, sink: Diagnostics) -> dict[str, str] | None:
@@ -150,10 +169,11 @@ class _Written:
     """The elements of xacro files as they were written, each file read when it is first asked for."""
 
     def __init__(self, result: Expanded | Failed, main: SourceFile, loader: Loader) -> None:
-        self._main, self._loader = main, loader
+        self.main, self._loader = main, loader
         self._paths = result.files
         self._elements: dict[int, tuple[XmlElement, ...]] = {}
-        self.files = tuple(file for path in result.files[1:] if (file := loader.open_xml(path, Diagnostics())))
+        files = (self.open(path) for path in result.files[1:])
+        self.files = tuple(file for file in files if file)
         for path in result.read:
             loader.note_read(path)
 
@@ -163,10 +183,14 @@ class _Written:
         elements = self._elements[place.file]
         return elements[place.element] if place.element < len(elements) else None
 
+    def open(self, path: Path) -> SourceFile | None:
+        """Read one of the others, which the first names, so that it is no word of the user's."""
+        return self._loader.open_xml(path, Diagnostics(), Used(str(path), self.main.whole))
+
     def _read(self, number: int) -> tuple[XmlElement, ...]:
         from linkforge_compile.importers.xml import read_xml
 
-        file = self._main if number == 0 else self._loader.open_xml(self._paths[number], Diagnostics())
+        file = self.main if number == 0 else self.open(self._paths[number])
         document = read_xml(file, Diagnostics()) if file else None
         return tuple(_in_order(document.root)) if document else ()
 
@@ -185,16 +209,19 @@ class _Telling:
     sink: Diagnostics
     inside: Diagnostics
 
-    def failed(self, failed: Failed, lost: list[str]) -> None:
+    def failed(self, failed: Failed, asked: _Asked) -> None:
         where = self.use.used.where
         if failed.reason is None:
             self.sink.report(XACRO_NOT_INSTALLED.at(where, path=self.use.used.text))
             return
         self.unknown_arguments(failed.arguments or {})
         notes = [Note("it is looked for here", place)] if (place := self._place(failed)) else []
-        if lost:
+        if asked.refused:
+            path, writer = asked.refused[-1], place or where or self.written.main.whole
+            self.loader.may_read(path, Used(str(as_typed(path)), writer), self.inside)
+        elif asked.lost:
             near = {**(self.use.packages or {}), **self.loader.packages}
-            self.sink.report(UNKNOWN_PACKAGE.at(where or place, name=lost[-1], near=near, notes=notes))
+            self.sink.report(UNKNOWN_PACKAGE.at(where or place, name=asked.lost[-1], near=near, notes=notes))
         elif unset := _UNSET.search(failed.reason):
             name = unset[1]
             remedy = f"with: {{{name}: VALUE}}" if where else f"{name}:=VALUE"
@@ -216,7 +243,7 @@ class _Telling:
 
     def _place(self, failed: Failed) -> Span | None:
         if failed.line is not None and failed.file:
-            file = self.loader.open_xml(failed.file, Diagnostics())
+            file = self.written.open(failed.file)
             return Span(file, failed.line, 1, failed.line, 1) if file else None
         element = self.written.element(failed.place) if failed.place else None
         return element.span if element else None

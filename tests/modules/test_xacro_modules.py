@@ -1,5 +1,6 @@
 """A vendor's xacro as a module, unchanged: its arguments, its packages, its places, and what it may not do."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -214,3 +215,57 @@ def test_a_xacro_is_imported_as_what_it_expands_to(vendor):
     imported = import_urdf(vendor / "urdf" / "arm.urdf.xacro", arguments=["reach:=0.8"])
     assert imported.text is not None, imported.diagnostics
     assert compile_text(imported.text).result().joint("lower_joint").origin.xyz.z == 0.8
+
+
+OUTSIDE = {
+    "a file of data": "<xacro:property name='t' value=\"${xacro.load_yaml('../../secret.yaml')}\"/><link name='${t}'/>",
+    "another xacro": "<xacro:include filename='../../secret.yaml'/>",
+    "a listing": "<xacro:include filename='../../*.yaml'/>",
+    "an optional one": "<xacro:include filename='/etc/passwd' optional='true'/>",
+    "a link": "<xacro:include filename='link.xacro'/>",
+}
+
+
+@pytest.mark.parametrize("text", OUTSIDE.values(), ids=OUTSIDE)
+def test_a_xacro_reads_within_the_roots(text: str, vendor: Path):
+    secret = vendor.parent / "secret.yaml"
+    secret.write_text("name: hidden", "utf-8")
+    (vendor / "urdf" / "link.xacro").symlink_to(secret)
+    (vendor / "package.xml").write_text("<package><name>arm_parts</name></package>", "utf-8")
+    arm = vendor / "urdf" / "arm.urdf.xacro"
+    arm.write_text(ARM.replace("  <gazebo>", f"  {text}<gazebo>"), "utf-8")
+    [diagnostic] = compile_file(arm).diagnostics
+    assert diagnostic.code.id == "LF3401"
+    assert text in arm.read_text("utf-8").splitlines()[diagnostic.span.line - 1]
+    assert all(one.code.id != "LF3401" for one in compile_file(arm, allow_outside=True).diagnostics)
+
+
+ESCAPES = {
+    "a program": ("system('echo > {file}')", "os.system"),
+    "a process": ("execv('/bin/sh', ['sh', '-c', 'echo > {file}'])", "os.exec"),
+    "a fork": ("fork()", "os.fork"),
+    "a folder": ("mkdir('{file}')", "os.mkdir"),
+    "a removal": ("remove('{kept}')", "os.remove"),
+    "a new file": ("open('{file}', 65)", "writes files"),
+    "an old file": ("truncate('{kept}', 0)", "os.truncate"),
+    "another file": ("open('/etc/passwd', 0)", "LF3401"),
+}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the calls are those of POSIX")
+@pytest.mark.parametrize(("call", "told"), ESCAPES.values(), ids=ESCAPES)
+def test_what_an_expression_reaches_by_a_detour_is_refused(call: str, told: str, vendor: Path, tmp_path: Path):
+    """xacro looks for names with `__` in an expression, and not in the comprehensions inside it."""
+    new, kept = tmp_path / "new", tmp_path / "kept"
+    kept.write_text("kept", "utf-8")
+    reach = "[c.__init__.__globals__['sys'].modules['posix'] for c in type(x).__mro__[-1].__subclasses__()"
+    value = (
+        f"${{[{reach} if c.__name__ == '_wrap_close'][0].{call.format(file=new, kept=kept)}"
+        " for x in [1] for type in [python.type]]}"
+    )
+    arm = vendor / "urdf" / "arm.urdf.xacro"
+    arm.write_text(ARM.replace("  <gazebo>", f'  <link name="{value}"/><gazebo>'), "utf-8")
+    [diagnostic] = compile_file(arm, packages={"arm_parts": vendor}).diagnostics
+    assert told in str(diagnostic)
+    assert not new.exists()
+    assert kept.read_text("utf-8") == "kept"

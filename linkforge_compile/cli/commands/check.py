@@ -74,7 +74,9 @@ def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -
     from linkforge_compile.pipeline import check_variants
 
     parameters, packages = [*arguments.parameters, *assignments], packages_of(arguments)
-    return check_variants(spec, parameters=parameters, packages=packages, gazebo=arguments.gazebo)
+    return check_variants(
+        spec, parameters=parameters, packages=packages, gazebo=arguments.gazebo, allow_outside=arguments.allow_outside
+    )
 
 
 def _write(told: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:

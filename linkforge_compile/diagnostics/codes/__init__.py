@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes import (
     names,
     physics,
     repetition,
+    roots,
     schema,
     syntax,
 )
@@ -24,7 +25,7 @@ from linkforge_compile.diagnostics.diagnostic import Code
 REGISTER: dict[str, Code] = {
     code.id: code
     for family in (
-        *(syntax, ignoring, schema, modules, files, repetition, bounds, expressions),
+        *(syntax, ignoring, schema, modules, files, repetition, bounds, roots, expressions),
         *(names, model, physics, backends, importing),
     )
     for code in vars(family).values()

@@ -1,8 +1,9 @@
-"""A program: expands one xacro file with the xacro package, under limits of memory and of files that it may write.
+"""A program: expands one xacro file with the xacro package, under limits of memory and of what it may do.
 
-It reads a request from standard input, a line of JSON, and answers with one. In between it asks where packages are:
-`{"find": NAME}`, and reads the folder or null. Every element is marked with the file that it was written in and its
-number there, for the expanded text has no places.
+It reads a request from standard input, a line of JSON, and answers with one. In between it asks where packages are,
+`{"find": NAME}`, and reads the folder or null, and whether it may read a file, `{"may_read": PATH}`, and reads true or
+false. Every element is marked with the file that it was written in and its number there, for the expanded text has no
+places.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import io
 import json
 import os
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 from xml.dom.minidom import Element
 
@@ -20,11 +22,24 @@ if TYPE_CHECKING:
 
 MARK = "linkforge-place"
 _MEMORY = 2 * 1024**3
+
+_HARMLESS = frozenset(
+    ("builtins.id", "compile", "exec", "glob.glob", "glob.glob/2", "import", "marshal.loads", "sys._getframe")
+)
+"""What Python audits and xacro needs."""
+
+_READS = frozenset(("open", "os.listdir", "os.scandir"))
+_CODE = (".py", ".pyc", ".so", ".pyd")
+_WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 _Answer = dict[str, object]
 
 
 class _UnknownPackageError(Exception):
     """The asker does not know where a package is."""
+
+
+class _RefusedError(Exception):
+    """The file does what a robot description has no need of."""
 
 
 class _Run:
@@ -39,12 +54,49 @@ class _Run:
         self._kept: list[Element] = []
 
     def find(self, name: str) -> str:
-        self._answers.write(json.dumps({"find": name}) + "\n")
-        self._answers.flush()
-        folder: str | None = json.loads(sys.stdin.readline())
-        if folder is None:
+        folder = self._asked({"find": name})
+        if not isinstance(folder, str):
             raise _UnknownPackageError(name)
         return folder
+
+    def guard(self) -> None:
+        """Refuse from now on whatever xacro has no need of, and ask before a file is read.
+
+        xacro lets expressions reach anything in Python by a detour. What they do there is audited by Python: programs,
+        the network, files that are written or removed, and the objects by which one gets at other code.
+        """
+        own = tuple(Path(os.path.realpath(folder)) for folder in sys.path if folder)
+
+        def refuse(event: str, arguments: tuple[object, ...]) -> None:
+            if event in _HARMLESS:
+                return
+            if event not in _READS:
+                raise _RefusedError(f"no robot description needs {event}")
+            path, flags = arguments[0], arguments[-1]
+            if event == "open" and (not isinstance(flags, int) or flags & _WRITING):
+                raise _RefusedError("no robot description writes files")
+            if not self._may_read(path, own):
+                raise _RefusedError(f"'{path}' is no file that it may read")
+
+        sys.addaudithook(refuse)
+
+    def _may_read(self, path: object, own: tuple[Path, ...]) -> bool:
+        """Whether a file or folder may be read: code and folders of Python itself, `own`, and what the asker allows."""
+        if not isinstance(path, str | bytes):
+            return False
+        # Joined and no more: where `..` leads behind a link is for the asker to find out.
+        named = Path.cwd() / os.fsdecode(path)
+        if named.suffix in _CODE or named.is_dir():
+            real = Path(os.path.realpath(named))
+            if any(real.is_relative_to(folder) for folder in own):
+                return True
+        return self._asked({"may_read": str(named)}) is True
+
+    def _asked(self, question: _Answer) -> object:
+        self._answers.write(json.dumps(question) + "\n")
+        self._answers.flush()
+        answer: object = json.loads(sys.stdin.readline())
+        return answer
 
     def mark(self, document: Document, file: str) -> None:
         """Mark every element with its place; those of xacro refuse an attribute, and are remembered."""
@@ -79,6 +131,7 @@ class _Run:
         sys.stdout = sys.stderr = said
         substitution_args._eval_find = self.find
         self._watch(xacro)
+        self.guard()
         try:
             document = xacro.process_file(path, mappings=arguments, verbosity=1)
             answer: _Answer = {"text": document.documentElement.toxml()}

@@ -5,18 +5,27 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Timer
-from typing import IO, NamedTuple, TypedDict
+from typing import IO, NamedTuple, Protocol, TypedDict
 
 MOST_SECONDS = 60
 _MOST_CHARACTERS = 64 * 1024**2
 _PROGRAM = Path(__file__).with_name("process.py")
 
-Find = Callable[[str], Path | None]
-"""Returns the folder of a package, None where it is nowhere."""
+
+class Asked(Protocol):
+    """What xacro asks on its way."""
+
+    def find(self, name: str) -> Path | None:
+        """Return the folder of a package, None where it is nowhere."""
+        ...
+
+    def may_read(self, path: Path) -> bool:
+        """Whether a file or folder may be read."""
+        ...
 
 
 class Place(NamedTuple):
@@ -60,6 +69,7 @@ class Failed:
 
 class _Answer(TypedDict, total=False):
     find: str
+    may_read: str
     missing: bool
     text: str
     error: str
@@ -72,7 +82,7 @@ class _Answer(TypedDict, total=False):
     place: str | None
 
 
-def run_xacro(path: Path, arguments: Mapping[str, str], find: Find) -> Expanded | Failed:
+def run_xacro(path: Path, arguments: Mapping[str, str], asked: Asked) -> Expanded | Failed:
     """Expand a xacro file.
 
     xacro computes the expressions of the file in Python: whoever runs it trusts the file as he trusts a program.
@@ -87,9 +97,8 @@ def run_xacro(path: Path, arguments: Mapping[str, str], find: Find) -> Expanded 
         try:
             _say(process.stdin, {"path": str(path.absolute()), "arguments": dict(arguments)})
             answer = _heard(process.stdout)
-            while answer is not None and "find" in answer:
-                folder = find(answer["find"])
-                _say(process.stdin, None if folder is None else str(folder.absolute()))
+            while answer is not None and not answer.keys().isdisjoint(("find", "may_read")):
+                _say(process.stdin, _reply(answer, asked))
                 answer = _heard(process.stdout)
         except BrokenPipeError:
             answer = None
@@ -100,6 +109,13 @@ def run_xacro(path: Path, arguments: Mapping[str, str], find: Find) -> Expanded 
     if answer is None:
         return Failed(f"it took more than {MOST_SECONDS} s" if is_late else "it took too much memory, or gave too much")
     return _outcome(answer)
+
+
+def _reply(question: _Answer, asked: Asked) -> str | bool | None:
+    if "may_read" in question:
+        return asked.may_read(Path(question["may_read"]))
+    folder = asked.find(question["find"])
+    return None if folder is None else str(folder.absolute())
 
 
 def _say(stream: IO[str], message: object) -> None:

@@ -1,0 +1,15 @@
+"""LF34xx: what a spec may make the compiler read."""
+
+from linkforge_compile.diagnostics.diagnostic import Blame, Code, Severity
+
+OUTSIDE_ROOTS = Code(
+    "LF3401",
+    Severity.ERROR,
+    "'{path}' leads out of the folders that may be read; name its own by --package NAME=FOLDER, or say --allow-outside",
+    Blame.WRITER,
+)
+UNSEEN_MESHES = Code(
+    "LF3402",
+    Severity.NOTE,
+    "the meshes of {links} lie outside of the folders that may be read, and were not looked at",
+)

@@ -1,0 +1,75 @@
+"""Which files a compile may read: whoever wrote the spec, it reaches nothing but what its user gave."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+MARKERS = ("package.xml", ".git")
+"""What the top folder of a package or repository holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Roots:
+    """The folders in which a file must lie that a spec names, wherever links and `..` lead.
+
+    `folders` are those of the spec and those that its user named, `files` single files that he named, all as real
+    paths. `installed` are the prefixes of installations in the environment, as it names them: links below them were
+    made by whoever installed it, such as those by which colcon leads each file into its source tree.
+    """
+
+    folders: tuple[Path, ...] = ()
+    files: frozenset[Path] = frozenset()
+    installed: tuple[Path, ...] = ()
+    is_anywhere: bool = False
+
+    @classmethod
+    def around(cls, place: Path | None, named: Iterable[Path] = ()) -> Roots:
+        """Return the roots of a spec file, or of a text in a folder; None for a text that lies nowhere.
+
+        `named` are folders that the user named himself.
+        """
+        # A spec that is reached by a link may use what lies beside the link, and beside itself.
+        ways = () if place is None else dict.fromkeys((place.absolute(), _real(place)))
+        folders = (*map(_top_of, ways), *named, *_search_path("ROS_PACKAGE_PATH"))
+        installed = tuple(_search_path("AMENT_PREFIX_PATH"))
+        return cls(tuple(dict.fromkeys(map(_real, folders))), installed=installed)
+
+    def naming(self, files: Iterable[Path]) -> Roots:
+        """Return the same roots with single files that the user named himself."""
+        return replace(self, files=self.files.union(map(_real, files)))
+
+    def __str__(self) -> str:
+        folders = [*map(str, self.folders), *(["what AMENT_PREFIX_PATH names"] if self.installed else [])]
+        return ", ".join(folders) or "no folder"
+
+    def hold(self, path: Path) -> bool:
+        """Whether a file may be read, be it there or not."""
+        if self.is_anywhere:
+            return True
+        real = _real(path)
+        if real in self.files or any(real.is_relative_to(folder) for folder in self.folders):
+            return True
+        named = path.absolute()
+        is_installed = ".." not in named.parts and any(named.is_relative_to(prefix) for prefix in self.installed)
+        return is_installed or any(real.is_relative_to(_real(prefix)) for prefix in self.installed)
+
+
+ANYWHERE = Roots(is_anywhere=True)
+
+
+def _top_of(place: Path) -> Path:
+    """Return the package or repository in which a file or folder lies, else its folder, or the folder itself."""
+    folder = place if place.is_dir() else place.parent
+    tops = (top for top in (folder, *folder.parents) if any((top / marker).exists() for marker in MARKERS))
+    return next(tops, folder)
+
+
+def _search_path(variable: str) -> Iterator[Path]:
+    return (Path(entry).absolute() for entry in os.environ.get(variable, "").split(os.pathsep) if entry)
+
+
+def _real(path: Path) -> Path:
+    return Path(os.path.realpath(path))

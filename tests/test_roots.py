@@ -1,0 +1,189 @@
+"""What a spec may make the compiler read: its package or repository, what its user named, and what is installed."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile import Compilation, check_file, compile_file, compile_text, import_urdf
+from linkforge_compile.roots import Roots
+
+PART = "linkforge: 1\nname: part\nlinks: {tip: }\n"
+REFUSED = ["LF3401"]
+
+
+def written(path: Path, text: str = PART) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, "utf-8")
+    return path
+
+
+def using(path: Path, file: str, more: str = "") -> Path:
+    return written(
+        path, f"linkforge: 1\nname: cell\nlinks: {{base: }}\nmodules: {{m: {{use: '{file}', parent: base}}}}\n{more}"
+    )
+
+
+def codes(compilation: Compilation) -> list[str]:
+    return [diagnostic.code.id for diagnostic in compilation.diagnostics]
+
+
+@pytest.fixture(autouse=True)
+def nothing_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    for variable in ("AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH"):
+        monkeypatch.delenv(variable, raising=False)
+
+
+@pytest.mark.parametrize("marker", ["package.xml", ".git"])
+def test_a_spec_reads_in_the_nearest_package_or_repository_above_it(marker: str, tmp_path: Path):
+    written(tmp_path / "parts" / "part.robot.yaml")
+    spec = using(tmp_path / "cells" / "one" / "cell.robot.yaml", "../../parts/part.robot.yaml")
+    assert codes(compile_file(spec)) == REFUSED
+    written(tmp_path / marker, "")
+    assert codes(compile_file(spec)) == []
+    written(tmp_path / "cells" / "package.xml", "")
+    assert codes(compile_file(spec)) == REFUSED
+
+
+def test_what_is_refused_says_where_it_leads_and_what_may_be_read(tmp_path: Path):
+    spec = using(tmp_path / "cell" / "cell.robot.yaml", "../part.robot.yaml")
+    [diagnostic] = compile_file(spec).diagnostics
+    assert (diagnostic.span.line, diagnostic.span.column) == (4, 20)
+    assert [note.message for note in diagnostic.notes] == [
+        f"it leads to {os.path.realpath(tmp_path)}{os.sep}part.robot.yaml",
+        f"what may be read lies in {os.path.realpath(tmp_path)}{os.sep}cell",
+    ]
+
+
+def test_what_is_refused_is_not_looked_for(tmp_path: Path):
+    """A file that is there, one that is not, and a folder are told alike: a stranger learns nothing of them."""
+    written(tmp_path / "part.robot.yaml")
+    (tmp_path / "folder.robot.yaml").mkdir()
+    for name in ("part", "folder", "missing"):
+        spec = using(tmp_path / "cell" / "cell.robot.yaml", f"../{name}.robot.yaml")
+        assert codes(check_file(spec)) == REFUSED
+
+
+def through_a_link_to_a_file(folder: Path) -> str:
+    (folder / "cell" / "link.robot.yaml").symlink_to(folder / "part.robot.yaml")
+    return "link.robot.yaml"
+
+
+def through_a_link_to_a_folder(folder: Path) -> str:
+    (folder / "cell" / "link").symlink_to(folder)
+    return "link/part.robot.yaml"
+
+
+def back_through_a_link(folder: Path) -> str:
+    """`..` behind a link is the folder above where it leads."""
+    (folder / "elsewhere").mkdir()
+    (folder / "cell" / "link").symlink_to(folder / "elsewhere")
+    return "link/../part.robot.yaml"
+
+
+def through_a_package_of_its_own(folder: Path) -> str:
+    using(folder / "cell" / "cell.robot.yaml", "package://parts/part.robot.yaml", "packages: {parts: ..}\n")
+    return "package://parts/part.robot.yaml"
+
+
+def out_of_its_own_package(folder: Path) -> str:
+    written(folder / "cell" / "package.xml", "<package><name>cell</name></package>")
+    return "package://cell/../part.robot.yaml"
+
+
+WAYS = (
+    through_a_link_to_a_file,
+    through_a_link_to_a_folder,
+    back_through_a_link,
+    through_a_package_of_its_own,
+    out_of_its_own_package,
+)
+
+
+@pytest.mark.parametrize("way", WAYS, ids=lambda way: way.__name__)
+def test_no_way_leads_out(way: Callable[[Path], str], tmp_path: Path):
+    written(tmp_path / "part.robot.yaml")
+    (tmp_path / "cell").mkdir()
+    file = way(tmp_path)
+    packages = "packages: {parts: ..}\n" if file.startswith("package://parts") else ""
+    spec = using(tmp_path / "cell" / "cell.robot.yaml", file, packages)
+    assert codes(compile_file(spec)) == REFUSED
+    assert codes(compile_file(spec, allow_outside=True)) == []
+
+
+def test_a_package_that_the_user_names_may_be_read(tmp_path: Path):
+    written(tmp_path / "parts" / "part.robot.yaml")
+    spec = using(tmp_path / "cell" / "cell.robot.yaml", "package://parts/part.robot.yaml")
+    assert codes(compile_file(spec, packages={"parts": tmp_path / "parts"})) == []
+
+
+def test_a_file_that_the_user_names_may_be_read_and_no_other(tmp_path: Path):
+    written(tmp_path / "mine.yaml", "mass: 3\n")
+    spec = written(
+        tmp_path / "cell" / "cell.robot.yaml",
+        "linkforge: 1\nname: cell\nparameters: {table: {type: file, default: ../mine.yaml}}\n"
+        "data: {row: $(table)}\nlinks: {base: {inertial: {mass: $(row.mass), inertia: {ixx: 1, iyy: 1, izz: 1}}}}\n",
+    )
+    assert codes(compile_file(spec)) == REFUSED
+    assert codes(compile_file(spec, parameters={"table": tmp_path / "mine.yaml"})) == []
+    assert codes(compile_file(spec, parameters=[f"table={tmp_path / 'mine.yaml'}"])) == []
+    assert codes(compile_file(spec, parameters={"table": tmp_path / "cell" / ".." / "other.yaml"})) == ["LF3001"]
+
+
+def test_an_installation_may_be_read_wherever_its_links_lead(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """colcon build --symlink-install leads every file into the source tree; `..` leads out all the same."""
+    written(tmp_path / "src" / "parts" / "part.robot.yaml")
+    share = tmp_path / "install" / "share" / "parts"
+    share.mkdir(parents=True)
+    (share / "part.robot.yaml").symlink_to(tmp_path / "src" / "parts" / "part.robot.yaml")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path / "install"))
+    spec = using(tmp_path / "cell" / "cell.robot.yaml", "package://parts/part.robot.yaml")
+    assert codes(compile_file(spec)) == []
+    using(spec, "package://parts/../../../src/parts/part.robot.yaml")
+    assert codes(compile_file(spec)) == REFUSED
+
+
+def test_a_spec_that_is_reached_by_a_link_reads_beside_the_link_and_beside_itself(tmp_path: Path):
+    spec = using(tmp_path / "src" / "cell.robot.yaml", "part.robot.yaml")
+    written(tmp_path / "src" / "part.robot.yaml")
+    installed = tmp_path / "share"
+    installed.mkdir()
+    for name in ("cell", "part"):
+        (installed / f"{name}.robot.yaml").symlink_to(tmp_path / "src" / f"{name}.robot.yaml")
+    assert codes(compile_file(installed / spec.name)) == []
+
+
+def test_ros_package_path_may_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    written(tmp_path / "ws" / "parts" / "part.robot.yaml")
+    written(tmp_path / "ws" / "parts" / "package.xml", "<package><name>parts</name></package>")
+    spec = using(tmp_path / "cell" / "cell.robot.yaml", "package://parts/part.robot.yaml")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ws"))
+    assert codes(compile_file(spec)) == []
+
+
+def test_a_text_that_lies_nowhere_reads_nothing(tmp_path: Path):
+    part = written(tmp_path / "part.robot.yaml")
+    text = f"linkforge: 1\nname: cell\nlinks: {{base: }}\nmodules: {{m: {{use: '{part}', parent: base}}}}\n"
+    assert codes(compile_text(text)) == REFUSED
+    assert codes(compile_text(text, folder=tmp_path)) == []
+
+
+def test_the_meshes_of_an_import_are_looked_at_within_its_roots(tmp_path: Path):
+    urdf = written(
+        tmp_path / "urdf" / "a.urdf",
+        "<robot name='a'><link name='l'><visual><geometry><mesh filename='../empty.stl'/></geometry></visual></link>"
+        "</robot>",
+    )
+    written(tmp_path / "empty.stl", "")
+    assert import_urdf(urdf).text
+    assert codes(compile_file(urdf)) == ["LF3402"]
+    assert codes(compile_file(urdf, allow_outside=True)) == ["LF6022"]
+
+
+def test_roots_hold_what_lies_in_them_and_not_what_begins_alike(tmp_path: Path):
+    (tmp_path / "arm").mkdir()
+    roots = Roots.around(tmp_path / "arm")
+    assert roots.hold(tmp_path / "arm" / "a" / ".." / "b.yaml")
+    assert not roots.hold(tmp_path / "arm2" / "b.yaml")
+    assert not roots.hold(tmp_path / "arm" / ".." / "b.yaml")
