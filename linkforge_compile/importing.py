@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
+from linkforge_compile.backends import render_srdf, render_urdf
+from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
 from linkforge_compile.modules import XACRO, Loader, SpecFile, Used
 from linkforge_compile.pipeline import Parameters, Settings, robot_of
-from linkforge_compile.source import SourceFile
+from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.stack import with_room
-from linkforge_compile.syntax import YamlMap
+from linkforge_compile.syntax import YamlMap, read
+
+if TYPE_CHECKING:
+    from linkforge_compile.core import Robot
+
+_RENDERED = (render_urdf, render_srdf)
+"""What makes the documents of an import again, in their order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,23 +74,29 @@ def _imported(urdf: Path, srdf: Path | None, settings: Settings) -> Import:
 
 
 def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
+    from linkforge_compile.importers.losses import unread
     from linkforge_compile.importers.srdf import with_srdf
     from linkforge_compile.syntax import write
 
     loader = settings.loader(urdf)
-    read = _read_xacro(urdf, settings, loader, sink) if urdf.suffix.lower() == XACRO else _read_urdf(urdf, loader, sink)
-    semantic = loader.open_xml(srdf, sink) if read and srdf else None
-    if read is None or (srdf and semantic is None):
+    is_xacro = urdf.suffix.lower() == XACRO
+    found = _read_xacro(urdf, settings, loader, sink) if is_xacro else _read_urdf(urdf, loader, sink)
+    semantic = loader.open_xml(srdf, sink) if found and srdf else None
+    if found is None or (srdf and semantic is None):
         return None
-    file, robot = read
-    judge = partial(_faults_of, SpecFile(file, robot.tree, urdf.parent), loader)
-    judged = with_srdf(robot, semantic, judge, sink) if semantic else (robot, judge(robot.tree))
-    if judged is None:
+    file, robot = found
+    judge = partial(_judged, SpecFile(file, robot.tree, urdf.parent), loader)
+    both = with_srdf(robot, semantic, judge, sink) if semantic else (robot, judge(robot.tree))
+    if both is None:
         return None
     # The tree has the spans of the files, so what is wrong with the robot is told there.
-    whole, faults = judged
-    sink.report_all(faults)
-    return write(whole.tree, *whole.comments)
+    whole, judged = both
+    sink.report_all(judged.faults)
+    if judged.robot is not None:
+        sink.report_all(_losses(whole, judged.robot, {one.span for one in sink if one.code in LOSSES}))
+    text = write(whole.tree, *whole.comments)
+    sink.report_all(unread(whole.tree, read(SourceFile("<spec>", text), Diagnostics(), Budget())))
+    return text
 
 
 _Read = tuple[SourceFile, Imported]
@@ -102,7 +118,26 @@ def _read_xacro(xacro: Path, settings: Settings, loader: Loader, sink: Diagnosti
     return (expanded.file, expanded.imported) if expanded else None
 
 
-def _faults_of(spec: SpecFile, loader: Loader, tree: YamlMap) -> tuple[Diagnostic, ...]:
-    judged = Diagnostics()
-    robot_of(replace(spec, tree=tree), Settings(), loader, MeshSolids(), judged)
-    return tuple(fault for fault in judged if fault.severity is Severity.ERROR)
+class _Judged(NamedTuple):
+    """What a spec compiles to, None where it has errors."""
+
+    robot: Robot | None
+    faults: tuple[Diagnostic, ...]
+
+
+def _judged(spec: SpecFile, loader: Loader, tree: YamlMap) -> _Judged:
+    sink = Diagnostics()
+    robot = robot_of(replace(spec, tree=tree), Settings(), loader, MeshSolids(), sink)
+    faults = tuple(fault for fault in sink if fault.severity is Severity.ERROR)
+    return _Judged(None if faults else robot, faults)
+
+
+def _losses(imported: Imported, robot: Robot, told: Collection[Span | None]) -> Iterator[Diagnostic]:
+    """Yield what of its documents a robot does not say as they do, but for what is told already."""
+    from linkforge_compile.importers.losses import losses
+    from linkforge_compile.importers.xml import read_xml
+
+    for document, render in zip(imported.documents, _RENDERED, strict=False):
+        again = read_xml(SourceFile("<compiled>", render(robot)), Diagnostics())
+        assert again, "what we render is XML"
+        yield from (loss for loss in losses(document, again) if loss.span not in told)

@@ -224,7 +224,7 @@ class Settings(NamedTuple):
         """Return what reads the files of one compile, the compiled one at a place; None for a text without one."""
         packages = {name: Path(place) for name, place in (self.packages or {}).items()}
         roots = ANYWHERE if self.allow_outside else Roots.around(place, packages.values())
-        return Loader(packages, roots)
+        return Loader(packages, roots, _errors_of)
 
     def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:
         """Return the parameters; the loader may read the files that they name."""
@@ -294,3 +294,9 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
 
             sink.report_all(lost_on_the_way(lowered.robot, settings.output))
     return lowered.robot
+
+
+def _errors_of(spec: SpecFile, loader: Loader) -> tuple[Diagnostic, ...]:
+    sink = Diagnostics()
+    robot_of(spec, Settings(), loader, MeshSolids(), sink)
+    return tuple(fault for fault in sink if fault.severity is Severity.ERROR)

@@ -29,7 +29,7 @@ MAY_IMPORT = {
     "writers": "source units syntax core modules",
     "compare": "core",
     "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core roots stack",
-    "importing": "source diagnostics syntax importers modules lowering backends pipeline stack",
+    "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
     "cli": "source diagnostics core checks schema pipeline importing backends writers compare resources _version",
 }
 

@@ -17,10 +17,12 @@ Move = Callable[[XmlDocument], XmlDocument]
 
 
 class Imported(NamedTuple):
-    """A robot that was written elsewhere: the tree of its spec, with the spans of that file, and its comments."""
+    """A robot that was written elsewhere: the tree of its spec, with the spans of its documents, and its comments."""
 
     tree: YamlMap
     comments: Comments
+    documents: tuple[XmlDocument, ...] = ()
+    """The URDF, then the SRDF."""
 
 
 def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None) -> XmlDocument | None:

@@ -10,7 +10,7 @@ from types import MappingProxyType
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
 from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
+from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value, word_value
 from linkforge_compile.units import UNITS, WIDEST_ANGLE, Dimension, number_text
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]{1,400}(?:\.[0-9]{0,400})?|\.[0-9]{1,400})(?:[eE][+-]?[0-9]{1,4})?")
@@ -56,8 +56,7 @@ class Draft:
     def word(self, text: str, span: Span) -> YamlScalar:
         """Return text that a plugin reads: without quotes where that is the same text."""
         escaped = text.replace("$(", "$$(")
-        value = scalar_value(escaped)
-        return YamlScalar(escaped, escaped if value is None else value, span)
+        return YamlScalar(escaped, word_value(escaped), span)
 
     def number(self, text: str, span: Span, unit: Dimension | None = None) -> YamlScalar | None:
         """Return a number as it is written, None for what is none, or none that a double can hold.

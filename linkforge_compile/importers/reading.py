@@ -187,7 +187,9 @@ class Reading:
             raise self.declined("it holds text")
 
     def is_spent(self) -> bool:
-        return not self._attributes and not self._children
+        """Whether nothing is left of the element: text is, though there is no place for it, for that is to be told."""
+        has_text = bool(self.element.text.strip()) and not self._text_is_taken
+        return not (self._attributes or self._children or has_text)
 
     def map(self, **entries: YamlNode | None) -> YamlMap:
         """Return the object of the element: these entries, then what nobody has taken."""

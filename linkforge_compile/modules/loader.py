@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 from linkforge_compile.bounds import Budget, Limit
-from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
 from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
 from linkforge_compile.importers import EncodingError, xml_text
@@ -59,16 +59,28 @@ class _ReadText(Protocol):
     def __call__(self, path: Path, *, only_regular: bool) -> str | None: ...
 
 
+Judge: TypeAlias = Callable[[SpecFile, "Loader"], tuple[Diagnostic, ...]]
+"""Tells the errors of a spec by itself."""
+
+
+def _nothing_wrong(_spec: SpecFile, _loader: Loader) -> tuple[Diagnostic, ...]:
+    return ()
+
+
 class Loader:
     """All the files of one compile."""
 
-    def __init__(self, packages: Mapping[str, Path] | None = None, roots: Roots = ANYWHERE) -> None:
+    def __init__(
+        self, packages: Mapping[str, Path] | None = None, roots: Roots = ANYWHERE, judge: Judge = _nothing_wrong
+    ) -> None:
         """`packages` come before every other place where `package://` is looked for.
 
-        What a spec names is read within the `roots`, what its user names wherever it is.
+        What a spec names is read within the `roots`, what its user names wherever it is. `judge` is asked of a
+        vendor's robot what is wrong with it, for that is a matter of later stages.
         """
         self.packages = dict(packages or {})
         self.roots = roots
+        self.judge = judge
         self._sources: list[SourceFile] = []
         self._specs: dict[str, Whole | None] = {}  # by real path
         self._data: dict[str, YamlNode | None] = {}  # by real path

@@ -10,13 +10,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, SRDF_BESIDE_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.source import Span
+from linkforge_compile.syntax import YamlMap
 
 _SPEC_ENDINGS = (".yaml", ".yml")
 _URDF_ENDING = ".urdf"
@@ -74,12 +75,21 @@ def with_semantic(spec: SpecFile, use: UseSite, srdf: UseSite, loader: Loader, s
     from linkforge_compile.importers.document import Imported
     from linkforge_compile.importers.srdf import with_srdf
 
-    read = with_srdf(Imported(spec.tree, Comments({}, {})), file, lambda _: (), used_from(sink, (srdf.where,)))
-    if read is None:
-        return None
-    tree = read[0].tree
-    part = SpecFile(file, tree, target.path.parent, target.package)
-    return replace(spec, tree=tree, included={**spec.included, file: part})
+    def together(tree: YamlMap) -> SpecFile:
+        part = SpecFile(file, tree, target.path.parent, target.package)
+        return replace(spec, tree=tree, included={**spec.included, file: part})
+
+    def judged(tree: YamlMap) -> _Judged:
+        return _Judged(loader.judge(together(tree), loader))
+
+    read = with_srdf(Imported(spec.tree, Comments({}, {})), file, judged, used_from(sink, (srdf.where,)))
+    return together(read[0].tree) if read else None
+
+
+class _Judged(NamedTuple):
+    """The errors of a vendor's robot by itself: what of its SRDF they are told of is kept raw, as an import does."""
+
+    faults: tuple[Diagnostic, ...]
 
 
 def locate(site: UseSite, loader: Loader, sink: Diagnostics) -> Target | None:

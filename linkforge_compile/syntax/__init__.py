@@ -12,7 +12,7 @@ from linkforge_compile.syntax.nodes import (
     is_null,
 )
 from linkforge_compile.syntax.reader import Tags, read, read_data
-from linkforge_compile.syntax.scalars import scalar_value
+from linkforge_compile.syntax.scalars import scalar_value, word_value
 from linkforge_compile.syntax.writer import Comments, write
 
 __all__ = [
@@ -30,5 +30,6 @@ __all__ = [
     "read",
     "read_data",
     "scalar_value",
+    "word_value",
     "write",
 ]

@@ -49,6 +49,15 @@ def is_overflow(text: str, value: ScalarValue) -> bool:
     return isinstance(value, float) and math.isinf(value) and text not in _WORDS
 
 
+def word_value(text: str) -> ScalarValue:
+    """Return the value of text that stands for itself, so that it needs no quotes where that does no harm.
+
+    Plain, it would be read as nothing, or refused as too large a number.
+    """
+    value = scalar_value(text)
+    return text if value is None or is_overflow(text, value) else value
+
+
 def _whole_number(text: str, base: int) -> int | float:
     too_large = -math.inf if text.startswith("-") else math.inf
     if len(text) > _MOST_DIGITS:

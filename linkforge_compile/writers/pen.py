@@ -10,7 +10,7 @@ from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.part import Element, Inside
 from linkforge_compile.source import SourceFile
-from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
+from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, word_value
 from linkforge_compile.units import Dimension, number_text
 
 if TYPE_CHECKING:
@@ -222,9 +222,7 @@ def _text(text: str) -> YamlScalar:
 
 def _plain(text: str) -> YamlScalar:
     escaped = _escaped(text)
-    value = scalar_value(escaped)
-    # Where nothing is said, it is for want of text: what says null is text here, and needs quotes to be so.
-    return YamlScalar(escaped, escaped if value is None else value, _NOWHERE)
+    return YamlScalar(escaped, word_value(escaped), _NOWHERE)
 
 
 def _spelled(value: object) -> str:

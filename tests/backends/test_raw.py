@@ -118,3 +118,8 @@ def test_parameters_become_elements():
 def test_a_key_that_is_no_tag_is_refused(key: str):
     with pytest.raises(RobotGeneratorError, match="cannot be the name of an XML element"):
         parameter_elements({key: "1"})
+
+
+def test_text_beside_an_element_of_the_same_name_stays_xml():
+    robot = Robot(name="r", extra_elements=("<a>in <a x='1'/></a>",))
+    assert '<a>in <a x="1"/></a>' in render_urdf(robot)

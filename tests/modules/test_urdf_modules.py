@@ -1,14 +1,16 @@
 """A robot in URDF as a module, unchanged: mounted, prefixed, overridden, and told of where it stands."""
 
 from pathlib import Path
+from shutil import copy
 
 import numpy as np
 import pytest
 
-from linkforge_compile import Compilation, compile_file, render_urdf
+from linkforge_compile import Compilation, compile_file, compile_text, import_urdf, render_srdf, render_urdf
 from tests.consumers import check_urdf, mujoco_model, pinocchio_model
 from tests.importers.robots import CORPUS
 
+CASES = Path(__file__).parents[1] / "cases"
 BOX = '<box size="0.1 0.1 0.1"/>'
 GRIPPER = """\
 <robot name="gripper">
@@ -193,3 +195,15 @@ def test_what_is_wrong_with_its_srdf_is_told_in_it(tmp_path):
     (tmp_path / "gripper.srdf").write_text(SRDF.replace('link2="finger"', 'link2="fingre"'), "utf-8")
     compilation = compiled(tmp_path, "left: {use: vendor/gripper.urdf, srdf: gripper.srdf, parent: table}")
     assert {Path(one.span.file.name).name for one in compilation.diagnostics} == {"gripper.srdf"}
+
+
+def test_what_the_language_refuses_of_an_srdf_stays_raw_as_on_import(tmp_path):
+    urdf, srdf = (
+        Path(copy(CASES / "bad_urdf" / f"LF8021_semantic_part.{kind}", tmp_path)) for kind in ("urdf", "srdf")
+    )
+    spec = tmp_path / "cell.robot.yaml"
+    use = f"{{use: {urdf.name}, srdf: {srdf.name}, prefix: ''}}"
+    spec.write_text(f"linkforge: 1\nname: arm\nmodules: {{left: {use}}}\n", "utf-8")
+    used, imported = compile_file(spec), import_urdf(urdf, srdf=srdf)
+    assert {one.message for one in used.diagnostics} == {one.message for one in imported.diagnostics}
+    assert render_srdf(used.result()) == render_srdf(compile_text(imported.text).result())

@@ -269,3 +269,26 @@ def test_what_an_expression_reaches_by_a_detour_is_refused(call: str, told: str,
     assert told in str(diagnostic)
     assert not new.exists()
     assert kept.read_text("utf-8") == "kept"
+
+
+def test_its_srdf_joins_under_the_prefix_and_what_it_refuses_stays_raw(vendor, tmp_path):
+    (tmp_path / "arm.srdf").write_text(
+        '<robot name="arm"><group name="all"><chain base_link="base" tip_link="lower"/></group>'
+        '<group_state name="home" group="all"><joint name="upper_joint" value="0.5"/></group_state>'
+        '<passive_joint name="cover_joint"/></robot>',
+        "utf-8",
+    )
+    use = "use: vendor/urdf/arm.urdf.xacro, srdf: arm.srdf, parent: floor"
+    compilation = cell(tmp_path, f"a: {{{use}, with: {{has_cover: true}}}}\n  b: {{{use}}}")
+    semantic = compilation.result().semantic
+    assert [(group.name, group.chains[0].tip_link) for group in semantic.groups] == [
+        ("a_all", "a_lower"),
+        ("b_all", "b_lower"),
+    ]
+    assert [dict(state.joint_values) for state in semantic.group_states] == [
+        {"a_upper_joint": (0.5,)},
+        {"b_upper_joint": (0.5,)},
+    ]
+    assert [joint.name for joint in semantic.passive_joints] == ["a_cover_joint"]
+    assert semantic.extra_elements == ('<passive_joint name="cover_joint"/>',)
+    assert "LF8021" in {one.code.id for one in compilation.diagnostics}

@@ -177,14 +177,21 @@ def test_a_block_stands_beside_what_it_is_about_as_long_as_that_keeps_the_order(
 
 
 def test_free_parts_are_written_as_they_are_read():
-    noise = {"noise": {"_type": "gaussian", "mean": "0", "text": "null"}, "bias": ("1.0", "yes"), "none": ""}
+    noise = {
+        "noise": {"_type": "gaussian", "mean": "0", "text": "null", "big": "1e400"},
+        "bias": ("1.0", "yes"),
+        "none": "",
+    }
     plugin = GazeboPlugin("p", "p.so", noise)
     assert spec(gazebo_elements=[GazeboElement(plugins=[plugin])]) == lines("""
         gazebo:
           plugins:
             p:
               filename: p.so
-              parameters: {noise: {_type: gaussian, mean: 0, text: "null"}, bias: [1.0, "yes"], none: ""}
+              parameters:
+                noise: {_type: gaussian, mean: 0, text: "null", big: "1e400"}
+                bias: [1.0, "yes"]
+                none: ""
     """)
 
 

@@ -38,6 +38,11 @@ INSTRUCTION_LEFT_OUT = Code("LF8102", _W, "the processing instruction '{target}'
 OTHER_ROBOT = Code(
     "LF8103", _W, "this SRDF is of robot '{name}', the URDF of '{robot}', and a spec has one name; it becomes '{robot}'"
 )
+DOES_NOT_COME_OUT = Code("LF8190", _W, "{what} does not come out of the spec")
+BECOMES_OTHER = Code("LF8191", _W, "{what} is '{was}' here, and '{now}' as it comes out of the spec")
+COMES_IN_ADDITION = Code("LF8192", _W, "{what} comes out of the spec, and does not stand here")
 
-LOSSES = frozenset({TEXT_LEFT_OUT, INSTRUCTION_LEFT_OUT, OTHER_ROBOT})
+LOSSES = frozenset(
+    {TEXT_LEFT_OUT, INSTRUCTION_LEFT_OUT, OTHER_ROBOT, DOES_NOT_COME_OUT, BECOMES_OTHER, COMES_IN_ADDITION}
+)
 """What `--strict` makes a failure of."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from typing import Protocol, TypeVar
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.importers.comments import Comments
@@ -16,16 +17,21 @@ from linkforge_compile.syntax import YamlMap, YamlNode
 _MOST_ROUNDS = 20
 """So often is an SRDF read anew without what the language refuses of it: a group that goes takes others with it."""
 
-Faults = tuple[Diagnostic, ...]
+
+class Judged(Protocol):
+    """What is known of a spec, its errors among it."""
+
+    @property
+    def faults(self) -> tuple[Diagnostic, ...]: ...
+
+
+J = TypeVar("J", bound=Judged)
 
 
 def with_srdf(
-    urdf: Imported, file: SourceFile, judge: Callable[[YamlMap], Faults], sink: Diagnostics
-) -> tuple[Imported, Faults] | None:
-    """Return the spec of a URDF with what an SRDF says, and the errors that are left; None where that is no SRDF.
-
-    `judge` tells the errors of a spec.
-    """
+    urdf: Imported, file: SourceFile, judge: Callable[[YamlMap], J], sink: Diagnostics
+) -> tuple[Imported, J] | None:
+    """Return the spec of a URDF with what an SRDF says, and what is known of it; None where that is no SRDF."""
     document = read_document(file, sink)
     if document is None:
         return None
@@ -33,13 +39,13 @@ def with_srdf(
     for _ in range(_MOST_ROUNDS):
         told = Diagnostics()
         whole = _with_semantic(urdf, read_srdf(document, urdf.tree, told, refused))
-        faults = judge(whole.tree)
-        found = _refusals(document, faults)
+        judged = judge(whole.tree)
+        found = _refusals(document, judged.faults)
         if found.keys() <= refused.keys():
             break
         refused |= found
     sink.report_all(told)
-    return whole, faults
+    return whole, judged
 
 
 def _with_semantic(urdf: Imported, srdf: Imported) -> Imported:
@@ -50,7 +56,8 @@ def _with_semantic(urdf: Imported, srdf: Imported) -> Imported:
         for node, text in one.comments.endings.items():
             holder = tree if node is one.tree else node
             endings[holder] = f"{endings[holder]}\n{text}" if holder in endings else text
-    return Imported(tree, Comments({**urdf.comments.above, **srdf.comments.above}, endings))
+    comments = Comments({**urdf.comments.above, **srdf.comments.above}, endings)
+    return Imported(tree, comments, (*urdf.documents, *srdf.documents))
 
 
 def _refusals(document: XmlDocument, faults: Iterable[Diagnostic]) -> dict[Span, DeclinedError]:

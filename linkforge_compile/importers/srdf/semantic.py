@@ -37,7 +37,7 @@ def read_srdf(
     draft.bodies[root] = semantic
     tree = draft.map_of({"semantic": semantic}, root.span)
     sink.report_all(draft.told)
-    return Imported(tree, placed_comments(document, draft, tree))
+    return Imported(tree, placed_comments(document, draft, tree), (document,))
 
 
 def _semantic(robot: Reading, known: Known) -> YamlMap:

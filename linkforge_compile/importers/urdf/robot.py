@@ -34,7 +34,7 @@ def read_urdf(file: SourceFile, sink: Diagnostics, moved: Move | None = None) ->
     tree = _robot(Reading(draft, root))
     draft.bodies[root] = tree
     sink.report_all(draft.told)
-    return Imported(tree, placed_comments(document, draft, tree))
+    return Imported(tree, placed_comments(document, draft, tree), (document,))
 
 
 def _robot(robot: Reading) -> YamlMap:

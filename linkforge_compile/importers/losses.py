@@ -1,0 +1,107 @@
+"""What of an imported document its spec does not say again: the document beside the one that the spec compiles to."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.codes.importing import BECOMES_OTHER, COMES_IN_ADDITION, DOES_NOT_COME_OUT
+from linkforge_compile.importers.draft import same
+from linkforge_compile.importers.said import Said, said
+from linkforge_compile.importers.xml import XmlDocument
+from linkforge_compile.source import Span
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+
+
+def losses(document: XmlDocument, again: XmlDocument) -> Iterator[Diagnostic]:
+    """Yield what two documents do not both say, told at the place in the first."""
+    return _differences(said(document.root), said(again.root))
+
+
+def unread(tree: YamlNode, again: YamlNode | None, name: str = "robot") -> Iterator[Diagnostic]:
+    """Yield what the text of a spec does not say of the tree that it was written from."""
+    if same(tree, again):
+        return
+    if isinstance(tree, YamlMap) and isinstance(again, YamlMap):
+        for entry in tree:
+            yield from unread(entry.value, again.get(entry.name), entry.name)
+    elif isinstance(tree, YamlScalar) and isinstance(again, YamlScalar):
+        yield _other(f"'{name}'", tree.text, again.text, tree.span)
+    else:
+        yield DOES_NOT_COME_OUT.at(tree.span, what=f"'{name}'")
+
+
+def _differences(one: Said, again: Said) -> Iterator[Diagnostic]:
+    if one == again:
+        return
+    yield from _attributes(one, again)
+    if one.text != again.text:
+        yield _other(f"the text of <{one.tag}>", one.element.text, again.element.text, one.element.span)
+    yield from _children(one, again)
+
+
+def _attributes(one: Said, again: Said) -> Iterator[Diagnostic]:
+    ours, theirs = dict(one.attributes), dict(again.attributes)
+    for name in ours.keys() | theirs.keys():
+        if ours.get(name) == theirs.get(name):
+            continue
+        what = f"'{name}' of <{one.tag}>"
+        attribute, other = one.element.attributes.get(name), again.element.attributes.get(name)
+        if attribute is None:
+            yield COMES_IN_ADDITION.at(one.element.span, what=what)
+        elif other is None:
+            yield DOES_NOT_COME_OUT.at(attribute.span, what=what)
+        else:
+            yield _other(what, attribute.value, other.value, attribute.span)
+
+
+def _other(what: str, was: str, now: str, where: Span) -> Diagnostic:
+    return BECOMES_OTHER.at(where, what=what, was=_shown(was), now=_shown(now))
+
+
+_MOST_SHOWN = 40
+
+
+def _shown(text: str) -> str:
+    words = " ".join(text.split())
+    return words if len(words) <= _MOST_SHOWN else f"{words[:_MOST_SHOWN]}..."
+
+
+def _children(one: Said, again: Said) -> Iterator[Diagnostic]:
+    lost, added = _without(one.children, again.children), _without(again.children, one.children)
+    for child in lost:
+        partner = _partner(child, added)
+        if partner is None:
+            yield DOES_NOT_COME_OUT.at(child.element.span, what=_called(child))
+        else:
+            added.remove(partner)
+            yield from _differences(child, partner)
+    for child in added:
+        yield COMES_IN_ADDITION.at(one.element.span, what=_called(child))
+
+
+def _without(children: Iterable[Said], others: Iterable[Said]) -> list[Said]:
+    """Return those of the children that have no equal among the others, each of which is the equal of one."""
+    left = Counter(others)
+    alone = []
+    for child in children:
+        if left[child] > 0:
+            left[child] -= 1
+        else:
+            alone.append(child)
+    return alone
+
+
+def _partner(one: Said, others: Iterable[Said]) -> Said | None:
+    """Return the first that has the same tag and the same names."""
+    return next((other for other in others if other.tag == one.tag and _names(other) == _names(one)), None)
+
+
+def _names(one: Said) -> tuple[str | None, ...]:
+    return tuple(one.element.get(name) for name in ("name", "reference", "link1", "link2"))
+
+
+def _called(one: Said) -> str:
+    name = one.element.get("name") or one.element.get("reference")
+    return f"<{one.tag}> '{name}'" if name else f"<{one.tag}>"
