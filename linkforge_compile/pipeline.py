@@ -81,12 +81,15 @@ class Compilation:
     """What one compile gave: the robot and all that was told about the spec.
 
     `robot` is None where the spec has errors, and where a check left out what depends on parameters without a value.
-    `files` lists every spec file that was read, the compiled one first, then the meshes read for their inertia.
+    `files` lists every file that it was made from: the compiled one first, what it includes, uses and reads values
+    from, then the meshes read for their inertia. `unread` lists those that were asked for and could not be read: when
+    one of them is there, the result is another.
     """
 
     robot: Robot | None
     diagnostics: tuple[Diagnostic, ...]
     files: tuple[Path, ...] = ()
+    unread: tuple[Path, ...] = ()
 
     @property
     def has_errors(self) -> bool:
@@ -275,7 +278,7 @@ def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilatio
         robot = None
     ignores = tuple(ignore for file in loader.sources for ignore in ignore_comments(file))
     report = heed(sink.sorted(), ignores, is_whole=robot is not None)
-    return Compilation(robot, report, (*loader.files, *meshes.files))
+    return Compilation(robot, report, (*loader.files, *meshes.files), (*loader.unread, *meshes.unread))
 
 
 def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:

@@ -20,6 +20,11 @@ def templates_folder() -> Path:
     return data_folder() / "templates"
 
 
+def compiler_files() -> tuple[Path, ...]:
+    """Return what of linkforge itself its output depends on: the templates, and the version, which an update renews."""
+    return (*sorted(templates_folder().rglob("*.j2")), Path(__file__).with_name("_version.py"))
+
+
 def manual_folder() -> Path:
     """Return the folder with one page a diagnostic, LF4102.md; in a checkout it is among the docs."""
     return _packed() / "diagnostics" if _packed().is_dir() else data_folder() / "docs" / "diagnostics"

@@ -30,6 +30,7 @@ MAY_IMPORT = {
     "compare": "core",
     "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core roots stack",
     "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
+    "launch": "diagnostics backends core pipeline",
     "cli": "source diagnostics core checks schema pipeline importing backends writers compare resources _version",
 }
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.conftest import ROOT
+from tests.programs import program
 
 PIP = (sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check")
 
@@ -54,3 +55,21 @@ def test_the_installed_command_compiles_and_has_its_schema(wheel: Path, tmp_path
     )
     assert '"$schema": "http://json-schema.org/draft-07/schema#"' in run("schema")
     assert run("explain", "LF1002") == (ROOT / "docs/diagnostics/LF1002.md").read_text("utf-8")
+
+
+def test_cmake_finds_what_pip_installs_and_compiles_with_it(wheel: Path, tmp_path: Path):
+    """As in an environment that is active: its `bin` is on the PATH, and nobody says where linkforge is."""
+    site, source, build = tmp_path / "site", tmp_path / "source", tmp_path / "build"
+    subprocess.run((*PIP, "install", "--no-deps", "--target", site, wheel), check=True, timeout=120)
+    source.mkdir()
+    (source / "arm.robot.yaml").write_text("linkforge: 1\nname: arm\nlinks: {base: }\n")
+    find = "project(arm NONE)\nfind_package(linkforge_compile REQUIRED)\nlinkforge_add_robot(arm.robot.yaml)\n"
+    (source / "CMakeLists.txt").write_text(f"cmake_minimum_required(VERSION 3.20)\n{find}")
+    path = os.pathsep.join((str(site / "bin"), os.environ["PATH"]))
+    env = {**os.environ, "PATH": path, "PYTHONPATH": str(site), "PYTHONSAFEPATH": "1"}
+    configure = (program("cmake"), "-S", source, "-B", build, "-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={program('ninja')}")
+    for command in (configure, (program("cmake"), "--build", build)):
+        run = subprocess.run(command, env=env, capture_output=True, text=True, check=False, timeout=120)
+        assert run.returncode == 0, run.stdout + run.stderr
+    assert '<link name="base"/>' in (build / "arm.urdf").read_text("utf-8")
+    assert f"LINKFORGE_EXECUTABLE:FILEPATH={site / 'bin' / 'linkforge'}" in (build / "CMakeCache.txt").read_text()

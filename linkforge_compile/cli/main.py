@@ -22,6 +22,7 @@ _COMMANDS = {
     "where": "tell what in a spec wrote a line of the URDF or SRDF",
     "import": "write an existing URDF as a spec",
     "schema": "print the JSON Schema of specs, for editors",
+    "deps": "list the files that a compiled robot is made from",
     "matcher": "print the problem matcher for GitHub Actions",
 }
 

@@ -55,6 +55,7 @@ class MeshSolids:
     def __init__(self) -> None:
         self._known: dict[str, Solid | MeshError] = {}  # by real path
         self._files: list[Path] = []
+        self._unread: list[Path] = []
         self.is_without_library = False
         """Whether a package that reads meshes is missing, which is told once, not at every mesh."""
 
@@ -62,6 +63,11 @@ class MeshSolids:
     def files(self) -> tuple[Path, ...]:
         """Every mesh file that was read, in that order, as its user would type it."""
         return tuple(self._files)
+
+    @property
+    def unread(self) -> tuple[Path, ...]:
+        """Every mesh file that was asked for and is not there, or too large, in that order."""
+        return tuple(dict.fromkeys(self._unread))
 
     def solid(self, path: Path) -> Solid | None:
         """Return the solid in a file, in the unit of the file; None where there is no file.
@@ -72,7 +78,7 @@ class MeshSolids:
         """
         real = os.path.realpath(path)
         if real not in self._known:
-            content = _content(path)
+            content = self._content(path)
             if content is None:
                 return None
             self._files.append(as_typed(path))
@@ -84,6 +90,19 @@ class MeshSolids:
         if isinstance(known, MeshError):
             raise known
         return known
+
+    def _content(self, path: Path) -> bytes | None:
+        content = None
+        try:
+            content = file_bytes(path, MAX_BYTES, only_regular=True)
+        except TooLargeError as error:
+            raise MeshError(MeshFault.TOO_LARGE, str(error)) from error
+        except UnreadableError as error:
+            raise MeshError(MeshFault.UNREADABLE, str(error)) from error
+        finally:
+            if content is None:
+                self._unread.append(as_typed(path))
+        return content
 
 
 class MeshReader:
@@ -125,15 +144,6 @@ class MeshReader:
         if (widest := max(scaled.size)) > _WIDEST:
             sink.report(WIDE_MESH.at(where, path=written, size=f"{widest:.4g}"))
         return scaled
-
-
-def _content(path: Path) -> bytes | None:
-    try:
-        return file_bytes(path, MAX_BYTES, only_regular=True)
-    except TooLargeError as error:
-        raise MeshError(MeshFault.TOO_LARGE, str(error)) from error
-    except UnreadableError as error:
-        raise MeshError(MeshFault.UNREADABLE, str(error)) from error
 
 
 def _written(mesh: Mesh) -> tuple[str, SourceRef]:

@@ -45,6 +45,32 @@ class ListedParameter(NamedTuple):
     def is_required(self) -> bool:
         return self.default is None
 
+    @property
+    def computed(self) -> str:
+        """What the default comes to, as it would be written in SI units; "" where it has none."""
+        return _in_si(self.value, self.unit)
+
+    @property
+    def limits(self) -> str:
+        """What its value may be beside its type, such as `0.03 m to 0.5 m`, `mock | real`; "" for anything."""
+        least, most = (_in_si(bound, self.unit) for bound in (self.minimum, self.maximum))
+        parts = [f"{least} to {most}" if least and most else f"at least {least}" if least else f"at most {most}"]
+        parts = parts if least or most else []
+        if self.choices is not None:
+            parts.append(" | ".join(_in_si(choice, self.unit) for choice in self.choices))
+        if self.pattern is not None:
+            parts.append(f"like {self.pattern}")
+        return ", ".join(parts)
+
+
+def _in_si(value: Plain, unit: str | None) -> str:
+    """Return a value as it would be written in SI units; "" for none, and for one that is longer than a word."""
+    if value is None or isinstance(value, list | dict):
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return f"{value} {unit}" if unit else str(value)
+
 
 class Listing(NamedTuple):
     """The parameters of a file in the order written, and what each of its variants sets, as written."""

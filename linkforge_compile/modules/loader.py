@@ -86,6 +86,7 @@ class Loader:
         self._data: dict[str, YamlNode | None] = {}  # by real path
         self._xml: dict[str, SourceFile] = {}  # by real path
         self._read_elsewhere: list[Path] = []
+        self._unread: list[Path] = []
         self.budget = Budget()
 
     @property
@@ -98,6 +99,11 @@ class Loader:
         """Every file that was read, in that order, as its user would type it."""
         sources = (source.path for source in self._sources if source.path)
         return tuple(dict.fromkeys((*sources, *self._read_elsewhere)))
+
+    @property
+    def unread(self) -> tuple[Path, ...]:
+        """Every file that was asked for and is not there, or is no text, in that order."""
+        return tuple(dict.fromkeys(self._unread))
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:
         """Read a spec from text that is no file; `folder` is where its relative paths start, None for nowhere."""
@@ -167,11 +173,13 @@ class Loader:
             text = read(path, only_regular=used.where is not None)
         except UnreadableError as error:
             sink.report(UNREADABLE_FILE.at(used.where, path=used.text, reason=error))
+            self._unread.append(as_typed(path))
             return None
         if text is None:
             notes = [Note(f"looked for it at {as_typed(path)}")] if used.where else []
             near = names_in(path.parent)
             sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
+            self._unread.append(as_typed(path))
         return text
 
     def _whole(self, source: SourceFile, folder: Path | None, sink: Diagnostics) -> Whole | None:

@@ -59,30 +59,9 @@ def _table(listing: Listing) -> Iterator[str]:
 
 def _row(parameter: ListedParameter) -> tuple[str, ...]:
     default = "(required)" if parameter.default is None else parameter.default
-    computed = _shown(parameter.value, parameter.unit)
-    if parameter.default is not None and computed not in {"", default}:
-        default = f"{default} = {computed}"
-    return parameter.name, parameter.type or "?", default, _limits(parameter), " ".join(parameter.description.split())
-
-
-def _limits(parameter: ListedParameter) -> str:
-    least, most = (_shown(bound, parameter.unit) for bound in (parameter.minimum, parameter.maximum))
-    parts = [f"{least} to {most}" if least and most else f"at least {least}" if least else f"at most {most}"]
-    parts = parts if least or most else []
-    if parameter.choices is not None:
-        parts.append(" | ".join(_shown(choice, parameter.unit) for choice in parameter.choices))
-    if parameter.pattern is not None:
-        parts.append(f"like {parameter.pattern}")
-    return ", ".join(parts)
-
-
-def _shown(value: Plain, unit: str | None) -> str:
-    """Return a value as it would be written in SI units; "" for none, and for one that fills more than a cell."""
-    if value is None or isinstance(value, list | dict):
-        return ""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return f"{value} {unit}" if unit else str(value)
+    if parameter.default is not None and parameter.computed not in {"", default}:
+        default = f"{default} = {parameter.computed}"
+    return parameter.name, parameter.type or "?", default, parameter.limits, " ".join(parameter.description.split())
 
 
 def _aligned(rows: list[tuple[str, ...]]) -> Iterator[str]:

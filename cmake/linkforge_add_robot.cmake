@@ -1,0 +1,111 @@
+# linkforge_add_robot(SPEC
+#   [PARAMS NAME:=VALUE ...]      # its parameters; a relative file among them starts in the build folder
+#   [VARIANT NAME]                # one of its variants
+#   [PACKAGES NAME=FOLDER ...]    # where package://NAME/ is, before any other place
+#   [GAZEBO gz|classic]           # the simulator that reads the sensors
+#   [FORMATS urdf srdf]           # what to write; urdf unless said
+#   [NAME NAME]                   # NAME.urdf and NAME.srdf in the build folder; the spec's name unless said
+#   [TARGET TARGET]               # the target, which is part of `all`; robot_NAME unless said
+#   [OUTPUT VARIABLE]             # where to leave the paths of what is written
+#   [INSTALL [DESTINATION DIR]])  # into share/PROJECT/DIR, or DIR itself from share/ on or absolute; urdf unless said
+#
+# Compiles a robot whenever the spec changes, or anything that it is made from: modules, included files, files of
+# values, xacro files and meshes that give an inertia, as the compile itself says, and linkforge.
+function(linkforge_add_robot spec)
+  cmake_parse_arguments(PARSE_ARGV 1 ROBOT
+    "INSTALL" "VARIANT;GAZEBO;NAME;TARGET;OUTPUT;DESTINATION" "PARAMS;PACKAGES;FORMATS")
+  if(ROBOT_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "linkforge_add_robot(${spec}): it has no argument '${ROBOT_UNPARSED_ARGUMENTS}'")
+  endif()
+  if(ROBOT_KEYWORDS_MISSING_VALUES)
+    message(FATAL_ERROR "linkforge_add_robot(${spec}): nothing is said behind ${ROBOT_KEYWORDS_MISSING_VALUES}")
+  endif()
+  if(DEFINED ROBOT_DESTINATION AND NOT ROBOT_INSTALL)
+    message(FATAL_ERROR "linkforge_add_robot(${spec}): DESTINATION is of INSTALL, which is not there")
+  endif()
+
+  get_filename_component(path "${spec}" ABSOLUTE)
+  if(NOT DEFINED ROBOT_NAME)
+    get_filename_component(ROBOT_NAME "${path}" NAME)
+    string(REGEX REPLACE "(\\.robot)?\\.ya?ml$" "" ROBOT_NAME "${ROBOT_NAME}")
+  endif()
+  if(NOT DEFINED ROBOT_TARGET)
+    string(REGEX REPLACE "[^A-Za-z0-9_.+-]" "_" ROBOT_TARGET "robot_${ROBOT_NAME}")
+  endif()
+  _linkforge_options(options)
+  _linkforge_outputs(outputs "${spec}")
+
+  set(depfile "${CMAKE_CURRENT_BINARY_DIR}/${ROBOT_NAME}.robot.d")
+  list(TRANSFORM outputs PREPEND "-o;" OUTPUT_VARIABLE output_options)
+  # Outputs whose bytes stay keep their time stamp. Ninja knows; Make would compile again and again.
+  set(renew)
+  if(CMAKE_GENERATOR MATCHES "Makefiles")
+    set(renew COMMAND "${CMAKE_COMMAND}" -E touch ${outputs})
+  endif()
+  add_custom_command(
+    OUTPUT ${outputs}
+    COMMAND "${LINKFORGE_EXECUTABLE}" compile "${path}" ${options} ${output_options} --depfile "${depfile}"
+    ${renew}
+    DEPENDS "${path}"
+    DEPFILE "${depfile}"
+    COMMENT "Compiling robot ${ROBOT_NAME}"
+    VERBATIM)
+  add_custom_target("${ROBOT_TARGET}" ALL DEPENDS ${outputs} SOURCES "${path}")
+
+  if(ROBOT_INSTALL)
+    _linkforge_destination(destination)
+    install(FILES ${outputs} DESTINATION "${destination}")
+  endif()
+  if(DEFINED ROBOT_OUTPUT)
+    set(${ROBOT_OUTPUT} ${outputs} PARENT_SCOPE)
+  endif()
+endfunction()
+
+# The functions below see the ROBOT_ variables of the one that calls them.
+
+function(_linkforge_options result)
+  set(options)
+  foreach(parameter IN LISTS ROBOT_PARAMS)
+    list(APPEND options -p "${parameter}")
+  endforeach()
+  foreach(pair IN LISTS ROBOT_PACKAGES)
+    if(NOT pair MATCHES "^([^=]+)=(.+)$")
+      message(FATAL_ERROR "linkforge_add_robot(${spec}): PACKAGES takes NAME=FOLDER, found '${pair}'")
+    endif()
+    set(name "${CMAKE_MATCH_1}")
+    get_filename_component(folder "${CMAKE_MATCH_2}" ABSOLUTE)
+    list(APPEND options --package "${name}=${folder}")
+  endforeach()
+  if(DEFINED ROBOT_VARIANT)
+    list(APPEND options --variant "${ROBOT_VARIANT}")
+  endif()
+  if(DEFINED ROBOT_GAZEBO)
+    list(APPEND options --gazebo "${ROBOT_GAZEBO}")
+  endif()
+  set(${result} "${options}" PARENT_SCOPE)
+endfunction()
+
+function(_linkforge_outputs result spec)
+  if(NOT DEFINED ROBOT_FORMATS)
+    set(ROBOT_FORMATS urdf)
+  endif()
+  set(outputs)
+  foreach(format IN LISTS ROBOT_FORMATS)
+    if(NOT format MATCHES "^(urdf|srdf)$")
+      message(FATAL_ERROR "linkforge_add_robot(${spec}): FORMATS takes urdf and srdf, found '${format}'")
+    endif()
+    list(APPEND outputs "${CMAKE_CURRENT_BINARY_DIR}/${ROBOT_NAME}.${format}")
+  endforeach()
+  set(${result} "${outputs}" PARENT_SCOPE)
+endfunction()
+
+function(_linkforge_destination result)
+  set(destination urdf)
+  if(DEFINED ROBOT_DESTINATION)
+    set(destination "${ROBOT_DESTINATION}")
+  endif()
+  if(NOT IS_ABSOLUTE "${destination}" AND NOT destination MATCHES "^share/")
+    set(destination "share/${PROJECT_NAME}/${destination}")
+  endif()
+  set(${result} "${destination}" PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,127 @@
+"""One build: a spec compiled, and what comes out of it told, written or compared."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK
+from linkforge_compile.cli.one_spec import compile_spec
+from linkforge_compile.cli.telling import say, tell
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Iterator, Sequence
+
+    from linkforge_compile.cli.targets import Targets
+    from linkforge_compile.core import Robot
+    from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.pipeline import Compilation
+
+
+class Output(NamedTuple):
+    """A text and where it goes; None is standard output."""
+
+    path: Path | None
+    text: str
+
+
+class Order(NamedTuple):
+    """What is to be built: a spec, with its parameters as typed, into targets."""
+
+    spec: str
+    assignments: list[str]
+    targets: Targets
+
+
+class Build(NamedTuple):
+    """How a build ended, and what was read for it."""
+
+    exit_code: int
+    compilation: Compilation
+
+
+def build(order: Order, arguments: argparse.Namespace) -> Build:
+    """Compile a spec and write what comes out, as the options of `linkforge compile` say."""
+    compilation = compile_spec(order.spec, order.assignments, arguments, order.targets.folder)
+    return Build(_build(order, compilation, arguments), compilation)
+
+
+def _build(order: Order, compilation: Compilation, arguments: argparse.Namespace) -> int:
+    outputs = None if compilation.robot is None else _outputs(compilation.robot, order, arguments)
+    stale = _stale(outputs, order.spec) if arguments.check and outputs else ()
+    if tell((*_report(compilation, outputs), *stale), arguments) or outputs is None:
+        return FAULTY_SPEC
+    for output in outputs:
+        _put(output, arguments)
+    if arguments.depfile is not None:
+        from linkforge_compile.cli.depfile import write_depfile
+
+        write_depfile(arguments.depfile, [output.path for output in outputs if output.path], compilation)
+    return OK
+
+
+def _report(compilation: Compilation, outputs: Sequence[Output] | None) -> tuple[Diagnostic, ...]:
+    """Return what is to be told of a spec, with the part that it lacks where an SRDF is asked for in vain."""
+    robot = compilation.robot
+    if robot is None or outputs is not None:
+        return compilation.diagnostics
+    from linkforge_compile.diagnostics.codes.backends import NO_SEMANTIC_PART
+
+    missed = NO_SEMANTIC_PART.at(robot.source, "name", robot=robot.name)
+    return tuple(sorted((*compilation.diagnostics, missed), key=lambda diagnostic: diagnostic.order))
+
+
+def _outputs(robot: Robot, order: Order, arguments: argparse.Namespace) -> tuple[Output, ...] | None:
+    """Return what goes where, all of it rendered before any is written; None where an SRDF is asked for in vain."""
+    targets = order.targets
+    if not robot.says_semantic or robot.semantic.is_empty:
+        if targets.is_srdf_asked_for and "srdf" in targets.paths:
+            return None
+        targets = targets.without_srdf()
+    name = Path(order.spec).name
+    banner = None if order.spec == "-" else f"Compiled by linkforge from {name}; edit that file, not this one."
+    options: dict[str, dict[str, str]] = {"urdf": {"gazebo": arguments.gazebo}, "srdf": {}}
+    if arguments.source_map:
+        return tuple(_with_maps(robot, banner, targets, options))
+    from linkforge_compile.backends import BACKENDS
+
+    return tuple(
+        Output(path, BACKENDS[format_](robot, banner=banner, **options[format_]))
+        for format_, path in targets.paths.items()
+    )
+
+
+def _with_maps(
+    robot: Robot, banner: str | None, targets: Targets, options: dict[str, dict[str, str]]
+) -> Iterator[Output]:
+    from linkforge_compile.backends.map_file import ENDING, map_text
+    from linkforge_compile.backends.source_map import WITH_MAP
+
+    for format_, path in targets.paths.items():
+        assert path is not None, "a map lies beside a file"
+        mapped = WITH_MAP[format_](robot, banner=banner, **options[format_])
+        yield Output(path, mapped.text)
+        yield Output(path.with_name(path.name + ENDING), map_text(mapped, path.name, path.parent))
+
+
+def _stale(outputs: Sequence[Output], spec: str) -> Iterator[Diagnostic]:
+    from linkforge_compile.cli.uptodate import difference
+
+    for path, text in outputs:
+        assert path is not None, "only files are compared"
+        if found := difference(path, text, spec):
+            yield found
+
+
+def _put(output: Output, arguments: argparse.Namespace) -> None:
+    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+
+    if output.path is None:
+        write_to_stdout(output.text)
+        return
+    is_new = not arguments.check and write_if_changed(output.path, output.text)
+    # Who asks for a depfile is a build, which tells itself what it makes; colcon takes a word on standard error for
+    # a warning.
+    if arguments.depfile is None:
+        say(f"wrote {output.path}" if is_new else f"{output.path} is up to date", arguments)

@@ -1,0 +1,75 @@
+"""`linkforge deps`: every file that a compiled robot is made from, for build systems."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK
+from linkforge_compile.cli.one_spec import compile_spec, one_spec
+from linkforge_compile.cli.options import add_spec_options, split_assignments
+from linkforge_compile.cli.targets import name_of
+from linkforge_compile.cli.telling import add_telling_options, tell
+
+if TYPE_CHECKING:
+    import argparse
+
+    from linkforge_compile.pipeline import Compilation
+
+FORMATS = ("make", "json")
+
+_EXAMPLES = """\
+It names the spec, what it includes and uses, files of values, xacro files, and meshes that give an inertia; and of
+linkforge itself the templates and the version. A rule of Make is for the URDF, unless -o names other files.
+
+examples:
+  linkforge deps arm.robot.yaml                       arm.urdf: arm.robot.yaml ...
+  linkforge deps arm.robot.yaml -o build/arm.urdf     build/arm.urdf: arm.robot.yaml ...
+  linkforge deps arm.robot.yaml --format json         for other tools, also of a spec with errors
+
+In JSON, "files" are those of the robot, "unread" those that were asked for and could not be read, and "linkforge" its
+own. A spec with errors has no rule of Make, for there is nothing made from it.
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.usage = "linkforge deps [options] SPEC [NAME:=VALUE ...]"
+    parser.epilog = _EXAMPLES
+    parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", dest="outputs", action="append", default=[], help="a file of the rule of Make"
+    )
+    parser.add_argument("--format", choices=FORMATS, default="make", help="a rule of Make (unless said), or JSON")
+    add_spec_options(parser)
+    add_telling_options(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from linkforge_compile.cli.output import write_to_stdout
+
+    specs, assignments = split_assignments(arguments.words)
+    spec = one_spec(specs)
+    compilation = compile_spec(spec, assignments, arguments)
+    is_faulty = tell(compilation.diagnostics, arguments)
+    if arguments.format == "json":
+        write_to_stdout(_json_text(compilation))
+    elif not is_faulty:
+        from linkforge_compile.cli.depfile import inputs_of, make_rule
+
+        outputs = map(Path, arguments.outputs or [f"{name_of(spec)}.urdf"])
+        write_to_stdout(make_rule(outputs, inputs_of(compilation)))
+    return FAULTY_SPEC if is_faulty else OK
+
+
+def _json_text(compilation: Compilation) -> str:
+    import json
+
+    from linkforge_compile.resources import compiler_files
+
+    whole = {
+        "version": 1,
+        "files": list(map(str, compilation.files)),
+        "unread": list(map(str, compilation.unread)),
+        "linkforge": list(map(str, compiler_files())),
+    }
+    return json.dumps(whole, ensure_ascii=False, indent=2) + "\n"

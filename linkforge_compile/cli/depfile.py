@@ -1,0 +1,47 @@
+"""What an output is made from, in the syntax of Make: CMake and Ninja read it as well."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.cli.output import write_if_changed
+from linkforge_compile.resources import compiler_files
+
+if TYPE_CHECKING:
+    from linkforge_compile.pipeline import Compilation
+
+# A blank ends a name unless a backslash stands before it, and backslashes before that one are then doubled.
+_BLANK = re.compile(r"(\\*)([ \t])")
+
+# The colon of a drive of Windows stays as it is.
+_COLON = re.compile(r"(?<!^[A-Za-z]):|:(?![/\\])")
+
+_UNWRITABLE = re.compile(r"[\n\r;|]")
+
+
+def write_depfile(path: str, outputs: Sequence[Path], compilation: Compilation) -> None:
+    """Write the rule by which outputs depend on all that they were made from."""
+    write_if_changed(Path(path), make_rule(outputs, inputs_of(compilation)))
+
+
+def inputs_of(compilation: Compilation) -> tuple[Path, ...]:
+    """Return every file whose change may change the output: those of the robot, then those of linkforge itself."""
+    return tuple(dict.fromkeys((*compilation.files, *compiler_files())))
+
+
+def make_rule(outputs: Iterable[Path], inputs: Iterable[Path]) -> str:
+    """Return `OUTPUTS: INPUTS`, an input a line; UsageError for a name that no makefile can hold."""
+    targets = " ".join(map(_escaped, outputs))
+    return " \\\n  ".join((f"{targets}:", *map(_escaped, inputs))) + "\n"
+
+
+def _escaped(path: Path) -> str:
+    name = str(path)
+    if found := _UNWRITABLE.search(name):
+        raise UsageError(f"a depfile cannot hold '{name}', for it has {found[0]!r} in it; rename it")
+    name = name.replace("$", "$$").replace("#", r"\#")
+    return _COLON.sub(r"\\:", _BLANK.sub(r"\1\1\\\2", name))

@@ -1,0 +1,165 @@
+"""`linkforge deps` and `compile --depfile`: what a robot is made from, as Make itself reads it."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile.cli.main import main
+from tests.meshes import block, save
+from tests.programs import program
+
+ROBOT = """\
+linkforge: 1
+name: cell
+include: [colours.yaml]
+data: {table: table.yaml}
+links:
+  base: {visual: {box: [$(table.width), 1, 1], material: red}}
+  die: {visual: {mesh: die.stl}, inertial: {mass: 1}}
+joints: {glue: {type: fixed, parent: base, child: die}}
+modules:
+  arm: {use: arm.robot.yaml, parent: base}
+  tool: {use: tool.urdf, srdf: tool.srdf, parent: base}
+"""
+
+FILES = {
+    "cell.robot.yaml": ROBOT,
+    "colours.yaml": "linkforge: 1\nmaterials: {red: {color: [1, 0, 0, 1]}}\n",
+    "table.yaml": "width: 2\n",
+    "arm.robot.yaml": "linkforge: 1\nname: arm\nlinks: {hand: }\n",
+    "tool.urdf": '<robot name="tool"><link name="grip"/></robot>',
+    "tool.srdf": '<robot name="tool"><group name="all"><link name="grip"/></group></robot>',
+}
+
+
+@pytest.fixture
+def cell(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working folder, with a robot that is made from seven files, and one beside them."""
+    monkeypatch.chdir(tmp_path)
+    for name, text in FILES.items():
+        (tmp_path / name).write_text(text)
+    save(block(1, 1, 1), tmp_path / "die.stl")
+    (tmp_path / "other.yaml").write_text("width: 3\n")
+    return tmp_path
+
+
+def listed(capfd: pytest.CaptureFixture[str], *words: str) -> dict[str, list[str]]:
+    capfd.readouterr()
+    main(["deps", "--format", "json", *words])
+    found: dict[str, list[str]] = json.loads(capfd.readouterr().out)
+    return found
+
+
+def test_every_file_that_a_robot_is_made_from_is_listed_and_no_other(cell: Path, capfd: pytest.CaptureFixture[str]):
+    found = listed(capfd, "cell.robot.yaml")
+    assert found["files"][0] == "cell.robot.yaml"
+    assert set(found["files"]) == {*FILES, "die.stl"}
+    assert found["unread"] == []
+    names = {Path(path).name for path in found["linkforge"]}
+    assert {"robot.xml.j2", "link.xml.j2", "_version.py"} <= names
+    assert all(Path(path).is_file() for path in found["linkforge"])
+
+
+@pytest.mark.parametrize("name", [name for name in FILES if name != "cell.robot.yaml"] + ["die.stl"])
+def test_a_file_that_is_missed_is_listed_as_such(cell: Path, capfd: pytest.CaptureFixture[str], name: str):
+    (cell / name).unlink()
+    found = listed(capfd, "cell.robot.yaml")
+    assert found["unread"] == [name]
+    assert name not in found["files"]
+
+
+def test_a_spec_with_errors_has_no_rule(cell: Path, capfd: pytest.CaptureFixture[str]):
+    (cell / "table.yaml").unlink()
+    assert main(["deps", "cell.robot.yaml"]) == 1
+    printed = capfd.readouterr()
+    assert printed.out == ""
+    assert "table.yaml" in printed.err
+
+
+def rule(capfd: pytest.CaptureFixture[str], *words: str) -> str:
+    capfd.readouterr()
+    assert main(["deps", *words]) == 0
+    return capfd.readouterr().out.partition(":")[0]
+
+
+def test_a_rule_is_for_the_outputs_that_are_said(cell: Path, capfd: pytest.CaptureFixture[str]):
+    assert rule(capfd, "cell.robot.yaml") == "cell.urdf"
+    assert rule(capfd, "cell.robot.yaml", "-o", "b/a.urdf", "-o", "b/a.srdf") == "b/a.urdf b/a.srdf"
+
+
+class Makefile:
+    """A makefile that compiles one robot, and Make that runs it."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._make = program("make")
+        (folder / "Makefile").write_text("robot.urdf:\n\t@echo compiling\n\t@touch $@\n-include robot.d\n")
+
+    def compiles(self) -> bool:
+        run = subprocess.run([self._make], cwd=self._folder, capture_output=True, text=True, check=False, timeout=60)
+        assert run.returncode == 0, run.stderr
+        return "compiling" in run.stdout
+
+
+def aged(path: Path, seconds: float) -> None:
+    """Let a file be older than all that is written in this test, or newer where that is negative."""
+    now = path.stat().st_ctime
+    os.utime(path, (now - seconds, now - seconds))
+
+
+def test_make_builds_again_when_a_file_changes_and_else_not(cell: Path):
+    for path in cell.iterdir():
+        aged(path, 100)
+    assert main(["compile", "cell.robot.yaml", "-o", "robot.urdf", "--depfile", "robot.d"]) == 0
+    makefile = Makefile(cell)
+    assert not makefile.compiles()
+    aged(cell / "other.yaml", -100)
+    assert not makefile.compiles()
+    for name in (*FILES, "die.stl"):
+        aged(cell / name, -100)
+        assert makefile.compiles(), name
+        aged(cell / name, 100)
+        assert not makefile.compiles()
+
+
+@pytest.mark.parametrize("name", ["a b.yaml", "a#b.yaml", "a$b.yaml", "a:b.yaml", "a%b.yaml", "a'b.yaml", "ä.yaml"])
+def test_make_reads_names_with_what_means_something_to_it(cell: Path, name: str):
+    (cell / name).write_text("width: 2\n")
+    (cell / "cell.robot.yaml").write_text(ROBOT.replace("table.yaml", f'"{name}"'))
+    for path in cell.iterdir():
+        aged(path, 100)
+    assert main(["compile", "cell.robot.yaml", "-o", "robot.urdf", "--depfile", "robot.d"]) == 0
+    makefile = Makefile(cell)
+    assert not makefile.compiles()
+    aged(cell / name, -100)
+    assert makefile.compiles()
+
+
+def test_a_name_that_no_makefile_can_hold_is_told(cell: Path, capfd: pytest.CaptureFixture[str]):
+    (cell / "a;b.yaml").write_text("width: 2\n")
+    (cell / "cell.robot.yaml").write_text(ROBOT.replace("table.yaml", "a;b.yaml"))
+    assert main(["compile", "cell.robot.yaml", "-o", "robot.urdf", "--depfile", "robot.d"]) == 2
+    assert "a depfile cannot hold 'a;b.yaml', for it has ';' in it; rename it" in capfd.readouterr().err
+
+
+def test_a_build_that_asks_for_a_depfile_is_told_of_faults_only(cell: Path, capfd: pytest.CaptureFixture[str]):
+    assert main(["compile", "cell.robot.yaml", "-o", "robot.urdf", "--depfile", "robot.d"]) == 0
+    assert "".join(capfd.readouterr()) == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--depfile", "robot.d"), "--depfile tells what files are made from, so it takes -o"),
+        (("-o", "robot.urdf", "--check", "--depfile", "robot.d"), "--check writes nothing"),
+    ],
+)
+def test_a_depfile_of_nothing_is_wrong_usage(
+    cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...], said: str
+):
+    assert main(["compile", "cell.robot.yaml", *words]) == 2
+    assert said in capfd.readouterr().err
+    assert not (cell / "robot.d").exists()

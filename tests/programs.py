@@ -1,0 +1,19 @@
+"""The programs of others that the tests run."""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+
+def program(name: str) -> str:
+    """Return the path of a program; skips where it is absent, and fails in CI, which has all of them."""
+    # Those that pip installs lie beside the interpreter, which need not be on the PATH.
+    found = shutil.which(name) or shutil.which(name, path=str(Path(sys.executable).parent))
+    if found is None and os.environ.get("LINKFORGE_REQUIRE_SHARED"):
+        pytest.fail(f"there is no program '{name}'")
+    if found is None:
+        pytest.skip(f"there is no program '{name}'")
+    return found

@@ -1,0 +1,209 @@
+"""`linkforge_add_robot` under real CMake: the ROS 2 package of the examples, configured, built and installed."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from linkforge_compile import __version__
+from tests.conftest import ROOT
+from tests.programs import program
+
+PACKAGE = ROOT / "examples" / "11_ros2_package"
+
+# What the package asks of ament_cmake: `ament_package()` installs the manifest.
+AMENT = "macro(ament_package)\n  install(FILES package.xml DESTINATION share/${PROJECT_NAME})\nendmacro()\n"
+
+
+class Linkforge(NamedTuple):
+    """A copy of linkforge whose files may be touched, and the command that runs it."""
+
+    folder: Path
+    command: Path
+
+    @classmethod
+    def copied(cls, folder: Path) -> Linkforge:
+        for name in ("linkforge_compile", "schemas", "templates", "cmake"):
+            shutil.copytree(ROOT / name, folder / name)
+        command = folder / "linkforge"
+        command.write_text(f'#!/bin/sh\nPYTHONPATH="{folder}" exec "{sys.executable}" -m linkforge_compile "$@"\n')
+        command.chmod(0o755)
+        return cls(folder, command)
+
+
+@pytest.fixture(scope="module")
+def linkforge(tmp_path_factory: pytest.TempPathFactory) -> Linkforge:
+    return Linkforge.copied(tmp_path_factory.mktemp("linkforge"))
+
+
+class Workspace:
+    """The package in a workspace as colcon lays one out, in a folder with a space, and its build."""
+
+    def __init__(self, folder: Path, generator: str, linkforge: Linkforge) -> None:
+        self.source, self.build, self.prefix = (folder / name for name in ("src/pan_tilt", "build", "install"))
+        shutil.copytree(PACKAGE, self.source)
+        ament = folder / "ros" / "share" / "ament_cmake" / "cmake"
+        ament.mkdir(parents=True)
+        (ament / "ament_cmakeConfig.cmake").write_text(AMENT)
+        self._cmake = program("cmake")
+        made_by = program("ninja" if generator == "Ninja" else "make")
+        self._configure = (
+            *(self._cmake, "-S", self.source, "-B", self.build, "-G", generator),
+            f"-DCMAKE_MAKE_PROGRAM={made_by}",
+            f"-DCMAKE_INSTALL_PREFIX={self.prefix}",
+            f"-DCMAKE_PREFIX_PATH={folder / 'ros'}",
+            f"-Dlinkforge_compile_DIR={linkforge.folder / 'cmake'}",
+            f"-DLINKFORGE_EXECUTABLE={linkforge.command}",
+        )
+
+    def _run(self, *words: str | Path) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(words, capture_output=True, text=True, check=False, timeout=120)
+
+    def configure(self) -> None:
+        run = self._run(*self._configure)
+        assert run.returncode == 0, run.stderr
+        assert "Warning" not in run.stderr, run.stderr
+
+    def make(self) -> set[str]:
+        """Build, and return the robots that were compiled."""
+        run = self._run(self._cmake, "--build", self.build)
+        assert run.returncode == 0, run.stdout + run.stderr
+        assert run.stderr == ""
+        _, *compiled = run.stdout.split("Compiling robot ")
+        return {text.split()[0] for text in compiled}
+
+    def make_in_vain(self) -> str:
+        """Build what has errors, and return what was said."""
+        run = self._run(self._cmake, "--build", self.build)
+        assert run.returncode != 0
+        return run.stdout + run.stderr
+
+    def install(self) -> None:
+        run = self._run(self._cmake, "--install", self.build)
+        assert run.returncode == 0, run.stderr
+
+
+@pytest.fixture(params=["Unix Makefiles", "Ninja"])
+def workspace(request: pytest.FixtureRequest, tmp_path: Path, linkforge: Linkforge) -> Workspace:
+    generator: str = request.param
+    made = Workspace(tmp_path / "my ws", generator, linkforge)
+    made.configure()
+    return made
+
+
+BOTH = {"pan_tilt", "pan_tilt_sim"}
+
+
+def changed(path: Path) -> None:
+    """Make a file newer than whatever is built, without another byte."""
+    os.utime(path)
+
+
+def test_the_package_installs_the_robots_that_its_specs_compile_to(workspace: Workspace):
+    assert workspace.make() == BOTH
+    workspace.install()
+    share = workspace.prefix / "share" / "pan_tilt_description"
+    for name in ("pan_tilt.urdf", "pan_tilt.srdf"):
+        assert (share / "urdf" / name).read_bytes() == (PACKAGE / "robots" / name).read_bytes()
+    sim = (share / "urdf" / "pan_tilt_sim.urdf").read_text("utf-8")
+    assert "GazeboSimSystem" in sim
+    assert "<update_rate>15</update_rate>" in sim
+    assert not (share / "urdf" / "pan_tilt_sim.srdf").exists()
+    assert {path.name for path in (share / "robots").iterdir()} == {"pan_tilt.robot.yaml", "servo.robot.yaml"}
+    assert str(workspace.source) not in sim
+
+
+def test_what_a_robot_is_made_from_builds_it_again_and_nothing_else_does(workspace: Workspace, linkforge: Linkforge):
+    assert workspace.make() == BOTH
+    assert workspace.make() == set()
+    for name in ("package.xml", "launch/view.launch.py", "robots/pan_tilt.urdf"):
+        changed(workspace.source / name)
+    assert workspace.make() == set()
+    made_from = (
+        workspace.source / "robots" / "pan_tilt.robot.yaml",
+        workspace.source / "robots" / "servo.robot.yaml",
+        workspace.source / "config" / "servos.yaml",
+        linkforge.folder / "templates" / "urdf" / "link.xml.j2",
+    )
+    for path in made_from:
+        changed(path)
+        assert workspace.make() == BOTH, path
+        assert workspace.make() == set(), path
+
+
+def test_another_value_in_a_file_of_data_reaches_the_robot(workspace: Workspace):
+    workspace.make()
+    catalogue, urdf = workspace.source / "config" / "servos.yaml", workspace.build / "pan_tilt.urdf"
+    before = urdf.read_text("utf-8")
+    catalogue.write_text(catalogue.read_text("utf-8").replace("1.5 N*m", "1.7 N*m"))
+    assert workspace.make() == BOTH
+    assert urdf.read_text("utf-8") == before.replace('effort="1.5"', 'effort="1.7"')
+
+
+def test_a_fault_stops_the_build_at_its_place_until_it_is_mended(workspace: Workspace):
+    workspace.make()
+    module = workspace.source / "robots" / "servo.robot.yaml"
+    right = module.read_text("utf-8")
+    urdf = (workspace.build / "pan_tilt.urdf").read_bytes()
+    module.write_text(right.replace("child: horn", "child: hron"))
+    said = workspace.make_in_vain()
+    line = right[: right.index("child: horn")].count("\n") + 1
+    assert f"{module}:{line}:12: error: no link named 'hron'; did you mean 'horn'? [LF4102]" in said
+    assert (workspace.build / "pan_tilt.urdf").read_bytes() == urdf
+    assert "[LF4102]" in workspace.make_in_vain()
+    module.write_text(right)
+    assert workspace.make() == BOTH
+    assert workspace.make() == set()
+
+
+def test_a_module_that_is_no_more_is_missed(workspace: Workspace):
+    workspace.make()
+    (workspace.source / "robots" / "servo.robot.yaml").unlink()
+    assert "there is no file 'servo.robot.yaml'" in workspace.make_in_vain()
+
+
+def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[str]:
+    """Run lines of CMake in a project that builds nothing."""
+    (folder / "CMakeLists.txt").write_text(f"cmake_minimum_required(VERSION 3.20)\nproject(p NONE)\n{text}\n")
+    (folder / "arm.robot.yaml").write_text("linkforge: 1\nname: arm\nlinks: {base: }\n")
+    words = (program("cmake"), "-S", str(folder), "-B", str(folder / "b"), *words)
+    return subprocess.run(words, capture_output=True, text=True, check=False, timeout=60)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ("FORMAT urdf", "it has no argument 'FORMAT;urdf'"),
+        ("FORMATS sdf", "FORMATS takes urdf and srdf, found 'sdf'"),
+        ("VARIANT", "nothing is said behind VARIANT"),
+        ("DESTINATION urdf", "DESTINATION is of INSTALL, which is not there"),
+        ("PACKAGES arm", "PACKAGES takes NAME=FOLDER, found 'arm'"),
+    ],
+)
+def test_wrong_arguments_are_told_when_cmake_configures(tmp_path: Path, arguments: str, said: str):
+    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
+    run = script(tmp_path, f"{find}\nlinkforge_add_robot(arm.robot.yaml {arguments})", "-DLINKFORGE_EXECUTABLE=true")
+    assert run.returncode != 0
+    assert f"linkforge_add_robot(arm.robot.yaml): {said}" in " ".join(run.stderr.split())
+
+
+@pytest.mark.parametrize(("asked", "is_found"), [("", True), (__version__, True), ("0.1", True), ("99", False)])
+def test_the_version_that_cmake_finds_is_that_of_the_package(tmp_path: Path, asked: str, is_found: bool):
+    find = f'find_package(linkforge_compile {asked} PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
+    text = f'{find}\nmessage("found ${{linkforge_compile_FOUND}} ${{linkforge_compile_VERSION}}")'
+    run = script(tmp_path, text, "-DLINKFORGE_EXECUTABLE=true")
+    assert (f"found 1 {__version__}" in run.stderr) is is_found
+
+
+def test_a_missing_command_is_told(tmp_path: Path):
+    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
+    run = script(tmp_path, f'set(ENV{{PATH}} "")\n{find}')
+    assert run.returncode != 0
+    said = " ".join(run.stderr.split())
+    assert "there is no command 'linkforge' beside it nor on the PATH; set LINKFORGE_EXECUTABLE" in said

@@ -1,0 +1,179 @@
+"""`linkforge_compile.launch`, under a stand-in for the packages of ROS 2 that it is for."""
+
+import importlib
+import logging
+import runpy
+import shutil
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import NamedTuple
+
+import pytest
+from lxml import etree
+
+from linkforge_compile import CompileError
+from tests.conftest import ROOT
+
+STAND_INS = Path(__file__).parent / "stand_ins"
+ROS = {path.name for path in STAND_INS.iterdir() if path.is_dir()}
+
+SPEC = """\
+linkforge: 1
+name: arm
+parameters:
+  reach: {type: length, default: 50 cm, minimum: 10 cm, maximum: 2 m, description: From base to tip.}
+  width: {type: length, default: $(reach / 10)}
+  hardware: {type: string, enum: [mock, real], default: mock, description: What drives it.}
+  axes: {type: integer, enum: [1, 2], default: 1}
+  step: {type: length, enum: [10 mm, 20 mm], default: 10 mm}
+  camera: {type: boolean, default: true}
+  serial: {type: string}
+variants:
+  long: {reach: 1 m}
+links:
+  base: {visual: {sphere: 0.1, name: $(serial)}}
+  rod: {visual: {box: [$(reach), $(width), $(step)], name: $(hardware)}}
+  eye: {when: $(camera)}
+joints:
+  turn: {type: fixed, parent: base, child: rod}
+  look: {when: $(camera), type: fixed, parent: rod, child: eye}
+semantic: {groups: {all: {links: [base]}}}
+"""
+
+
+class Ros(NamedTuple):
+    """The module under test, and what stands in for ROS."""
+
+    ours: ModuleType
+    launch: ModuleType
+
+
+@pytest.fixture
+def ros(monkeypatch: pytest.MonkeyPatch) -> Iterator[Ros]:
+    monkeypatch.syspath_prepend(STAND_INS)
+    yield Ros(importlib.import_module("linkforge_compile.launch"), importlib.import_module("launch"))
+    for name in [*sys.modules]:
+        if name.partition(".")[0] in ROS or name == "linkforge_compile.launch":
+            del sys.modules[name]
+
+
+@pytest.fixture
+def spec(tmp_path: Path) -> Path:
+    path = tmp_path / "arm.robot.yaml"
+    path.write_text(SPEC)
+    return path
+
+
+def launched(ros: Ros, robot: object, /, **typed: str) -> object:
+    """Return the context of a launch, behind the robot's arguments, with those that somebody typed."""
+    context = ros.launch.LaunchContext(**typed)
+    for argument in robot.arguments:
+        argument.execute(context)
+    return context
+
+
+def box_of(urdf: str) -> str:
+    return etree.fromstring(urdf.encode()).find(".//box").get("size")
+
+
+def test_every_parameter_is_a_launch_argument(ros: Ros, spec: Path):
+    arguments = {one.name: one for one in ros.ours.RobotDescription(spec).arguments}
+    assert list(arguments) == ["reach", "width", "hardware", "axes", "step", "camera", "serial"]
+    assert arguments["reach"].description == "From base to tip. (length, 0.1 m to 2 m)"
+    assert arguments["reach"].default_value[0].text == "50 cm"
+    assert (arguments["hardware"].description, arguments["hardware"].choices) == (
+        "What drives it. (string)",
+        ["mock", "real"],
+    )
+    assert arguments["axes"].choices == ["1", "2"]
+    assert (arguments["step"].description, arguments["step"].choices) == ("(length, 0.01 m | 0.02 m)", None)
+    assert arguments["serial"].default_value is None
+
+
+def test_what_is_typed_at_a_launch_is_what_is_compiled(ros: Ros, spec: Path):
+    robot = ros.ours.RobotDescription(spec)
+    context = launched(ros, robot, serial="A1", reach="2 m", step="20 mm", camera="False")
+    urdf = robot.urdf.perform(context)
+    assert box_of(urdf) == "2 0.2 0.02"
+    assert 'name="A1"' in urdf
+    assert 'link name="eye"' not in urdf
+
+
+def test_defaults_stay_the_specs_affair(ros: Ros, spec: Path):
+    """So a default that is computed follows what is typed, and a variant sets what is not."""
+    robot = ros.ours.RobotDescription(spec, {"serial": "A1"}, variant="long")
+    assert box_of(robot.urdf.perform(launched(ros, robot))) == "1 0.1 0.01"
+    assert box_of(robot.urdf.perform(launched(ros, robot, reach="50 cm"))) == "0.5 0.05 0.01"
+
+
+def test_what_the_launch_file_sets_is_no_argument(ros: Ros, spec: Path):
+    configuration = importlib.import_module("launch.substitutions").LaunchConfiguration("robot")
+    given = {"serial": ["unit-", configuration], "camera": False, "reach": 2.0, "axes": 2}
+    robot = ros.ours.RobotDescription(spec, given)
+    assert [one.name for one in robot.arguments] == ["width", "hardware", "step"]
+    urdf = robot.urdf.perform(launched(ros, robot, robot="7", reach="not asked for"))
+    assert 'name="unit-7"' in urdf
+    assert box_of(urdf) == "2 0.2 0.01"
+    assert 'link name="eye"' not in urdf
+
+
+def test_two_robots_in_one_launch_file_have_arguments_of_their_own(ros: Ros, spec: Path):
+    left = ros.ours.RobotDescription(spec, {"serial": "L"}, argument_prefix="left_")
+    right = ros.ours.RobotDescription(spec, {"serial": "R"}, argument_prefix="right_")
+    assert left.arguments[0].name == "left_reach"
+    context = launched(ros, left, left_reach="2 m")
+    for argument in right.arguments:
+        argument.execute(context)
+    assert box_of(left.urdf.perform(context)).startswith("2 ")
+    assert box_of(right.urdf.perform(context)).startswith("0.5 ")
+
+
+def test_a_node_gets_texts_and_no_yaml(ros: Ros, spec: Path):
+    robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
+    context = launched(ros, robot)
+    urdf = robot.description["robot_description"].evaluate(context)
+    srdf = robot.semantic["robot_description_semantic"].evaluate(context)
+    assert etree.fromstring(urdf.encode()).find("link").get("name") == "base"
+    assert etree.fromstring(srdf.encode()).find("group").get("name") == "all"
+
+
+def test_a_fault_fails_the_launch_and_is_told_at_its_place(ros: Ros, spec: Path):
+    robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
+    context = launched(ros, robot, reach="3 m")
+    failure = importlib.import_module("launch.substitutions").SubstitutionFailure
+    with pytest.raises(failure, match=r"(?s)has errors:.*reach.*\[LF\d{4}\]"):
+        robot.urdf.perform(context)
+
+
+def test_a_warning_is_logged_once(ros: Ros, spec: Path, caplog: pytest.LogCaptureFixture):
+    spec.write_text(SPEC.replace("sphere: 0.1", "capsule: {radius: 0.1, length: 1}"))
+    robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
+    context = launched(ros, robot)
+    with caplog.at_level(logging.WARNING):
+        robot.urdf.perform(context)
+        robot.srdf.perform(context)
+    assert len(caplog.messages) == 1, caplog.messages
+    assert "arm.robot.yaml:14:" in caplog.messages[0]
+    assert "[LF7002]" in caplog.messages[0]
+
+
+def test_a_spec_that_cannot_be_read_stops_the_launch_file(ros: Ros, tmp_path: Path):
+    with pytest.raises(CompileError, match="no file"):
+        ros.ours.RobotDescription(tmp_path / "hand.robot.yaml")
+
+
+def test_the_launch_file_of_the_examples_describes_its_robot(ros: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    share = tmp_path / "share" / "pan_tilt_description"
+    shutil.copytree(ROOT / "examples" / "11_ros2_package", share)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    file = runpy.run_path(str(share / "launch" / "view.launch.py"))
+    *arguments, publisher, _, _ = file["generate_launch_description"]().entities
+    assert [one.name for one in arguments] == ["servo", "stalk", "camera_rate"]
+    context = ros.launch.LaunchContext(servo="mx28", stalk="10 cm")
+    for argument in arguments:
+        argument.execute(context)
+    urdf = publisher.parameters[0]["robot_description"].evaluate(context)
+    assert '<origin xyz="0 -0.02 0.1"' in urdf
+    assert 'effort="2.5"' in urdf
