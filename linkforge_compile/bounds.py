@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from enum import Enum
 
 from linkforge_compile.diagnostics import BeyondLimitError, Where
 from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
+from linkforge_compile.frozen import dataclass
 
 FACTOR_VARIABLE = "LINKFORGE_LIMITS"
 """The environment variable that allows so many times as much: the user's word, which no spec can say."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -12,6 +12,7 @@ from linkforge_compile.backends import render_srdf, render_urdf
 from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
 from linkforge_compile.modules import XACRO, Loader, SpecFile, Used

@@ -6,7 +6,6 @@ Values flow down, faults flow sideways into the sink, and no stage stops the lin
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -15,6 +14,7 @@ from linkforge_compile.checks import check
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Gaps, Severity
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.diagnostics.ignores import heed
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
     XACRO,

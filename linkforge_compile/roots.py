@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
+
+from linkforge_compile.frozen import dataclass
 
 MARKERS = ("package.xml", ".git")
 """What the top folder of a package or repository holds."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.frozen import dataclass
 
 if TYPE_CHECKING:
     from linkforge_compile.backends.marks import Place

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import Field, dataclass, field
+from dataclasses import Field, field
 from typing import TYPE_CHECKING, ClassVar, Self
 
 from linkforge_compile.core.frozen_map import FrozenMap, frozen
 from linkforge_compile.core.prefixing import prefixed_copy
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Sourced
 
 

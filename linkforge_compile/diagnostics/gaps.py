@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 
 from linkforge_compile.diagnostics.diagnostic import Note
+from linkforge_compile.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True)

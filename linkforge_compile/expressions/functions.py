@@ -6,11 +6,11 @@ import keyword
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.operators import Number, bounded, number, shared_dimension, with_dimension
 from linkforge_compile.expressions.types import RefusedError, Value, as_text, dimension_name, kind_name
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.units import Dimension, Quantity, number_text
 
 _WHOLE_NUMBER = re.compile(r"\s*[+-]?[0-9]{1,300}\s*")

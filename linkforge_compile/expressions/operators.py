@@ -6,7 +6,6 @@ import ast
 import math
 import operator
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics.codes import expressions as codes
@@ -18,6 +17,7 @@ from linkforge_compile.expressions.types import (
     kind_name,
     seen_from_compiled,
 )
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.units import Dimension, Quantity
 
 Number: TypeAlias = int | float

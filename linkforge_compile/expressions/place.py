@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Span
 
 

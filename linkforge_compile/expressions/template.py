@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import ast
-from dataclasses import dataclass
 
 from linkforge_compile.expressions.place import TextPlace
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Span
 
 

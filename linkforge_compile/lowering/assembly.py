@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotModelError
@@ -11,6 +11,7 @@ from linkforge_compile.core.models.graph import refuse_cycles
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Note, Removed
 from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.asked_names import tell_unknown_names
 from linkforge_compile.lowering.clashes import Clash, told_of_clashes
 from linkforge_compile.lowering.duplicates import tell_duplicate

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from enum import StrEnum
 from typing import TypeVar
 
@@ -20,6 +19,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.diagnostics.codes.names import INVALID_NAME
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.quantities import Bound, Measure, Refusal, doubt, found, si_number
 from linkforge_compile.source import SourceRef, Span

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from linkforge_compile.diagnostics import Code
 from linkforge_compile.diagnostics.codes.model import (
@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_DIMENSION,
     WRONG_KIND,
 )
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, parse_quantity, unit_text, units_of
 

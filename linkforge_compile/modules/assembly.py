@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Removed
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.mesh_files import FindMesh, no_mesh
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlMap

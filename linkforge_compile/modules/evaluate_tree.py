@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
@@ -24,6 +24,7 @@ from linkforge_compile.expressions import (
     kind_name,
     parse_template,
 )
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.computed import judge_computed
 from linkforge_compile.modules.conditions import occurrences
 from linkforge_compile.modules.disabled import Disabled

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
@@ -14,6 +14,7 @@ from linkforge_compile.diagnostics.codes.modules import (
 )
 from linkforge_compile.diagnostics.codes.schema import WRONG_KIND
 from linkforge_compile.expressions import FAULT, Fault
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.modules.defaults import with_defaults, without_repetition

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from pathlib import Path
 from typing import NamedTuple
@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     UNKNOWN_PARAMETER,
 )
 from linkforge_compile.expressions import FAULT, Fault, Value
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import COMMAND_LINE, Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.kinds import Kind, kind_of

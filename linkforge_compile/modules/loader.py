@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Protocol, TypeAlias
 
@@ -12,6 +12,7 @@ from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
 from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.importers import EncodingError, xml_text
 from linkforge_compile.modules.file_text import MAX_BYTES, UnreadableError, file_bytes, file_text
 from linkforge_compile.modules.includes import Whole, lay_together, reached

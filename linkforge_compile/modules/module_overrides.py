@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from linkforge_compile.diagnostics import Removed
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.module_entry import ModuleEntry, joint_name_of, with_fields
 from linkforge_compile.modules.overrides import Override
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expressions import FAULT, handed_on, has_expression
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.values import describe
 from linkforge_compile.source import ComputedSpan, Key, Origin
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from linkforge_compile.diagnostics import Code, Diagnostics, Note, Removed
 from linkforge_compile.diagnostics.codes.repetition import (
@@ -15,6 +14,7 @@ from linkforge_compile.diagnostics.codes.repetition import (
     POSITIONS_AND_KEYS,
     SAME_AS_BEFORE,
 )
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.normal_form import (
     CHOICES,
     is_said,

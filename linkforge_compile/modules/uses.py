@@ -6,12 +6,13 @@ import os
 import posixpath
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, SRDF_BESIDE_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -20,6 +19,7 @@ from linkforge_compile.diagnostics.codes.importing import (
 )
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PACKAGE, UNKNOWN_PARAMETER
 from linkforge_compile.expressions import FAULT
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.loader import Loader, SpecFile, Used

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from yaml import MarkedYAMLError
 from yaml.events import ScalarEvent
@@ -12,6 +11,7 @@ from yaml.events import ScalarEvent
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.xacro import XACRO_EXPRESSION, xacro_facts

@@ -7,9 +7,9 @@ by a node of its value with the expression's span, so a tree without expressions
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
 
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Span
 from linkforge_compile.units import Quantity
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from enum import StrEnum
+
+from linkforge_compile.frozen import dataclass
 
 
 class Dimension(StrEnum):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
 from fractions import Fraction
 
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.units.quantity import Dimension, Quantity
 
 _INCH = Fraction(254, 10_000)

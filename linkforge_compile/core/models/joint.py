@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import StrEnum
 
 from linkforge_compile.core.constants import (
@@ -22,6 +22,7 @@ from linkforge_compile.core.rules import (
     require_not_negative,
     require_valid_characters,
 )
+from linkforge_compile.frozen import dataclass
 
 
 class JointType(StrEnum):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from linkforge_compile.core.constants import (
     DEFAULT_CONTACT_KD,
@@ -21,6 +21,7 @@ from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.naming import prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
 from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
+from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import SourceRef
 
 

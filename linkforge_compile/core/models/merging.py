@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.part import attribute_pairs
+from linkforge_compile.frozen import dataclass
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement

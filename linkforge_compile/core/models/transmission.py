@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import StrEnum
 from operator import attrgetter
 from typing import ClassVar, Self
@@ -18,6 +18,7 @@ from linkforge_compile.core.rules import (
     require_unique_names,
     require_valid_characters,
 )
+from linkforge_compile.frozen import dataclass
 
 
 class TransmissionType(StrEnum):
