@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 _COMMANDS = {
     "compile": "compile a spec to URDF and SRDF",
+    "watch": "compile a spec, and again whenever something changes that it is made from",
     "check": "tell all that is wrong with specs, writing nothing",
     "params": "list the parameters and variants of a spec",
     "expand": "print a spec as one flat file: no modules, expressions, loops or defaults left",

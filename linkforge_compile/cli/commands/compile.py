@@ -32,6 +32,14 @@ examples:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge compile [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
+    add_build_arguments(parser)
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing, and fail where a file is not what the spec compiles to"
+    )
+
+
+def add_build_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what is said of each compile, be it the only one or one of many."""
     parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
     add_target_options(parser)
     parser.add_argument(
@@ -41,9 +49,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--depfile", metavar="FILE", help="write what the output was made from, as a rule of Make, for a build to read"
-    )
-    parser.add_argument(
-        "--check", action="store_true", help="write nothing, and fail where a file is not what the spec compiles to"
     )
     add_spec_options(parser)
     add_telling_options(parser)

@@ -1,0 +1,84 @@
+"""`linkforge watch`: compile a spec, and again whenever something changes that it is made from."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli.build import build
+from linkforge_compile.cli.commands import compile as compile_command
+from linkforge_compile.cli.exits import OK, UsageError
+from linkforge_compile.cli.stamps import Stamps
+from linkforge_compile.cli.telling import say
+
+if TYPE_CHECKING:
+    import argparse
+
+_SECONDS = 0.3
+"""Between two looks at the files: less than a person takes from the editor to the other window."""
+
+_SETTLED = 0.05
+"""For how long nothing more must change [s]: an editor may write a file in steps, and several at once."""
+
+_EXAMPLES = """\
+A spec with errors is told and the old output left; the next change compiles again. It ends with Ctrl-C.
+
+examples:
+  linkforge watch arm.robot.yaml -o build/
+  linkforge watch arm.robot.yaml -o build/ --then 'check_urdf build/arm.urdf'
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    compile_command.add_build_arguments(parser)
+    parser.usage = "linkforge watch [options] SPEC [NAME:=VALUE ...]"
+    parser.epilog = _EXAMPLES
+    parser.add_argument(
+        "--then", metavar="COMMAND", help="a command of the shell that is run after each compile without errors"
+    )
+    parser.set_defaults(check=False)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    order = compile_command.order(arguments)
+    if order.spec == "-":
+        raise UsageError("takes a file, not standard input")
+    order.targets.require_files("watch", "renews files")
+    stamps = Stamps([Path(order.spec)])
+    while True:
+        exit_code, compilation = build(order, arguments)
+        watched = (*compilation.files, *compilation.unread)
+        # Before the command, which may take its time: what changes meanwhile is to be seen.
+        stamps.follow(watched)
+        if exit_code == OK and arguments.then is not None:
+            _run_then(arguments)
+        say(f"watching {_listed(watched)}; Ctrl-C ends", arguments)
+        say(f"{_listed(_changed(stamps))} changed", arguments)
+
+
+def _changed(stamps: Stamps) -> tuple[Path, ...]:
+    """Wait until something changes and nothing more does, and return what did."""
+    changed: tuple[Path, ...] = ()
+    while not changed:
+        time.sleep(_SECONDS)
+        changed = stamps.look()
+    while True:
+        time.sleep(_SETTLED)
+        more = stamps.look()
+        if not more:
+            return changed
+        changed = tuple(dict.fromkeys((*changed, *more)))
+
+
+def _listed(paths: tuple[Path, ...]) -> str:
+    first, *others = paths
+    return f"{first} and {len(others)} more" if others else str(first)
+
+
+def _run_then(arguments: argparse.Namespace) -> None:
+    import subprocess
+
+    code = subprocess.run(arguments.then, shell=True, check=False).returncode
+    if code:
+        say(f"'{arguments.then}' ended with exit code {code}", arguments)

@@ -1,0 +1,149 @@
+"""`linkforge watch`: what a person does between two looks at the files is done where it would sleep."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile.cli.main import main
+
+CELL = "linkforge: 1\nname: cell\nlinks: {base: }\nmodules: {arm: {use: arm.robot.yaml, parent: base}}\n"
+ARM = "linkforge: 1\nname: arm\nlinks: {hand: }\n"
+
+Deed = Callable[[Path], object]
+
+
+def sets(name: str, text: str) -> Deed:
+    return lambda folder: (folder / name).write_text(text)
+
+
+def removes(name: str) -> Deed:
+    return lambda folder: (folder / name).unlink()
+
+
+def nothing(folder: Path) -> None:
+    """Somebody thinks."""
+
+
+@pytest.fixture
+def cell(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "cell.robot.yaml").write_text(CELL)
+    (tmp_path / "arm.robot.yaml").write_text(ARM)
+    return tmp_path
+
+
+@pytest.fixture
+def watch(cell: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Callable[..., list[str]]:
+    def run(*deeds: Deed, words: tuple[str, ...] = ()) -> list[str]:
+        """Watch while things are done, the next one whenever all is still; return the lines that are told."""
+        left: Iterator[Deed] = iter(deeds)
+
+        def pause(seconds: float) -> None:
+            # The long pause is that before a look, the short one that for a change to be whole.
+            if seconds < 0.1:
+                return
+            deed = next(left, None)
+            if deed is None:
+                raise KeyboardInterrupt
+            deed(cell)
+
+        monkeypatch.setattr(time, "sleep", pause)
+        assert main(["watch", "cell.robot.yaml", "-o", "out/", *words]) == 130
+        return capfd.readouterr().err.splitlines()
+
+    return run
+
+
+WATCHING = "watching cell.robot.yaml and 1 more; Ctrl-C ends"
+
+
+def test_a_change_of_a_module_compiles_again(cell: Path, watch: Callable[..., list[str]]):
+    told = watch(nothing, sets("arm.robot.yaml", ARM.replace("hand", "gripper")), nothing)
+    assert told == [
+        "wrote out/cell.urdf",
+        WATCHING,
+        "arm.robot.yaml changed",
+        "wrote out/cell.urdf",
+        WATCHING,
+    ]
+    assert '<link name="arm_gripper"/>' in (cell / "out" / "cell.urdf").read_text()
+
+
+def test_errors_are_told_and_the_output_stays_until_they_are_mended(cell: Path, watch: Callable[..., list[str]]):
+    def is_still_there(folder: Path) -> None:
+        assert '<link name="arm_hand"/>' in (folder / "out" / "cell.urdf").read_text()
+
+    wrong = ARM.replace("hand: ", "hand: {colision: visual}")
+    told = watch(sets("arm.robot.yaml", wrong), is_still_there, sets("arm.robot.yaml", ARM))
+    assert "arm.robot.yaml:3:16: error: 'colision' is not a key of a link; did you mean 'collision'? [LF2101]" in told
+    assert told[-2:] == ["out/cell.urdf is up to date", WATCHING]
+
+
+def test_a_file_that_is_missed_is_waited_for(watch: Callable[..., list[str]]):
+    told = watch(removes("arm.robot.yaml"), nothing, sets("arm.robot.yaml", ARM))
+    assert any("there is no file 'arm.robot.yaml'" in line for line in told)
+    assert told.count("arm.robot.yaml changed") == 2
+    assert told[-2:] == ["out/cell.urdf is up to date", WATCHING]
+
+
+def test_a_file_that_is_used_no_more_is_watched_no_more(watch: Callable[..., list[str]]):
+    alone = CELL.partition("modules")[0]
+    told = watch(sets("cell.robot.yaml", alone), sets("arm.robot.yaml", "x"), nothing)
+    assert told[-3:] == ["cell.robot.yaml changed", "wrote out/cell.urdf", "watching cell.robot.yaml; Ctrl-C ends"]
+
+
+def test_files_that_change_together_are_one_change(watch: Callable[..., list[str]]):
+    def both(folder: Path) -> None:
+        sets("cell.robot.yaml", CELL + "\n")(folder)
+        sets("arm.robot.yaml", ARM + "\n")(folder)
+
+    told = watch(both)
+    assert told[2:] == ["cell.robot.yaml and 1 more changed", "out/cell.urdf is up to date", WATCHING]
+
+
+def test_what_changes_while_the_command_runs_is_seen(watch: Callable[..., list[str]]):
+    told = watch(nothing, words=("--then", "[ -e done ] || { touch done; echo '# more' >> arm.robot.yaml; }"))
+    assert told[2:] == ["arm.robot.yaml changed", "out/cell.urdf is up to date", WATCHING]
+
+
+def test_a_command_runs_behind_each_compile_without_errors(cell: Path, watch: Callable[..., list[str]]):
+    told = watch(
+        sets("arm.robot.yaml", ARM.replace("hand: ", "hand: {colision: visual}")),
+        sets("arm.robot.yaml", ARM.replace("hand", "gripper")),
+        words=("--then", "grep -c link out/cell.urdf >> counts; exit 3"),
+    )
+    assert len((cell / "counts").read_text().split()) == 2
+    assert told.count("'grep -c link out/cell.urdf >> counts; exit 3' ended with exit code 3") == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("cell.robot.yaml",), "watch renews files, so it takes -o with a folder or a file"),
+        (("-", "-o", "out/"), "takes a file, not standard input"),
+    ],
+)
+def test_what_cannot_be_watched_is_told(
+    cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...], said: str
+):
+    assert main(["watch", *words]) == 2
+    assert said in capfd.readouterr().err
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
+def test_ctrl_c_ends_it_without_a_word(cell: Path):
+    command = [sys.executable, "-m", "linkforge_compile", "watch", "cell.robot.yaml", "-o", "out/"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stderr
+        lines = [process.stderr.readline(), process.stderr.readline()]
+        process.send_signal(signal.SIGINT)
+        rest = process.stderr.read()
+        assert process.wait(60) == 130
+    assert lines == ["wrote out/cell.urdf\n", f"{WATCHING}\n"]
+    assert rest == ""
