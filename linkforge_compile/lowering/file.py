@@ -58,7 +58,9 @@ def lower_file(
     file = Fields(tree, "robot", sink, trail)
     materials = lower_materials(file, FileScope(mesh_bases))
     lost_materials = gaps_of(name for name, material in materials.items() if material is None)
-    if _has_lost(tree, _SECTIONS_OF_MATERIALS):
+    # What has no name is a part of a robot: the file that includes it has the names that it lacks.
+    is_part = tree.get("name") is None
+    if is_part or _has_lost(tree, _SECTIONS_OF_MATERIALS):
         lost_materials |= Gaps(prefixes=("",))
     kept_materials = {name: material for name, material in materials.items() if material}
     scope = FileScope(mesh_bases, kept_materials, lost_materials, meshes)
@@ -85,7 +87,7 @@ def lower_file(
     )
     lost = [name for parts in (links, joints) for name, part in parts.items() if part is None]
     gaps = gaps_of([*lost, *(semantic.lost_groups if semantic else ())])
-    if _has_lost(tree, _SECTIONS_OF_NAMES) or _has_lost(tree.get("semantic"), _SECTIONS_OF_SEMANTIC_NAMES):
+    if is_part or _has_lost(tree, _SECTIONS_OF_NAMES) or _has_lost(tree.get("semantic"), _SECTIONS_OF_SEMANTIC_NAMES):
         gaps |= Gaps(prefixes=("",))
     return LoweredFile(robot, semantic.states if semantic else (), gaps, tuple(_mounts(file)))
 

@@ -226,8 +226,9 @@ class FileNames:
         return key.text if key else FAULT
 
     def _names_unread(self) -> Scope | None:
-        """Return a scope for what a faulty section may have declared, None where all was read."""
-        return _AnyName({}) if self._is_faulty(*_KINDS, "include") else None
+        """Return a scope for what a faulty section, or the file around this one, may declare; None where all was read."""
+        is_part = self._spec.tree.get("name") is None
+        return _AnyName({}) if is_part or self._is_faulty(*_KINDS, "include") else None
 
     def _is_faulty(self, *sections: str) -> bool:
         return any(isinstance(self._spec.tree.get(section), YamlFault) for section in sections)

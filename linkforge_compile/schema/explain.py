@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.schema import (
-    MISSING_KEY,
+    MISSING_NAME,
     MISSING_VERSION,
     OTHER_VERSION,
     UNKNOWN_KEY,
@@ -143,8 +143,8 @@ def _missing_keys(misfit: Misfit) -> Iterator[Judgement]:
     first = next((entry.key.span for entry in node), node.span)
     for name in map(str, required):
         if node.get(name) is None:
-            code = MISSING_VERSION if name == "linkforge" else MISSING_KEY
-            yield Judgement(code.at(first, name=name, owner=schema["title"]), (*path, name))
+            code = MISSING_VERSION if name == "linkforge" else MISSING_NAME
+            yield Judgement(code.at(first), (*path, name))
 
 
 def _other_version(misfit: Misfit) -> Iterator[Judgement]:

@@ -8,7 +8,11 @@ MISSING_VERSION = Code(
     "LF2001", Severity.ERROR, "write 'linkforge: 1' first: it says which version of the language the file is in"
 )
 OTHER_VERSION = Code("LF2002", Severity.ERROR, "'linkforge' takes 1, the version of the language, found {found}")
-MISSING_KEY = Code("LF2003", Severity.ERROR, "{owner} needs a '{name}'")
+MISSING_NAME = Code(
+    "LF2003",
+    Severity.ERROR,
+    "a robot needs a 'name'; a file for 'include' is checked with the one that includes it",
+)
 UNKNOWN_KEY = Code("LF2101", Severity.ERROR, "'{name}' is not a key of {owner}{hint}", _WRITER)
 WRONG_KIND = Code("LF2201", Severity.ERROR, "{field} takes {expected}, found {found}", _KIND)
 UNKNOWN_WORD = Code("LF2202", Severity.ERROR, "{field} takes {expected}, found '{name}'", _WRITER)
