@@ -26,7 +26,7 @@ from linkforge_compile.schema.json_types import Json, Schema, branches, mapping,
 from linkforge_compile.schema.registry import definitions
 from linkforge_compile.schema.repetition import LONG_FORM, WORDS
 from linkforge_compile.syntax import reader
-from linkforge_compile.units import Dimension, number_text, units_of
+from linkforge_compile.units import Dimension, number_text, spellings_of, units_of
 
 HERE = Path(__file__).parent
 SOURCE = HERE / "language.in.md"
@@ -204,11 +204,21 @@ def _table(head: tuple[str, ...], rows: list[list[str]]) -> str:
 
 def _units() -> str:
     rows = [
-        [dimension.name.lower().replace("_", " "), f"`{first}`", " ".join(f"`{unit}`" for unit in others)]
+        [
+            dimension.name.lower().replace("_", " "),
+            f"`{first}`",
+            " ".join(f"`{unit}`" for unit in others),
+            _spellings(dimension),
+        ]
         for dimension in Dimension
         for first, *others in [units_of(dimension)]
     ]
-    return _table(("dimension", "a bare number is in", "other units"), rows)
+    return _table(("dimension", "a bare number is in", "other units", "also written"), rows)
+
+
+def _spellings(dimension: Dimension) -> str:
+    """Return the other words that are taken for units of a dimension."""
+    return " ".join(f"`{spelling}`" for unit in units_of(dimension) for spelling in spellings_of(unit))
 
 
 def _functions() -> str:

@@ -45,6 +45,7 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     joints.check_mimic_motion,
     joints.check_endless_joints,
     joints.check_joint_power,
+    joints.check_joint_speed,
     joints.check_soft_limits,
     inertia.check_inertia,
     mass.check_density,

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sized
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.checks.ranges import missed_range
+from linkforge_compile.checks.ranges import WITHIN_LIMITS, missed_range
 from linkforge_compile.checks.references import Use
+from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
 from linkforge_compile.diagnostics.codes.physics import (
@@ -16,6 +17,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     NO_MIMIC,
     PARAMETER_NO_NUMBER,
     RANGE_CROSSED,
+    RANGE_FAR_BEYOND,
     RANGE_OUTSIDE_LIMITS,
     STARTS_OUTSIDE_LIMITS,
     UNKNOWN_INTERFACE,
@@ -42,6 +44,9 @@ KNOWN_INTERFACES = (*MOTIONS, "jerk", "torque", "force", "current", "temperature
 
 BOUNDED_BOTH_WAYS = ("position", "velocity", "effort")
 """The interfaces whose `min` and `max` are the ends of one range; of an acceleration they are two amounts."""
+
+FAR, UNBOUNDED = 10.0, 1e4
+"""How many times the limit of its joint a range reaches that is in another unit; beyond, it says that it is none."""
 
 COMMANDS, STATES = "command_interfaces", "state_interfaces"
 
@@ -95,7 +100,8 @@ def check_interface_parameters(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     ros2_control reads plain numbers in SI units, [rad] or [m] and their rates: the parameters of hardware are
     passed on as they are written, so `-90 deg` stays text, which it skips. Write `$(radians(-90))`. Of the
     range here and the limits of the joint it takes the narrower one, so that a range beyond the limits leaves no
-    position; and mock hardware starts at the initial value, from where MoveIt plans nothing if that is outside.
+    position, and one that reaches ten times as far as the joint, in degrees or millimetres, bounds nothing; and mock
+    hardware starts at the initial value, from where MoveIt plans nothing if that is outside.
     """
     for control in robot.ros2_controls:
         for driven in control.joints:
@@ -122,9 +128,46 @@ def _faults_of_parameters(interface: Exported, joint: Joint | None) -> Iterator[
             yield place.told(RANGE_CROSSED, min=low, max=high)
         elif joint and interface.name == "position" and (span := missed_range(joint, lowest, highest)):
             yield place.told(RANGE_OUTSIDE_LIMITS, joint=joint.name, range=span, min=low, max=high)
+        elif joint:
+            yield from _far_beyond(interface, joint, lowest, highest)
     if joint and start is not None and interface.name == "position" and (span := missed_range(joint, start, start)):
         place = _at(interface, "initial_value")
         yield place.told(STARTS_OUTSIDE_LIMITS, joint=joint.name, range=span, found=f"{start:.6g}")
+
+
+def _far_beyond(interface: Exported, joint: Joint, lowest: float, highest: float) -> Iterator[Diagnostic]:
+    """Tell of a range that the joint's limit makes idle, and that a wrong unit explains."""
+    reach = max(abs(lowest), abs(highest))
+    limit = _limit(interface.name, joint)
+    if not limit or not FAR <= reach / limit < UNBOUNDED:
+        return
+    parameter, found = ("max", highest) if abs(highest) >= abs(lowest) else ("min", lowest)
+    is_effort, is_turning, shown = interface.name == "effort", joint.type != JointType.PRISMATIC, f"{found:.6g}"
+    length = f"write '$({shown} / 1000)' if millimetres are meant"
+    remedy = f"write '$(radians({shown}))' if degrees are meant" if is_turning else length
+    place = _at(interface, parameter)
+    yield place.told(
+        RANGE_FAR_BEYOND,
+        interface=f"interface '{interface.name}'",
+        joint=joint.name,
+        found=shown,
+        limit=f"{limit:.6g}",
+        si=_SI[is_turning][MOTIONS.index(interface.name)],
+        remedy="correct one of them" if is_effort else remedy,
+    )
+
+
+_SI = {True: ("rad", "rad/s", "", "N*m"), False: ("m", "m/s", "", "N")}
+"""The units of MOTIONS of a joint that turns, and of one that slides."""
+
+
+def _limit(interface: str, joint: Joint) -> float | None:
+    """Return how far, how fast or how hard a joint moves at most [SI]; None where it does not say."""
+    limits = joint.limits
+    if limits is None or interface != "position":
+        return getattr(limits, interface, None)
+    ends = (limits.lower, limits.upper) if joint.type in WITHIN_LIMITS else ()
+    return max((abs(end) for end in ends if end is not None), default=None)
 
 
 def _at(interface: Exported, parameter: str) -> Use:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from linkforge_compile.checks.circles import told_circles
@@ -11,6 +12,7 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
 from linkforge_compile.diagnostics.codes.model import (
     EMPTY_RANGE,
+    FAST_JOINT,
     IDLE_SOFT_LIMIT,
     MIMIC_CIRCLE,
     MIMIC_FREEDOM,
@@ -26,6 +28,12 @@ AXIS_JOINTS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 """The types whose position is one number, which is all that a mimic can multiply."""
 
 BOUNDED_JOINTS = (JointType.REVOLUTE, JointType.PRISMATIC)
+
+FASTEST: dict[str, float] = {JointType.REVOLUTE: 20 * math.pi, JointType.PRISMATIC: 20.0}
+"""Beyond this the speed of a joint was meant in other units [rad/s] or [m/s]: fast legs have 40 rad/s."""
+
+UNBOUNDED = 1000.0
+"""From here on a speed says that there is no limit [rad/s] or [m/s]."""
 
 ROUNDING = 1e-4
 """How far a soft limit may pass a limit [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
@@ -126,6 +134,24 @@ def check_joint_power(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         none = [field for field in ("effort", "velocity") if getattr(limits, field) == 0]
         if none:
             yield POWERLESS_JOINT.at(joint.source, "limits", none[0], joint=joint.name, fields=" and ".join(none))
+
+
+def check_joint_speed(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A joint that stops at its ends is not faster than joints are: ten turns a second, or 20 m/s.
+
+    Data sheets give degrees a second and millimetres a second; a bare number is in rad/s or m/s. Write the unit, such
+    as `180 deg/s`. A continuous joint, which may be a wheel, may turn at any speed.
+    """
+    for joint in robot.joints:
+        fastest = FASTEST.get(joint.type)
+        velocity = joint.limits.velocity if joint.limits else None
+        if fastest is None or velocity is None or not fastest < velocity < UNBOUNDED:
+            continue
+        found, is_turning = f"{velocity:.6g}", joint.type == JointType.REVOLUTE
+        also = f", {velocity / math.tau:.3g} turns a second" if is_turning else ""
+        si, unit, units = ("rad/s", "deg/s", "degrees") if is_turning else ("m/s", "mm/s", "millimetres")
+        where = (joint.source, "limits", "velocity")
+        yield FAST_JOINT.at(*where, joint=joint.name, found=found, also=also, si=si, unit=unit, units=units)
 
 
 def check_soft_limits(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

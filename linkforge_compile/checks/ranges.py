@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+import re
+
 from linkforge_compile.core.models.joint import Joint, JointType
 
 WITHIN_LIMITS: dict[str, str] = {JointType.REVOLUTE: "rad", JointType.PRISMATIC: "m"}
@@ -11,8 +14,28 @@ ROUNDING = 1e-4
 """How far a position may pass a limit [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
 
 
-def missed_range(joint: Joint, lowest: float, highest: float) -> str | None:
-    """Return "from -1 to 1 rad" if the joint can be nowhere between two positions [rad] or [m]; None if it can."""
+_SIZES = {"deg": math.pi / 180, "°": math.pi / 180, "mm": 0.001, "cm": 0.01}
+"""What a unit in which positions are often written is in [rad] or [m]."""
+
+_UNIT = re.compile(r"[0-9.]\s*(?P<unit>deg|°|mm|cm)['\"]?")
+
+
+def unit_in(text: str | None) -> str | None:
+    """Return the unit in which a position is written; None for one in SI units, for an expression, and for no text."""
+    found = _UNIT.search(text) if text and "$(" not in text else None
+    return found["unit"] if found else None
+
+
+def in_unit(position: float, unit: str | None) -> str:
+    """Return a position [rad] or [m] as a person who uses that unit reads it; None is SI, without the unit's name."""
+    return f"{position:.6g}" if unit is None else f"{position / _SIZES[unit]:.6g} {unit}"
+
+
+def missed_range(joint: Joint, lowest: float, highest: float, unit: str | None = None) -> str | None:
+    """Return "from -1 to 1 rad" if the joint can be nowhere between two positions [rad] or [m]; None if it can.
+
+    In another `unit` it says "from -90 deg to 90 deg".
+    """
     limits = joint.limits
     if limits is None or joint.type not in WITHIN_LIMITS:
         return None
@@ -21,5 +44,5 @@ def missed_range(joint: Joint, lowest: float, highest: float) -> str | None:
     above = upper is not None and lowest > upper + ROUNDING
     if not (below or above):
         return None
-    bounds = [f"{way} {bound:.6g}" for way, bound in (("from", lower), ("to", upper)) if bound is not None]
-    return " ".join((*bounds, WITHIN_LIMITS[joint.type]))
+    bounds = [f"{way} {in_unit(bound, unit)}" for way, bound in (("from", lower), ("to", upper)) if bound is not None]
+    return " ".join((*bounds, *(() if unit else (WITHIN_LIMITS[joint.type],))))

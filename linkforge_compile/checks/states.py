@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.groups import group_links
-from linkforge_compile.checks.ranges import ROUNDING, missed_range
+from linkforge_compile.checks.ranges import ROUNDING, in_unit, missed_range, unit_in
 from linkforge_compile.checks.references import SHOWN, Use, listed, own_positions
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
@@ -68,9 +68,10 @@ def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[objec
     if len(values) != count:
         yield use.told(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=_counted(values))
     elif isinstance(joint, Joint) and values and isinstance(position := values[0], int | float):
-        span = missed_range(joint, position, position)
+        unit = unit_in(use.place.text) if use.place else None
+        span = missed_range(joint, position, position, unit)
         if span:
-            yield use.told(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=f"{position:.6g}")
+            yield use.told(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=in_unit(position, unit))
 
 
 def _counted(values: tuple[object, ...]) -> str:
@@ -97,7 +98,8 @@ def check_states_of_mimics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             expected = joint.mimic.multiplier * led + joint.mimic.offset
             if not math.isclose(found, expected, rel_tol=ROUNDING, abs_tol=MIMIC_ROUNDING):
                 use, leader = _at_value(state, name, key), joint.mimic.joint
-                shown, written = f"{expected:.6g}", f"{found:.6g}"
+                unit = unit_in(use.place.text) if use.place else None
+                shown, written = in_unit(expected, unit), in_unit(found, unit)
                 yield use.told(STATE_AGAINST_MIMIC, joint=name, leader=leader, expected=shown, found=written)
 
 

@@ -251,6 +251,10 @@ class Fields:
         """Whether a fault in this object has been told: what it seems to lack may be that, misspelt."""
         return any(isinstance(entry.value, YamlFault) for entry in self.node)
 
+    def has_faulty_items(self, *keys: str) -> bool:
+        """Whether a list under one of the keys, or an item of it, has been told to be faulty."""
+        return any(isinstance(node, YamlFault) for key in keys for node in self.items(key))
+
     def tell_lack(self, code: Code, **facts: object) -> None:
         """Report what this object lacks; silent where something in it is faulty."""
         if not self.is_faulty:
@@ -265,7 +269,8 @@ class Fields:
             return make()
         except RobotModelError as error:
             if is_whole:
-                self.sink.report(REFUSED.at(self.ref, *error.field, owner=self.title, reason=error.message))
+                reason = error.message.removeprefix(f"{self.title} ")
+                self.sink.report(REFUSED.at(self.ref, *error.field, owner=self.title, reason=reason))
             return None
 
     def said(self, key: str, required: str = "") -> YamlNode | None:

@@ -18,7 +18,16 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, parse_quantity, unit_text, units_of
+from linkforge_compile.units import (
+    WIDEST_ANGLE,
+    Dimension,
+    Quantity,
+    number_text,
+    parse_quantity,
+    unit_meant,
+    unit_text,
+    units_of,
+)
 
 _WORDS = {
     Dimension.LENGTH: ("a length", "25 mm"),
@@ -150,7 +159,11 @@ def _in_bound(node: YamlNode, number: float, measure: Measure) -> float | Refusa
 
 def _no_number(node: YamlNode, measure: Measure) -> Refusal:
     unit = unit_text(node.text) if isinstance(node, YamlScalar) and isinstance(node.value, str) else None
-    if unit is None or not measure.dimensions:
+    if unit is None or not isinstance(node, YamlScalar) or not measure.dimensions:
         return Refusal(WRONG_KIND, {"expected": measure.words, "found": found(node)})
     known = tuple(name for dimension in measure.dimensions for name in units_of(dimension))
-    return Refusal(UNKNOWN_UNIT, {"expected": measure.words, "name": unit}, known)
+    meant = unit_meant(unit)
+    if meant and meant.dimension in measure.dimensions:
+        hint = f"; write '{node.text.strip().removesuffix(unit).rstrip()} {meant.name}'"
+        return Refusal(UNKNOWN_UNIT, {"expected": measure.words, "name": unit, "hint": hint})
+    return Refusal(UNKNOWN_UNIT, {"expected": measure.words, "name": unit, "hint": ""}, known)

@@ -66,7 +66,9 @@ def _commanded(kind: type[Commanded], part: Fields, name: str) -> Commanded | No
     commands = tuple(_interfaces(part, "command_interfaces"))
     states = tuple(_interfaces(part, "state_interfaces"))
     parameters = free_texts(part, "parameters")
-    return part.build(lambda: kind(name, commands, states, parameters, source=part.ref, **extras_of(part)))
+    # Interfaces that are faulty are told as that, and not that there are none.
+    make = partial(kind, name, commands, states, parameters, source=part.ref, **extras_of(part))
+    return part.build(make, is_whole=not part.has_faulty_items("command_interfaces", "state_interfaces"))
 
 
 def _sensor(part: Fields, name: str) -> Ros2ControlSensor | None:

@@ -44,4 +44,5 @@ def _end(kind: type[End], end: Fields, name: str) -> End | None:
     reduction = end.number("mechanical_reduction", bound=NOT_ZERO)
     offset = end.number("offset", Dimension.ANGLE, Dimension.LENGTH)
     make = partial(kind, name, interfaces, reduction, offset or 0.0, stated=("offset",) if offset == 0 else ())
-    return end.build(lambda: make(source=end.ref, **extras_of(end)))
+    is_whole = not end.has_faulty_items("hardware_interfaces")
+    return end.build(lambda: make(source=end.ref, **extras_of(end)), is_whole=is_whole)

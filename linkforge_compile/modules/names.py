@@ -226,7 +226,7 @@ class FileNames:
         return key.text if key else FAULT
 
     def _names_unread(self) -> Scope | None:
-        """Return a scope for what a faulty section, or the file around this one, may declare; None where all was read."""
+        """Return a scope for what a faulty section, or a file around this one, may have declared; None for neither."""
         is_part = self._spec.tree.get("name") is None
         return _AnyName({}) if is_part or self._is_faulty(*_KINDS, "include") else None
 

@@ -104,8 +104,22 @@ _HINTS_FOR_OWNER = {
     ("an override", "parameters"): "parameters are set by 'with'",
     ("a module", "parameters"): "parameters are set by 'with'",
     ("a module", "args"): "parameters are set by 'with'",
+    ("a gazebo block", "mu"): "write 'mu1', and 'mu2' for the second direction",
+    ("a ros2_control block", "plugin"): "write 'hardware_plugin'",
+    ("a ros2_control block", "hardware"): "write its plugin as 'hardware_plugin', its params as 'parameters'",
+    ("a ros2_control block", "joint"): "joints stand under 'joints', by name",
+    ("a laser scanner's rays", "samples"): "write 'horizontal_samples'",
+    ("a laser scanner's rays", "resolution"): "write 'horizontal_resolution'",
+    ("a laser scanner's rays", "min_angle"): "write 'horizontal_min_angle'",
+    ("a laser scanner's rays", "max_angle"): "write 'horizontal_max_angle'",
+    ("a laser scanner's rays", "range"): "write 'range_min', 'range_max' and 'range_resolution'",
+    ("a laser scanner's rays", "scan"): "write 'horizontal_samples' and the like, without a map around them",
+    ("a laser scanner's rays", "horizontal"): "write 'horizontal_samples' and the like",
+    ("a laser scanner's rays", "vertical"): "write 'vertical_samples' and the like",
+    ("a camera's picture", "image"): "write 'width', 'height' and 'format'",
+    ("a camera's picture", "clip"): "write 'near_clip' and 'far_clip'",
 }
-"""What is meant by keys that other objects have."""
+"""What is meant by keys that other objects have, or URDF and SDFormat at this place."""
 
 _HINTS = {
     "geometry": "write the shape itself, such as 'box: [1, 1, 1]'",
@@ -184,12 +198,26 @@ def _as_urdf(node: YamlNode, path: Path, schema: Schema) -> str:
     takes_list = any("array" in str(branch.get("type")) for branch in branches(schema))
     if isinstance(node, YamlScalar) and _is_row(node) and takes_list:
         return f"; write '[{', '.join(node.text.split())}]'"
+    if isinstance(node, YamlScalar) and isinstance(node.value, str) and _is_item(node.text, schema):
+        return f"; write '[{node.text}]'"
     entries = tuple(node) if isinstance(node, YamlMap) else ()
+    if entries and len(path) > 1 and path[-2] in _INTERFACES:
+        return f"; write a map in place of the list: '{path[-2]}: {{{entries[0].name}: …}}'"
     if len(entries) == 1 and entries[0].name in _ATTRIBUTES and isinstance(entries[0].value, YamlScalar):
         key = f"{path[-1]}: " if path and isinstance(path[-1], str) else ""
         return f"; write '{key}{entries[0].value.text}'"
     return ""
 
+
+def _is_item(text: str, schema: Schema) -> bool:
+    """Whether a schema takes a list in which the text could stand."""
+    items = (mapping(branch["items"]) for branch in branches(schema) if isinstance(branch.get("items"), dict))
+    kinds = (kind for item in items for kind in branches(item) if "string" in str(kind.get("type", "string")))
+    return any(re.search(str(kind.get("pattern", "")), text) for kind in kinds)
+
+
+_INTERFACES = ("command_interfaces", "state_interfaces")
+"""The lists that become maps where an item has parameters."""
 
 _ATTRIBUTES = ("link", "value", "name", "joint")
 """Attributes of URDF that hold the whole of their element."""

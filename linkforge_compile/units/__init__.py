@@ -2,7 +2,7 @@
 
 from linkforge_compile.units.numbers import number_text
 from linkforge_compile.units.quantity import WIDEST_ANGLE, Dimension, Quantity
-from linkforge_compile.units.table import UNITS, Unit, parse_quantity, unit_text, units_of
+from linkforge_compile.units.table import UNITS, Unit, parse_quantity, spellings_of, unit_meant, unit_text, units_of
 
 __all__ = [
     "UNITS",
@@ -12,6 +12,8 @@ __all__ = [
     "Unit",
     "number_text",
     "parse_quantity",
+    "spellings_of",
+    "unit_meant",
     "unit_text",
     "units_of",
 ]

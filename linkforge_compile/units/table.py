@@ -112,6 +112,33 @@ _SPELLINGS = {
 }
 """Other spellings that people use; the product may also be written with a dot, powers as superscripts."""
 
+_WORDS = {
+    "deg": ("degree", "degrees", "degs"),
+    "rad": ("radian", "radians"),
+    "rev": ("turn", "turns", "revolution", "revolutions"),
+    "m": ("meter", "meters", "metre", "metres"),
+    "cm": ("centimeter", "centimeters", "centimetre", "centimetres"),
+    "mm": ("millimeter", "millimeters", "millimetre", "millimetres"),
+    "in": ("inch", "inches"),
+    "kg": ("kilogram", "kilograms", "kgs", "Kg", "KG"),
+    "g": ("gram", "grams", "gr"),
+    "lb": ("lbs", "pound", "pounds"),
+    "s": ("sec", "secs", "second", "seconds"),
+    "ms": ("msec", "millisecond", "milliseconds"),
+    "Hz": ("hz", "hertz", "Hertz", "HZ", "fps", "FPS"),
+    "N": ("newton", "newtons", "Newton", "Newtons"),
+    "N*m": ("nm", "NM", "N-m", "Newton-meter", "newton-meter"),
+    "kgf*cm": ("kg*cm", "kg-cm", "kgcm"),
+    "m/s": ("mps", "m/sec"),
+    "rad/s": ("rad/sec", "radians/s", "radians/sec", "rads"),
+    "deg/s": ("deg/sec", "degrees/s", "degrees/sec", "°/s", "°/sec", "dps"),
+    "rpm": ("RPM", "rev/min"),
+    "kg*m^2": ("kgm2", "kgm^2", "kg*m2"),
+    "g*mm^2": ("gmm2", "gmm^2", "g*mm2"),
+}
+_UNITS_BY_WORD = {word: UNITS[name] for name, words in _WORDS.items() for word in words}
+"""What people write for a unit, which messages answer with it: taking all of it would make specs of many tongues."""
+
 # Bounded digits: a float needs no more, and Fraction("1e999999999") would fill the memory.
 _QUANTITY = re.compile(
     r"([+-]?(?:[0-9]{1,400}(?:\.[0-9]{0,400})?|\.[0-9]{1,400})(?:[eE][+-]?[0-9]{1,3})?)\s*([A-Za-zµμ°][^\s]*)"
@@ -133,6 +160,16 @@ def parse_quantity(text: str) -> Quantity | None:
     name = match[2].translate(_PLAIN).replace("**", "^")
     unit = UNITS.get(_SPELLINGS.get(name, name))
     return Quantity(unit.to_si(match[1]), unit.dimension) if unit else None
+
+
+def unit_meant(word: str) -> Unit | None:
+    """Return the unit that a word which is none stands for: `deg` for `degrees`; None for any other word."""
+    return _UNITS_BY_WORD.get(word.translate(_PLAIN).replace("**", "^"))
+
+
+def spellings_of(unit: str) -> tuple[str, ...]:
+    """Return the other words that are taken for a unit."""
+    return tuple(spelling for spelling, name in _SPELLINGS.items() if name == unit)
 
 
 def units_of(dimension: Dimension) -> tuple[str, ...]:

@@ -54,7 +54,7 @@ def test_ranges_that_do_not(parameters: dict[str, str], message: str):
 
 
 def test_a_velocity_has_a_range_of_its_own():
-    driven = Ros2ControlJoint("shoulder", (Interface("velocity", {"min": "-20", "max": "-10"}),))
+    driven = Ros2ControlJoint("shoulder", (Interface("velocity", {"min": "-9", "max": "-5"}),))
     assert told(arm(driven)) == []
 
 

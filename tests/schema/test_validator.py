@@ -174,7 +174,9 @@ def test_another_version_is_told_at_its_number():
 
 
 def test_a_robot_without_a_name_is_told():
-    assert judged("linkforge: 1\n")[1] == ["1:1 a robot needs a 'name'; a file for 'include' is checked with the one that includes it"]
+    assert judged("linkforge: 1\n")[1] == [
+        "1:1 a robot needs a 'name'; a file for 'include' is checked with the one that includes it"
+    ]
 
 
 def test_what_is_faulty_does_not_go_on_and_the_rest_does():

@@ -8,7 +8,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkforge_compile.units import UNITS, Dimension, Quantity, number_text, parse_quantity, unit_text, units_of
+from linkforge_compile.units import (
+    UNITS,
+    Dimension,
+    Quantity,
+    number_text,
+    parse_quantity,
+    unit_meant,
+    unit_text,
+    units_of,
+)
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 
@@ -117,3 +126,15 @@ def test_a_float_of_numpy_is_spelled_as_the_double_that_it_is(kind):
 @pytest.mark.parametrize("kind", [np.int8, np.int32, np.int64, np.uint8, np.uint64])
 def test_an_integer_of_numpy_is_spelled_with_every_digit(kind):
     assert number_text(kind(100)) == "100"
+
+
+@pytest.mark.parametrize(("word", "unit"), [("degrees", "deg"), ("°/s", "deg/s"), ("nm", "N*m"), ("kg*m2", "kg*m^2")])
+def test_a_word_for_a_unit_is_known_and_not_taken(word: str, unit: str):
+    meant = unit_meant(word)
+    assert meant is not None
+    assert meant.name == unit
+    assert parse_quantity(f"1 {word}") is None
+
+
+def test_no_unit_is_a_word_for_another():
+    assert [unit for unit in UNITS if unit_meant(unit)] == []

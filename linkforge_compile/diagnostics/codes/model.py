@@ -8,7 +8,7 @@ _KIND, _WRITER = Blame.KIND, Blame.WRITER
 # LF50xx: fields of any object
 WRONG_KIND = Code("LF5001", _E, "{field} takes {expected}, found {found}", _KIND)
 WRONG_DIMENSION = Code("LF5002", _E, "{field} takes {expected}, found {found}, which is {other}", _KIND)
-UNKNOWN_UNIT = Code("LF5003", _E, "{field} takes {expected}; there is no unit '{name}'", _KIND)
+UNKNOWN_UNIT = Code("LF5003", _E, "{field} takes {expected}; there is no unit '{name}'{hint}", _KIND)
 NOT_FINITE = Code("LF5004", _E, "{field} must be a finite number, found {found}", _WRITER)
 MISSING_FIELD = Code("LF5005", _E, "{owner} has no '{field}'; write '{key}: {example}'", _KIND)
 OUT_OF_RANGE = Code("LF5006", _E, "{field} must be {bound}, found {found}", _WRITER)
@@ -88,6 +88,9 @@ SOFT_LIMITS_CROSSED = Code(
 )
 IDLE_SOFT_LIMIT = Code(
     "LF5508", _W, "joint '{joint}' stops at its {side} limit {hard}, before soft_{side}_limit {soft}"
+)
+FAST_JOINT = Code(
+    "LF5585", _N, "joint '{joint}' is as fast as {found} {si}{also}; write '{found} {unit}' if {units} are meant"
 )
 MIMIC_STANDS_STILL = Code("LF5509", _W, "joint '{joint}' mimics '{leader}' with a multiplier of 0, so it stands still")
 

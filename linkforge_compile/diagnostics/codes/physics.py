@@ -117,6 +117,11 @@ RANGE_CROSSED = Code("LF6109", _W, "min must not be above max, found {min} and {
 RANGE_OUTSIDE_LIMITS = Code("LF6110", _W, "joint '{joint}' goes {range}, which leaves nothing from {min} to {max}")
 STARTS_OUTSIDE_LIMITS = Code("LF6111", _W, "joint '{joint}' goes {range}, but starts at {found}")
 NO_INTERFACE = Code("LF6112", _N, "{owner} has no interface, so no controller can use it")
+RANGE_FAR_BEYOND = Code(
+    "LF6185",
+    _W,
+    "{interface} of joint '{joint}' has a range to {found}, far beyond its limit of {limit} {si}; {remedy}",
+)
 NO_SIMULATOR_PLUGIN = Code(
     "LF6113", _N, "'{plugin}' runs in Gazebo's plugin '{needed}', which this robot does not load; add it to 'gazebo'"
 )
