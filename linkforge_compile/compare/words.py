@@ -40,7 +40,8 @@ def said_fields(part: object) -> tuple[str, ...]:
     if isinstance(part, Interface):
         return "parameters", "extra_attributes", "extra_elements", "extra_inside"
     assert is_dataclass(part)
-    return tuple(one.name for one in fields(part) if not one.name.startswith("_") and one.name not in NO_PART_OF_IT)
+    own = (one.name for one in fields(part) if one.compare and not one.name.startswith("_"))
+    return tuple(name for name in own if name not in NO_PART_OF_IT)
 
 
 def is_part(value: object) -> bool:

@@ -125,13 +125,15 @@ class Fields:
         node = self.node.get("origin")
         if isinstance(node, YamlList):
             xyz = self.vector3_at(node, "origin", Measure((Dimension.LENGTH,)))
-            return Transform(xyz, source=SourceRef(node, None, self.trail)) if xyz else Transform.identity()
+            ref = SourceRef(node, None, self.trail)
+            return Transform(xyz, is_stated=True, source=ref) if xyz else Transform.identity()
         pose = self.map("origin")
         if pose is None:
             return Transform.identity()
         zero = Vector3(0.0, 0.0, 0.0)
         xyz, rpy = pose.vector3("xyz", Dimension.LENGTH), pose.vector3("rpy", Dimension.ANGLE)
-        return Transform(xyz or zero, rpy or zero, source=pose.ref, **extras_of(pose))
+        is_stated = any(pose.node.get(key) is not None for key in ("xyz", "rpy"))
+        return Transform(xyz or zero, rpy or zero, is_stated=is_stated, source=pose.ref, **extras_of(pose))
 
     # Opening what is nested
 

@@ -81,7 +81,13 @@ def _mesh_file(  # noqa: PLR0917 both forms of a mesh end here
         fields.tell(NO_MESH_FILE, node.child("file") or node, owner=fields.title)
         return None
     return fields.build(
-        lambda: Mesh(scope.resource(file, _file_span(node)), scale, source=_ref(fields, node), **extras)
+        lambda: Mesh(
+            scope.resource(file, _file_span(node)),
+            scale,
+            is_scale_stated=node.child("scale") is not None,
+            source=_ref(fields, node),
+            **extras,
+        )
     )
 
 

@@ -235,7 +235,10 @@ def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:
     if joint is None:
         return None
     factor = 1.0 if multiplier is None else multiplier
-    return mimic.build(lambda: JointMimic(joint, factor, offset or 0.0, source=mimic.ref, **extras_of(mimic)))
+    stated = [name for name in ("multiplier", "offset") if mimic.node.get(name) is not None]
+    return mimic.build(
+        lambda: JointMimic(joint, factor, offset or 0.0, stated=stated, source=mimic.ref, **extras_of(mimic))
+    )
 
 
 def _safety_controller(fields: Fields, motion: _Motion) -> JointSafetyController | None:

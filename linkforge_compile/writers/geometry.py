@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from linkforge_compile.core.models.geometry import (
-    IDENTITY,
     Box,
     Capsule,
     Cylinder,
@@ -21,12 +20,11 @@ from linkforge_compile.units import Dimension
 from linkforge_compile.writers.pen import Pen
 
 _ZERO = Vector3(0.0, 0.0, 0.0)
-_UNSCALED = Vector3(1.0, 1.0, 1.0)
 
 
 def written_origin(pen: Pen, pose: Transform) -> YamlNode | None:
-    """Return `[x, y, z]` for a pose that turns nothing, None for the identity."""
-    if pose == IDENTITY and not pen.full:
+    """Return `[x, y, z]` for a pose that turns nothing, None for one that is not written."""
+    if not (pose.is_written or pen.full):
         return None
     xyz, rpy = pen.numbers(pose.xyz, Dimension.LENGTH), pen.numbers(pose.rpy, Dimension.ANGLE)
     if pen.full:
@@ -56,13 +54,14 @@ def _round(pen: Pen, body: Cylinder | Capsule) -> YamlNode:
 
 
 def _mesh(pen: Pen, mesh: Mesh) -> YamlNode:
-    return pen.alone(pen.element(mesh, file=pen.text(mesh.resource), scale=_scale(pen, mesh.scale)), "file")
+    return pen.alone(pen.element(mesh, file=pen.text(mesh.resource), scale=_scale(pen, mesh)), "file")
 
 
-def _scale(pen: Pen, scale: Vector3) -> YamlNode | None:
+def _scale(pen: Pen, mesh: Mesh) -> YamlNode | None:
+    scale = mesh.scale
     if pen.full:
         return pen.numbers(scale)
-    if scale == _UNSCALED:
+    if not mesh.is_scale_written:
         return None
     return pen.number(scale.x) if scale.x == scale.y == scale.z else pen.numbers(scale)
 

@@ -101,8 +101,8 @@ def _mimic(pen: Pen, mimic: JointMimic, motion: _Motion) -> YamlMap:
     return pen.element(
         mimic,
         joint=pen.text(mimic.joint),
-        multiplier=pen.number(mimic.multiplier, default=1),
-        offset=pen.number(mimic.offset, motion.position, default=0),
+        multiplier=pen.number(mimic.multiplier, default=None if mimic.is_written("multiplier") else 1),
+        offset=pen.number(mimic.offset, motion.position, default=None if mimic.is_written("offset") else 0),
     )
 
 

@@ -42,7 +42,7 @@ from tests.backends.everything import everything
 from tests.conftest import ROOT
 from tests.writers.test_laws import compiled
 
-POSE = Transform(Vector3(1, 2, 3), Vector3(0.1, 0.2, 0.3))
+POSE = Transform(Vector3(1, 2, 3), Vector3(0.1, 0.2, 0.3), is_stated=True)
 NOISE = SensorNoise("gaussian_quantized", 0.1, 0.2, 0.3, 0.4)
 UNBIASED = SensorNoise(bias_mean=0, bias_stddev=0, stated=["bias_mean", "bias_stddev"])
 EXTRAS = {"extra_elements": ("<e/>", "<f/>"), "extra_attributes": (("x", "1"),)}
@@ -163,7 +163,7 @@ def _shapes() -> list[core.Geometry]:
         core.Cylinder(1, 2, **EXTRAS),
         core.Sphere(1, **EXTRAS),
         core.Capsule(1, 2, **EXTRAS),
-        core.Mesh("arm.stl", Vector3(1, 2, 3), **EXTRAS),
+        core.Mesh("arm.stl", Vector3(1, 2, 3), is_scale_stated=True, **EXTRAS),
     ]
 
 
@@ -177,7 +177,7 @@ def _joint(name: str, parent: str, child: str) -> Joint:
         Vector3(0, 0, 1),
         JointLimits(-1, 1, 2, 3, **EXTRAS),
         JointDynamics(0.1, 0.2, **EXTRAS),
-        JointMimic("slide", 2, 0.5, **EXTRAS),
+        JointMimic("slide", 2, 0.5, stated=["multiplier"], **EXTRAS),
         JointSafetyController(-0.5, 0.5, 10, 20, **EXTRAS),
         JointCalibration(0.1, 0.2, **EXTRAS),
         **raw("parent", "axis"),

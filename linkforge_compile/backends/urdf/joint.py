@@ -78,8 +78,8 @@ def _mimic(mimic: JointMimic | None) -> Xml:
         "mimic",
         mimic,
         joint=mimic.joint,
-        multiplier=mimic.multiplier if mimic.multiplier != 1 else None,
-        offset=mimic.offset if mimic.offset != 0 else None,
+        multiplier=mimic.multiplier if mimic.is_written("multiplier") else None,
+        offset=mimic.offset if mimic.is_written("offset") else None,
     )
 
 

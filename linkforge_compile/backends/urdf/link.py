@@ -15,9 +15,6 @@ from linkforge_compile.units import number_text
 DEFAULT_PHYSICS = LinkPhysics()
 """What a simulator does with a link that says nothing."""
 
-_IDENTITY = Transform.identity()
-_UNSCALED = (1, 1, 1)
-
 
 class MaterialView(NamedTuple):
     """`<material>`; one that only refers to the robot's has neither color nor texture."""
@@ -83,8 +80,8 @@ def material_view(material: Material) -> MaterialView:
 
 
 def origin(pose: Transform) -> Xml:
-    """Return `<origin>`, nothing for the identity."""
-    return NOTHING if pose == _IDENTITY else leaf("origin", pose, xyz=pose.xyz, rpy=pose.rpy)
+    """Return `<origin>`, nothing for one that moves nothing and is not stated."""
+    return leaf("origin", pose, xyz=pose.xyz, rpy=pose.rpy) if pose.is_written else NOTHING
 
 
 def _inertial(inertial: Inertial) -> InertialView:
@@ -131,8 +128,7 @@ def _geometry(shape: Geometry) -> Xml:
         case Sphere():
             return leaf("sphere", shape, radius=shape.radius)
         case Mesh():
-            scale = None if shape.scale.to_tuple() == _UNSCALED else shape.scale
-            return leaf("mesh", shape, filename=shape.resource, scale=scale)
+            return leaf("mesh", shape, filename=shape.resource, scale=shape.scale if shape.is_scale_written else None)
         case cylinder_or_capsule:
             return leaf(cylinder_or_capsule.type, shape, radius=shape.radius, length=shape.length)
 

@@ -156,9 +156,7 @@ def _noise(noise: SensorNoise) -> NoiseView:
 
 
 def _pose(pose: Transform) -> Xml:
-    if pose == Transform.identity():
-        return NOTHING
-    return whole("pose", pose, Xml(spelled((*pose.xyz, *pose.rpy))))
+    return whole("pose", pose, Xml(spelled((*pose.xyz, *pose.rpy)))) if pose.is_written else NOTHING
 
 
 def _bias(noise: SensorNoise, name: str) -> str | None:

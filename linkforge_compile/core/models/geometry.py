@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import field
 from enum import StrEnum
 from typing import TypeAlias
 
@@ -66,11 +67,18 @@ _ONE = Vector3(1.0, 1.0, 1.0)
 class Transform(Element):
     """A pose in the frame of the thing that holds it: `<origin xyz rpy>`.
 
-    `xyz` is the position [m], `rpy` the rotation about the fixed axes x, then y, then z [rad].
+    `xyz` is the position [m], `rpy` the rotation about the fixed axes x, then y, then z [rad]. One that `is_stated`
+    is written although it moves nothing; it is no other pose for that.
     """
 
     xyz: Vector3 = _ZERO
     rpy: Vector3 = _ZERO
+    is_stated: bool = field(default=False, kw_only=True, compare=False, repr=False)
+
+    @property
+    def is_written(self) -> bool:
+        """Whether it becomes an element: it moves something, or is stated all the same."""
+        return self.is_stated or self != IDENTITY
 
     @classmethod
     def identity(cls) -> Transform:
@@ -210,7 +218,8 @@ class Mesh(Element):
     """A shape from a file: `<mesh filename scale>`.
 
     `resource` is the file, as a URI or a path, and may be empty; `scale` the factors along x, y, z, where a
-    negative one mirrors. Nothing is read, so a mesh has no volume here.
+    negative one mirrors. Nothing is read, so a mesh has no volume here. Where `is_scale_stated`, the scale is written
+    although it is 1; it is no other mesh for that.
 
     Raises:
         RobotPhysicsError: PHYSICS_VIOLATION for a factor of 0.
@@ -219,6 +228,12 @@ class Mesh(Element):
 
     resource: str
     scale: Vector3 = _ONE
+    is_scale_stated: bool = field(default=False, kw_only=True, compare=False, repr=False)
+
+    @property
+    def is_scale_written(self) -> bool:
+        """Whether `scale` becomes an attribute: it is not 1, or is stated all the same."""
+        return self.is_scale_stated or self.scale != _ONE
 
     def __post_init__(self) -> None:
         freeze(self)

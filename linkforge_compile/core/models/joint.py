@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import field
 from enum import StrEnum
 
@@ -108,7 +109,8 @@ class JointDynamics(Element):
 class JointMimic(Element):
     """A joint that follows another: `<mimic>`; its position is `multiplier` times that of `joint`, plus `offset`.
 
-    `offset` is [rad], or [m] for a prismatic joint.
+    `offset` is [rad], or [m] for a prismatic joint. `stated` names those of both that are written although they
+    have their default; it is no other mimic for that.
 
     Raises:
         RobotMathError: INVALID_VALUE for NaN or infinity.
@@ -120,10 +122,15 @@ class JointMimic(Element):
     joint: str
     multiplier: float = 1.0
     offset: float = 0.0
+    stated: Sequence[str] = field(default=(), kw_only=True, compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        freeze(self)
+        freeze(self, "stated")
         require_finite(self, "multiplier", "offset")
+
+    def is_written(self, name: str) -> bool:
+        """Whether `multiplier` or `offset` becomes an attribute: it is not 1 or 0, or is stated all the same."""
+        return name in self.stated or getattr(self, name) != {"multiplier": 1, "offset": 0}[name]
 
 
 @dataclass(frozen=True, slots=True)
