@@ -52,6 +52,8 @@ KEY = {"name": "the key of its entry"}
 STATED = {"stated": "which keys are there though they say the default"}
 INFOS = {f"{info}_info": info for info in ("camera", "lidar", "imu", "gps", "contact", "force_torque")}
 
+NO_INTERFACES = {"interfaces_stated": "whether `hardware_interfaces` is other than `[]`"}
+
 LANGUAGE: dict[type, Said] = {
     core.Robot: Said(
         ("a robot",),
@@ -103,8 +105,8 @@ LANGUAGE: dict[type, Said] = {
     measuring.ContactInfo: Said(("what a contact sensor feels with",)),
     measuring.ForceTorqueInfo: Said(("how a force and torque sensor measures",)),
     driving.Transmission: Said(("a transmission",), {}, KEY),
-    driving.TransmissionJoint: Said(("a joint of a transmission",), {}, KEY | STATED),
-    driving.TransmissionActuator: Said(("an actuator",), {}, KEY | STATED),
+    driving.TransmissionJoint: Said(("a joint of a transmission",), {}, KEY | STATED | NO_INTERFACES),
+    driving.TransmissionActuator: Said(("an actuator",), {}, KEY | STATED | NO_INTERFACES),
     rc.Ros2Control: Said(("a ros2_control block",), {}, KEY),
     rc.Ros2ControlJoint: Said(("a joint of ros2_control",), {}, KEY),
     rc.Ros2ControlSensor: Said(("a sensor of ros2_control",), {}, KEY),

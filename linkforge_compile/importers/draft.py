@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from types import MappingProxyType
 
-from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics.codes.importing import KEPT_RAW
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value, word_value
@@ -45,6 +47,15 @@ class Draft:
         self.raw: set[XmlElement] = set()
         self.told: list[Diagnostic] = []
         self._elements: dict[YamlNode, list[XmlElement]] = {}
+
+    def tell(self, sink: Diagnostics) -> None:
+        """Report what is to be told; what is kept raw for the same reason at many places is told at the first."""
+        alike: dict[str, list[Diagnostic]] = {}
+        for number, one in enumerate(self.told):
+            alike.setdefault(one.message if one.code is KEPT_RAW else str(number), []).append(one)
+        for first, *others in alike.values():
+            more = [Note(f"and {len(others)} more like this, the next one here", others[0].span)] if others else []
+            sink.report(replace(first, notes=(*first.notes, *more)))
 
     # Scalars
 

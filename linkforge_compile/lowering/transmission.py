@@ -12,6 +12,7 @@ from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_elements
 from linkforge_compile.lowering.quantities import NOT_ZERO
+from linkforge_compile.syntax import YamlList, YamlNode
 from linkforge_compile.units import Dimension
 
 End = TypeVar("End", TransmissionJoint, TransmissionActuator)
@@ -40,9 +41,16 @@ def _transmission(fields: Fields, name: str) -> Transmission | None:
 
 
 def _end(kind: type[End], end: Fields, name: str) -> End | None:
-    interfaces = end.names("hardware_interfaces") if end.node.get("hardware_interfaces") else (HW_IF_POSITION,)
+    said = end.node.get("hardware_interfaces")
+    are_stated = not _is_empty_list(said)
+    interfaces = end.names("hardware_interfaces") if said and are_stated else (HW_IF_POSITION,)
     reduction = end.number("mechanical_reduction", bound=NOT_ZERO)
     offset = end.number("offset", Dimension.ANGLE, Dimension.LENGTH)
     make = partial(kind, name, interfaces, reduction, offset or 0.0, stated=("offset",) if offset == 0 else ())
     is_whole = not end.has_faulty_items("hardware_interfaces")
-    return end.build(lambda: make(source=end.ref, **extras_of(end)), is_whole=is_whole)
+    finish = partial(make, interfaces_stated=are_stated, source=end.ref)
+    return end.build(lambda: finish(**extras_of(end)), is_whole=is_whole)
+
+
+def _is_empty_list(node: YamlNode | None) -> bool:
+    return isinstance(node, YamlList) and not len(node)

@@ -22,9 +22,10 @@ def written_transmission(pen: Pen, transmission: Transmission) -> YamlMap:
 
 def _end(pen: Pen, end: TransmissionJoint | TransmissionActuator) -> YamlMap:
     usual = tuple(end.hardware_interfaces) == (HW_IF_POSITION,) and not pen.full
+    interfaces = None if usual else pen.texts(end.hardware_interfaces)
     return pen.element(
         end,
-        hardware_interfaces=None if usual else pen.texts(end.hardware_interfaces),
+        hardware_interfaces=interfaces if end.interfaces_stated else pen.list_of(()),
         # A reduction of 1 is written as well: what is not said is none, and an actuator without one has no default.
         mechanical_reduction=pen.number(end.mechanical_reduction),
         offset=pen.number(end.offset, default=None if end.is_written("offset") else 0),

@@ -382,6 +382,15 @@ def test_a_transmission_keeps_the_spelling_that_its_fields_cannot(read):
     ).replace("t:", "  t:", 1)
 
 
+def test_a_transmission_without_interfaces_has_none(read):
+    transmission = """<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+        <joint name="j"/><actuator name="m"><mechanicalReduction>50</mechanicalReduction></actuator></transmission>"""
+    text = read(f'{BOTH}<joint name="j" type="fixed">{ENDS}</joint>{transmission}')
+    assert "joints: {j: {hardware_interfaces: []}}" in text
+    assert "actuators: {m: {hardware_interfaces: [], mechanical_reduction: 50}}" in text
+    assert "hardwareInterface" not in compiled(f"linkforge: 1\nname: r\n{text}")
+
+
 def test_what_is_kept_raw_keeps_its_comments_and_is_told_of_its_instructions(tmp_path: Path):
     comment = "<!-- one\n       two <?x y?> -->"
     told = imported_from(
@@ -391,3 +400,10 @@ def test_what_is_kept_raw_keeps_its_comments_and_is_told_of_its_instructions(tmp
     assert told.text is not None
     [raw] = compile_text(told.text).result().extra_elements
     assert raw == f"<mine>\n    {comment}\n    <a/>\n</mine>"
+
+
+def test_what_is_kept_raw_for_one_reason_is_told_once_with_how_often(tmp_path: Path):
+    told = imported_from("<link name='a'/>" + "\n<transmission/>" * 9, tmp_path)
+    [one] = told.diagnostics
+    assert one.message == "<transmission> is kept as raw XML in 'extra': it has no 'name'"
+    assert [(note.message, note.span.line) for note in one.notes] == [("and 8 more like this, the next one here", 3)]

@@ -210,7 +210,8 @@ def _transmission() -> Transmission:
 
 
 def _without_offset() -> Transmission:
-    joint, actuator = TransmissionJoint("slide", stated=["offset"]), TransmissionActuator("idle", stated=["offset"])
+    joint = TransmissionJoint("slide", stated=["offset"], interfaces_stated=False)
+    actuator = TransmissionActuator("idle", stated=["offset"], interfaces_stated=False)
     return Transmission("idler", "custom", [joint], [actuator])
 
 

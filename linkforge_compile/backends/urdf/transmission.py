@@ -53,7 +53,7 @@ def _end(end: TransmissionJoint | TransmissionActuator) -> EndView:
         attributes(end, name=end.name),
         [
             placed(interface, end.source, "hardware_interfaces", number)
-            for number, interface in enumerate(end.hardware_interfaces)
+            for number, interface in enumerate(end.hardware_interfaces if end.interfaces_stated else ())
         ],
         # One of 1 is written too, because loaders ask for it; None is what nobody said.
         None if reduction is None else placed(number_text(reduction), end.source, "mechanical_reduction"),

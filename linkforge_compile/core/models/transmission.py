@@ -49,6 +49,8 @@ class _TransmissionEnd(Element):
     offset: float = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
     """The field `offset` where it is 0 and written all the same."""
+    interfaces_stated: bool = field(default=True, kw_only=True, repr=False)
+    """Whether the interfaces become tags: many files state none, and ros2_control asks for none."""
 
     what: ClassVar[str]
     name_target: ClassVar[str]

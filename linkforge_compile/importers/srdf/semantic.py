@@ -36,7 +36,7 @@ def read_srdf(
     semantic = _semantic(reading, Known.of(robot))
     draft.bodies[root] = semantic
     tree = draft.map_of({"semantic": semantic}, root.span)
-    sink.report_all(draft.told)
+    draft.tell(sink)
     return Imported(tree, placed_comments(document, draft, tree), (document,))
 
 

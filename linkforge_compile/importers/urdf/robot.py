@@ -33,7 +33,7 @@ def read_urdf(file: SourceFile, sink: Diagnostics, moved: Move | None = None) ->
     root, draft = document.root, Draft()
     tree = _robot(Reading(draft, root))
     draft.bodies[root] = tree
-    sink.report_all(draft.told)
+    draft.tell(sink)
     return Imported(tree, placed_comments(document, draft, tree), (document,))
 
 
@@ -47,7 +47,7 @@ def _robot(robot: Reading) -> YamlMap:
     names = {child.get("name") or "" for child in robot.element.children if child.tag == "joint"}
     joints = _section(robot, "joint", lambda joint: read_joint(joint, names, blocks))
     frames = frames_of(draft, links, joints)
-    transmissions = _section(robot, "transmission", read_transmission)
+    transmissions = _section(robot, "transmission", lambda one: read_transmission(one, names))
     controls = _section(robot, "ros2_control", read_ros2_control)
     return robot.map(
         linkforge=YamlScalar("1", 1, robot.span),

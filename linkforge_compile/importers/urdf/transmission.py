@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
+from linkforge_compile.importers.draft import DeclinedError
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.urdf.free_part import exact_number, read_word, take_texts
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
@@ -17,11 +19,11 @@ _COUNTS = {
 """How many joints, and how many actuators, these types have."""
 
 
-def read_transmission(transmission: Reading) -> YamlMap:
-    """Read a transmission, whose name is taken."""
+def read_transmission(transmission: Reading, joints: Collection[str]) -> YamlMap:
+    """Read a transmission, whose name is taken; `joints` are the names of all joints: what names another stays raw."""
     kind = transmission.needed("type", read_word)
     kind_text = kind.text if isinstance(kind, YamlScalar) else ""
-    ends = {tag: _ends(transmission, tag) for tag in ("joint", "actuator")}
+    ends = {tag: _ends(transmission, tag, joints) for tag in ("joint", "actuator")}
     count = _COUNTS.get(kind_text)
     for tag, found in ends.items():
         if not found or (count and len(found) != count):
@@ -35,12 +37,14 @@ def read_transmission(transmission: Reading) -> YamlMap:
     )
 
 
-def _ends(transmission: Reading, tag: str) -> dict[str, YamlNode | None]:
+def _ends(transmission: Reading, tag: str, joints: Collection[str]) -> dict[str, YamlNode | None]:
     ends: dict[str, YamlNode | None] = {}
     for child in [child for child in transmission.children() if child.tag == tag]:
         name = child.get("name") or ""
         if not _NAME.fullmatch(name) or name in ends:
             raise transmission.declined(f"a <{tag}> in it is named '{name}', which is no name or is there already")
+        if tag == "joint" and name not in joints:
+            raise DeclinedError(f"there is no joint named '{name}'", child.attributes["name"].span)
         ends[name] = transmission.within(child, _end)
     return ends
 
@@ -48,11 +52,9 @@ def _ends(transmission: Reading, tag: str) -> dict[str, YamlNode | None]:
 def _end(end: Reading) -> YamlMap:
     end.attribute("name")
     interfaces = [end.within(child, read_word) for child in end.children() if child.tag == "hardwareInterface"]
-    if not interfaces:
-        raise end.declined("it has no <hardwareInterface>")
     usual = [one.text for one in interfaces if isinstance(one, YamlScalar)] == ["position"]
     return end.map(
-        hardware_interfaces=None if usual else end.draft.list_of(interfaces, interfaces[0].span),
+        hardware_interfaces=None if usual else end.draft.list_of(interfaces, end.span),
         mechanical_reduction=_number(end, "mechanicalReduction"),
         offset=_number(end, "offset"),
     )
