@@ -32,7 +32,10 @@ MAY_IMPORT = {
     "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core roots stack",
     "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
     "launch": "diagnostics backends core pipeline",
-    "cli": "source diagnostics core checks schema pipeline importing backends writers compare resources _version",
+    "editor": "diagnostics syntax schema modules lowering core stack resources",
+    "cli": (
+        "source diagnostics core checks schema pipeline importing backends writers compare editor resources _version"
+    ),
 }
 
 # `Robot.export_urdf` and `export_srdf` are methods because the contract says so: the one place that reaches up.

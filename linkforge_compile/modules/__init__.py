@@ -4,7 +4,7 @@ from linkforge_compile.modules.arguments import Arguments, arguments_from_text, 
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.modules.expand import expand
 from linkforge_compile.modules.given import Unset
-from linkforge_compile.modules.listing import ListedParameter, Listing, Plain, list_parameters
+from linkforge_compile.modules.listing import ListedParameter, Listing, Plain, list_parameters, list_used
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.uses import XACRO
 from linkforge_compile.modules.variants import variants_of
@@ -24,5 +24,6 @@ __all__ = [
     "arguments_from_values",
     "expand",
     "list_parameters",
+    "list_used",
     "variants_of",
 ]

@@ -14,6 +14,7 @@ from linkforge_compile.modules.given import Given, Unset, declared_kind
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
 from linkforge_compile.modules.parameters import Declaration, parameter_of
+from linkforge_compile.modules.uses import SPEC_ENDINGS, open_use
 from linkforge_compile.modules.variants import Variants, variants_of
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
@@ -83,9 +84,8 @@ class Listing(NamedTuple):
 
 def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listing:
     """List what a file declares; what is wrong with it is reported, that something is not set yet is not."""
-    given = Given(Arguments(is_partial=True), sink)
-    names = FileNames(UseOfFile(spec, given), Shared(spec, loader, Expressions(loader.budget), Unset.NOTE), sink)
-    given.tell_unknown(names.declared, Variants(variants_of(spec)), spec)
+    names = _names(spec, loader, sink)
+    Given(Arguments(is_partial=True), sink).tell_unknown(names.declared, Variants(variants_of(spec)), spec)
     return Listing(
         name=_text(spec.tree.get("name")),
         description=_text(spec.tree.get("description")),
@@ -95,6 +95,24 @@ def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listin
             for name, variant in variants_of(spec).items()
         },
     )
+
+
+def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
+    """List what each spec that a file uses lets its user set, by the text of `use`, whatever `when` says.
+
+    Left out is what cannot be read, and a `use` that is computed; a compile tells of both.
+    """
+    unheard = Diagnostics()
+    names = _names(spec, loader, unheard)
+    section = spec.tree.get("modules")
+    listed: dict[str, Listing] = {}
+    for entry in section if isinstance(section, YamlMap) else ():
+        use = entry.value.get("use") if isinstance(entry.value, YamlMap) else None
+        if isinstance(use, YamlScalar) and use.text not in listed and use.text.lower().endswith(SPEC_ENDINGS):
+            used = open_use(names.own.site(use.text, use.span), loader, unheard)
+            if used:
+                listed[use.text] = list_parameters(used, loader, unheard)
+    return listed
 
 
 def as_written(node: YamlNode) -> str:
@@ -108,6 +126,11 @@ def as_written(node: YamlNode) -> str:
             return f"{{{', '.join(f'{entry.name}: {as_written(entry.value)}' for entry in node)}}}"
         case YamlFault():
             return ""
+
+
+def _names(spec: SpecFile, loader: Loader, sink: Diagnostics) -> FileNames:
+    given = Given(Arguments(is_partial=True), sink)
+    return FileNames(UseOfFile(spec, given), Shared(spec, loader, Expressions(loader.budget), Unset.NOTE), sink)
 
 
 def _listed(declaration: Declaration, names: FileNames, spec: SpecFile, sink: Diagnostics) -> ListedParameter:

@@ -20,7 +20,8 @@ from linkforge_compile.modules.paths import follow
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlMap
 
-_SPEC_ENDINGS = (".yaml", ".yml")
+SPEC_ENDINGS = (".yaml", ".yml")
+"""How the names of spec files end."""
 _URDF_ENDING = ".urdf"
 XACRO = ".xacro"
 """How the name of a xacro file ends."""
@@ -55,7 +56,7 @@ _ZERO_BYTE = "no path holds a zero byte"
 def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:
     """Read the file that a `use` names; None where there is none, which is reported there."""
     lowered = site.text.lower()
-    if not lowered.endswith((*_SPEC_ENDINGS, _URDF_ENDING)):
+    if not lowered.endswith((*SPEC_ENDINGS, _URDF_ENDING)):
         sink.report(NOT_A_SPEC.at(site.where, path=site.text))
         return None
     target = locate(site, loader, sink)
@@ -65,7 +66,7 @@ def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | Non
 
 def with_semantic(spec: SpecFile, use: UseSite, srdf: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:
     """Return a vendor's robot with what its SRDF says; None where there is none, which is reported there."""
-    if use.text.lower().endswith(_SPEC_ENDINGS):
+    if use.text.lower().endswith(SPEC_ENDINGS):
         sink.report(SRDF_BESIDE_SPEC.at(srdf.where, path=use.text))
         return None
     target = locate(srdf, loader, sink)

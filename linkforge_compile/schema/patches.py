@@ -11,7 +11,8 @@ PATCH = "patch"
 POSITION = "^[0-9]+$"
 """The keys by which a map patches a list; the first item is 0."""
 
-_SUFFIX = "_patch"
+PATCH_SUFFIX = "_patch"
+"""How the names of patch forms end."""
 
 _NOT_PATCHED = frozenset(
     {"linkforge", "name", "version", "description", "metadata", "parameters", "variables", "data", "variants"}
@@ -48,7 +49,7 @@ class _PatchForms:
         while waiting := [name for name, form in self._wanted.items() if form is None]:
             for name in waiting:
                 self._wanted[name] = self._whole(name)
-        return {f"{name}{_SUFFIX}": form for name, form in self._wanted.items() if form is not None}
+        return {f"{name}{PATCH_SUFFIX}": form for name, form in self._wanted.items() if form is not None}
 
     def _whole(self, name: str) -> Schema:
         form = self._form(self._definitions[name])
@@ -69,7 +70,7 @@ class _PatchForms:
         assert name is not None, "asked of references only"
         self._wanted.setdefault(name, None)
         kept = {key: value for key, value in schema.items() if key != "$comment"}
-        return {**kept, "$ref": f"#/definitions/{name}{_SUFFIX}"}
+        return {**kept, "$ref": f"#/definitions/{name}{PATCH_SUFFIX}"}
 
     def _form(self, schema: Schema) -> Schema:
         if is_plain(schema) or schema.get("title") == LONG_FORM:

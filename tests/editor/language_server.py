@@ -15,6 +15,9 @@ from typing import Any, NamedTuple
 CARET = "|"
 """Marks the place of a request in a document."""
 
+SPEC = "arm.robot.yaml"
+"""What a document is called unless said."""
+
 _PATIENCE = 60.0
 """[s]; far more than the server takes, so that a loaded machine fails no test."""
 
@@ -68,42 +71,47 @@ class LanguageServer:
         with self._process:  # closes its pipes and waits for it
             pass
 
-    def completions(self, document: str) -> list[Completion]:
-        """Return what is offered at the caret, in the order in which an editor shows it."""
-        items = (self._at_caret("textDocument/completion", document) or {"items": []})["items"]
+    def completions(self, document: str, file: str = SPEC) -> list[Completion]:
+        """Return what is offered at the caret of a file, in the order in which an editor shows it."""
+        items = (self._at_caret("textDocument/completion", document, file) or {"items": []})["items"]
         return [
             Completion(item["label"], _markdown(item.get("documentation")), item["textEdit"]["newText"])
             for item in sorted(items, key=lambda item: str(item.get("sortText", item["label"])))
         ]
 
-    def hover(self, document: str) -> str:
+    def hover(self, document: str, file: str = SPEC) -> str:
         """Return what is shown for the word at the caret; "" for nothing."""
-        shown = self._at_caret("textDocument/hover", document)
+        shown = self._at_caret("textDocument/hover", document, file)
         return _markdown(shown["contents"]) if shown else ""
 
-    def faults(self, text: str) -> list[Fault]:
+    def faults(self, text: str, file: str = SPEC) -> list[Fault]:
         """Return what is underlined in a document, from top to bottom."""
-        with self._opened(text) as uri:
-            published = self._until(lambda message: message.get("params", {}).get("uri") == uri)
+        with self._opened(text, file) as document:
+            published = self._validated(document)
         found = sorted(published["params"]["diagnostics"], key=lambda fault: _place(fault["range"]["start"]))
         return [Fault(_underlined(text, fault["range"]), fault["message"]) for fault in found]
 
-    def _at_caret(self, method: str, document: str) -> Any:
+    def _at_caret(self, method: str, document: str, file: str) -> Any:
         before, caret, after = document.partition(CARET)
         assert caret, f"no {CARET} in {document!r}"
         line, column = before.count("\n"), len(before) - before.rfind("\n") - 1
-        with self._opened(before + after) as uri:
+        with self._opened(before + after, file) as opened:
+            # As in an editor, where nobody asks before the file is judged: only then the server knows which it is.
+            self._validated(opened)
             place = {"line": line, "character": column}
-            return self._request(method, textDocument={"uri": uri}, position=place)
+            return self._request(method, textDocument=opened, position=place)
 
     @contextmanager
-    def _opened(self, text: str) -> Iterator[str]:
-        uri = (self._folder / f"document_{next(self._numbers)}.robot.yaml").as_uri()
-        self._notify(
-            "textDocument/didOpen", textDocument={"uri": uri, "languageId": "yaml", "version": 1, "text": text}
-        )
-        yield uri
-        self._notify("textDocument/didClose", textDocument={"uri": uri})
+    def _opened(self, text: str, file: str) -> Iterator[dict[str, object]]:
+        # What it knows of a document it keeps for the version.
+        opened = {"uri": (self._folder / file).as_uri(), "version": next(self._numbers)}
+        self._notify("textDocument/didOpen", textDocument={**opened, "languageId": "yaml", "text": text})
+        yield opened
+        self._notify("textDocument/didClose", textDocument=opened)
+        self._validated(opened)  # nothing is underlined any more
+
+    def _validated(self, opened: dict[str, object]) -> dict[str, Any]:
+        return self._until(lambda message: (message.get("params") or {}).get("uri") == opened["uri"])
 
     def _request(self, method: str, **params: object) -> Any:
         number = next(self._numbers)

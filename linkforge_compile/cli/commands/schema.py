@@ -1,10 +1,11 @@
-"""`linkforge schema`: the one bundled JSON Schema (draft-07), for editors."""
+"""`linkforge schema`: the one bundled JSON Schema (draft-07), for editors; of the language, or of one repository."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import OK
+from linkforge_compile.cli.exits import OK, UsageError
 
 if TYPE_CHECKING:
     import argparse
@@ -14,6 +15,12 @@ For VS Code and every editor with yaml-language-server, put this on the first li
   # yaml-language-server: $schema=robot.schema.json
 after writing the schema beside it:
   linkforge schema -o robot.schema.json
+
+With --workspace, the names of links, joints, groups, materials and files complete where they are referred to, and the
+parameters of a module under `with`; it goes to FOLDER/.linkforge/robot.schema.json unless -o says otherwise. Run it
+again when names have changed: what is new since is not offered, and is no fault. It compiles the specs, so a xacro that
+one of them uses is run, unless LINKFORGE_NO_XACRO is set.
+  linkforge schema --workspace
 """
 
 
@@ -21,11 +28,40 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
     parser.add_argument("-q", "--quiet", action="store_true", help="say nothing when all is well")
+    parser.add_argument(
+        "--workspace", metavar="FOLDER", nargs="?", const=".", help="with the names of all specs below; '.' unless said"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import put_json
     from linkforge_compile.schema import bundle_text
 
-    put_json(bundle_text(), arguments.output, quiet=arguments.quiet)
+    if arguments.workspace is None:
+        put_json(bundle_text(), arguments.output, quiet=arguments.quiet)
+        return OK
+    root = Path(arguments.workspace)
+    if not root.is_dir():
+        raise UsageError(f"--workspace takes a folder, found '{arguments.workspace}'")
+    output = arguments.output or str(root / ".linkforge" / "robot.schema.json")
+    put_json(_workspace_text(root), output, quiet=arguments.quiet)
     return OK
+
+
+def _workspace_text(root: Path) -> str:
+    """Return the schema of a repository; say of which specs names may be missing."""
+    from linkforge_compile.cli.telling import to_stderr
+    from linkforge_compile.editor import TooManyFilesError, specs_below, vocabulary_of, workspace_text
+
+    try:
+        specs = specs_below(root)
+    except TooManyFilesError as error:
+        raise UsageError(f"there are {error} below '{root}'; --workspace takes the folder of the robots") from error
+    if not specs:
+        to_stderr(f"there is no spec, NAME.robot.yaml, below '{root}'\n")
+    vocabularies = [vocabulary_of(spec, root) for spec in specs]
+    for vocabulary in vocabularies:
+        if not vocabulary.is_whole:
+            file = vocabulary.files[0]
+            to_stderr(f"{file} has errors, so names of it may be missing; `linkforge check` tells them\n")
+    return workspace_text(vocabularies)

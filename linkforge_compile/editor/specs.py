@@ -1,0 +1,43 @@
+"""Finds the specs of a repository."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+SPEC_ENDINGS = (".robot.yaml", ".robot.yml")
+
+MAX_SPECS = 500
+MAX_FOLDERS = 20_000
+
+_NOT_SOURCES = frozenset({"build", "install", "log", "node_modules", "__pycache__"})
+"""Folders of what tools made: colcon copies specs into some of them."""
+
+
+class TooManyFilesError(Exception):
+    """There is more below a folder than a repository of robots has; says what."""
+
+
+def specs_below(root: Path) -> tuple[Path, ...]:
+    """Return the specs in a folder and below it, sorted; not those in hidden folders, links and what tools made.
+
+    Raises:
+        TooManyFilesError: For more than MAX_SPECS specs or MAX_FOLDERS folders.
+
+    """
+    found: list[Path] = []
+    for spec in _specs(root):
+        found.append(spec)
+        if len(found) > MAX_SPECS:
+            raise TooManyFilesError(f"more than {MAX_SPECS} specs")
+    return tuple(sorted(found))
+
+
+def _specs(root: Path) -> Iterator[Path]:
+    for number, (folder, inner, files) in enumerate(os.walk(root), start=1):
+        if number > MAX_FOLDERS:
+            raise TooManyFilesError(f"more than {MAX_FOLDERS} folders")
+        # What is taken out here is not walked into.
+        inner[:] = sorted(name for name in inner if not name.startswith(".") and name not in _NOT_SOURCES)
+        yield from (Path(folder, name) for name in files if name.endswith(SPEC_ENDINGS))

@@ -1,0 +1,83 @@
+"""The words that a spec may use: the names of what is in its robot, its parameters, and those of its modules."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
+from linkforge_compile.lowering import lower
+from linkforge_compile.modules import (
+    Arguments,
+    Instance,
+    ListedParameter,
+    Loader,
+    Unset,
+    expand,
+    list_parameters,
+    list_used,
+)
+from linkforge_compile.modules.mesh_files import no_mesh
+from linkforge_compile.stack import with_room
+
+
+@dataclass(frozen=True, slots=True)
+class Vocabulary:
+    """The words of a spec, final names with their prefixes, each kind in the robot's order.
+
+    `files` are the spec and what it includes, relative to the workspace, with `/`. `arguments` are the parameters of
+    the modules that it uses, by the text of `use`. `is_whole` says that nothing is missing because of errors.
+    """
+
+    files: tuple[str, ...]
+    names: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    parameters: tuple[ListedParameter, ...] = ()
+    arguments: Mapping[str, tuple[ListedParameter, ...]] = field(default_factory=dict)
+    is_whole: bool = True
+
+
+def vocabulary_of(spec: Path, root: Path) -> Vocabulary:
+    """Read a spec as far as its faults leave it; `root` is the folder of the workspace.
+
+    Meshes are not read: they bear no names.
+    """
+    return with_room(lambda: _vocabulary_of(spec, root))
+
+
+def _vocabulary_of(path: Path, root: Path) -> Vocabulary:
+    found = Vocabulary((_relative(path, root),), is_whole=False)
+    sink, loader = Diagnostics(), Loader()
+    try:
+        spec = loader.open(path, sink)
+        if spec is None:
+            return found
+        included = (part.path for part in spec.included if part.path)
+        files = dict.fromkeys((*found.files, *(_relative(part, root) for part in included)))
+        own = list_parameters(spec, loader, Diagnostics()).parameters
+        used = {use: listing.parameters for use, listing in list_used(spec, loader).items()}
+        found = replace(found, files=tuple(files), parameters=own, arguments=used)
+        expanded = expand(spec, Arguments(), loader, sink, unset=Unset.NOTE)
+        robot = lower(_without_meshes(expanded), Diagnostics()).robot
+    except BeyondLimitError:
+        return found
+    return replace(found, names=_names(robot) if robot else {}, is_whole=robot is not None and not sink.has_errors)
+
+
+def _without_meshes(instance: Instance) -> Instance:
+    return replace(instance, find_mesh=no_mesh, modules=tuple(map(_without_meshes, instance.modules)))
+
+
+def _names(robot: Robot) -> dict[str, tuple[str, ...]]:
+    return {
+        "link": tuple(link.name for link in robot.links),
+        "joint": tuple(joint.name for joint in robot.joints),
+        "material": tuple(robot.materials),
+        "group": tuple(group.name for group in robot.semantic.groups),
+    }
+
+
+def _relative(path: Path, root: Path) -> str:
+    return Path(os.path.relpath(path, root)).as_posix()

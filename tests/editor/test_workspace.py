@@ -1,0 +1,231 @@
+"""The schema of one repository: the names of its robots, offered where they are referred to, and nowhere a fault."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft7Validator
+
+from linkforge_compile.editor import TooManyFilesError, specs_below, vocabulary_of, workspace_text
+from linkforge_compile.editor import specs as specs_module
+from tests.cli.test_compile import linkforge
+from tests.conftest import ROOT
+from tests.editor.language_server import Fault, LanguageServer
+
+ARM = """\
+linkforge: 1
+name: arm
+parameters:
+  reach: {type: length, default: 0.7 m, minimum: 0.2 m, description: From the base to the tool.}
+  hand: {type: string, enum: [none, gripper], default: none}
+  fast: false
+  serial: {type: string}
+links:
+  base:
+  tool0:
+joints:
+  elbow: {type: revolute, parent: base, child: tool0, axis: y, limits: {effort: 1, velocity: 1}}
+semantic:
+  groups:
+    arm: {chain: {base_link: base, tip_link: tool0}}
+"""
+
+CELL = """\
+linkforge: 1
+name: cell
+include: [palette.yaml]
+modules:
+  left: {use: ../parts/arm.robot.yaml, parent: table, with: {serial: L}}
+  right:
+    use: ../parts/arm.robot.yaml
+    parent: table
+    when: false
+links:
+  table:
+"""
+
+PALETTE = """\
+linkforge: 1
+materials:
+  steel: {color: [0.6, 0.6, 0.65, 1]}
+"""
+
+FAULTY = """\
+linkforge: 1
+name: faulty
+links:
+  base:
+  hook: {colour: red}
+joints:
+  hinge: {type: fixed, parent: base, child: hoook}
+"""
+
+FILES = {
+    "parts/arm.robot.yaml": ARM,
+    "cells/cell.robot.yaml": CELL,
+    "cells/palette.yaml": PALETTE,
+    "faulty.robot.yaml": FAULTY,
+}
+
+
+def written(root: Path, files: Mapping[str, str] = FILES) -> Path:
+    for name, text in files.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+    return root
+
+
+def schema_text(root: Path) -> str:
+    return workspace_text([vocabulary_of(spec, root) for spec in specs_below(root)])
+
+
+@pytest.fixture(scope="session")
+def shop(folder: Path) -> str:
+    """The folder of a workspace with its schema, as its documents are named to the server."""
+    root = written(folder / "shop")
+    run = linkforge("schema", "--workspace", cwd=root)
+    assert run.returncode == 0
+    return root.name
+
+
+MODELINE = "# yaml-language-server: $schema=../.linkforge/robot.schema.json\n"
+HEAD = f"{MODELINE}linkforge: 1\nname: cell\n"
+CELL_LINKS = ["left_base", "left_tool0", "table"]
+ARGUMENTS = ["fast", "hand", "reach", "serial"]
+
+OFFERED = {
+    # All that is offered at the caret of cells/cell.robot.yaml.
+    "a parent": ("joints:\n  weld:\n    parent: |", CELL_LINKS),
+    "a child in flow style": ("joints:\n  weld: {type: fixed, child: |}", CELL_LINKS),
+    "a module's parent": ("modules:\n  left: {parent: |}", CELL_LINKS),
+    "a frame's parent": ("frames:\n  corner: {parent: |}", CELL_LINKS),
+    "a sensor's link": ("sensors:\n  front: {link: |}", CELL_LINKS),
+    "the joint to follow": ("joints:\n  a:\n    mimic:\n      joint: |", ["left_elbow", "left_joint"]),
+    "a chain's end": ("semantic:\n  groups:\n    g:\n      chain: {base_link: |}", CELL_LINKS),
+    "a group's joints": ("semantic:\n  groups:\n    g:\n      joints: [|]", ["left_elbow", "left_joint"]),
+    "a group's groups": ("semantic:\n  groups:\n    g:\n      subgroups: [|]", ["left_arm"]),
+    "an end effector's group": ("semantic:\n  end_effectors:\n    e: {parent_group: |}", ["left_arm"]),
+    "a group with states": ("semantic:\n  group_states:\n    |", ["left_arm", "state"]),
+    "links that are not checked": ("semantic:\n  no_default_collision_links: [|]", CELL_LINKS),
+    "a link of a pair": ("semantic:\n  disabled_collisions:\n    table: {le|}", ["left_base", "left_tool0", "pair", "table", "value"]),
+    "a joint of hardware": ("ros2_control:\n  arm:\n    joints:\n      |", ["joint", "left_elbow", "left_joint"]),
+    "a material": ("links:\n  a:\n    visual: {material: |}", ["steel"]),
+    "a file": ("modules:\n  left:\n    use: |", ["../faulty.robot.yaml", "../parts/arm.robot.yaml"]),
+    "a module's parameters": ("modules:\n  a:\n    use: ../parts/arm.robot.yaml\n    with:\n      |", ARGUMENTS),
+    "them before the file": ("modules:\n  a:\n    with:\n      |\n    use: ../parts/arm.robot.yaml\n", ARGUMENTS),
+    "half of one in flow style": ("modules: {a: {use: ../parts/arm.robot.yaml, with: {re|}}}", ARGUMENTS),
+    "those of another file": ("modules:\n  a:\n    use: ../faulty.robot.yaml\n    with:\n      |", []),
+    "a parameter's value": ("modules: {a: {use: ../parts/arm.robot.yaml, with: {hand: |}}}", ["gripper", "none"]),
+    "a flag": ("modules: {a: {use: ../parts/arm.robot.yaml, with: {fast: |}}}", ["false", "true"]),
+}
+EVERYWHERE = {"for", "when", "extra", "extra_attributes", "extra_inside"}
+
+
+@pytest.mark.parametrize(("document", "labels"), OFFERED.values(), ids=OFFERED)
+def test_what_is_offered(server: LanguageServer, shop: str, document: str, labels: list[str]):
+    offered = server.completions(HEAD + document, f"{shop}/cells/cell.robot.yaml")
+    assert [found.label for found in offered if found.label not in EVERYWHERE] == labels
+
+
+def test_an_included_file_has_the_names_of_the_robot(server: LanguageServer, shop: str):
+    document = f"{MODELINE}linkforge: 1\njoints:\n  weld: {{parent: |}}"
+    assert [found.label for found in server.completions(document, f"{shop}/cells/palette.yaml")] == CELL_LINKS
+
+
+def test_another_spec_has_its_own_names(server: LanguageServer, shop: str):
+    document = f"{HEAD}joints:\n  weld: {{parent: |}}"
+    offered = [found.label for found in server.completions(document, f"{shop}/parts/arm.robot.yaml")]
+    assert offered == ["base", "tool0"]
+
+
+def test_a_variant_sets_the_parameters_of_its_file(server: LanguageServer, shop: str):
+    document = f"{HEAD}variants:\n  quick:\n    |"
+    assert [found.label for found in server.completions(document, f"{shop}/parts/arm.robot.yaml")] == ARGUMENTS
+
+
+def test_a_parameter_is_put_in_with_its_default_and_told(server: LanguageServer, shop: str):
+    document = f"{HEAD}modules:\n  a:\n    use: ../parts/arm.robot.yaml\n    with:\n      "
+    found = {one.label: one for one in server.completions(f"{document}|", f"{shop}/cells/cell.robot.yaml")}
+    assert found["reach"].inserted == "reach: ${1:0.7 m}"
+    assert found["serial"].inserted == "serial: "
+    shown = server.hover(f"{document}rea|ch: 0.9 m", f"{shop}/cells/cell.robot.yaml")
+    for phrase in ("From the base to the tool.", "type `length`", "default `0.7 m`", "at least `0.2 m`"):
+        assert phrase in shown
+
+
+def test_a_name_that_is_new_is_no_fault_and_a_wrong_key_is_one(server: LanguageServer, shop: str):
+    new = f"{HEAD}joints: {{weld: {{type: fixed, parent: fresh, child: $(name)}}}}\n"
+    assert server.faults(new, f"{shop}/cells/cell.robot.yaml") == []
+    wrong = f"{HEAD}joints: {{weld: {{parnt: table}}}}\n"
+    told = [Fault("parnt", "Property parnt is not allowed.")]
+    assert server.faults(wrong, f"{shop}/cells/cell.robot.yaml") == told
+
+
+@pytest.fixture(scope="session")
+def lessons(folder: Path) -> Path:
+    """The folder with the schema of the examples."""
+    (folder / "lessons.schema.json").write_text(schema_text(ROOT / "examples"), "utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("spec", specs_below(ROOT / "examples"), ids=lambda path: path.stem)
+def test_nothing_is_underlined_in_an_example(server: LanguageServer, lessons: Path, spec: Path):
+    modeline = f"# yaml-language-server: $schema={(lessons / 'lessons.schema.json').as_uri()}\n"
+    place = spec.relative_to(ROOT / "examples").as_posix()
+    assert server.faults(modeline + spec.read_text("utf-8"), f"lessons/{place}") == []
+
+
+def test_every_validator_takes_it_and_finds_no_more_than_in_the_language(tmp_path: Path):
+    schema = json.loads(schema_text(written(tmp_path)))
+    Draft7Validator.check_schema(schema)
+    assert Draft7Validator(schema).is_valid({"linkforge": 1, "joints": {"weld": {"parent": "anything"}}})
+    assert not Draft7Validator(schema).is_valid({"linkforge": 1, "joints": {"weld": {"parnt": "table"}}})
+
+
+def test_the_bytes_are_the_same_wherever_the_folder_lies(tmp_path: Path):
+    here, there = schema_text(written(tmp_path / "a")), schema_text(written(tmp_path / "other place/b"))
+    assert here == there
+    assert str(tmp_path) not in here
+
+
+def test_names_are_final_and_of_whatever_can_be_read(tmp_path: Path):
+    root = written(tmp_path)
+    cell = vocabulary_of(root / "cells/cell.robot.yaml", root)
+    assert cell.files == ("cells/cell.robot.yaml", "cells/palette.yaml")
+    assert cell.names["joint"] == ("left_elbow", "left_joint")
+    assert cell.is_whole
+    faulty = vocabulary_of(root / "faulty.robot.yaml", root)
+    assert not faulty.is_whole
+    assert "base" in faulty.names["link"]
+    (root / "faulty.robot.yaml").write_text("links: [", "utf-8")
+    assert vocabulary_of(root / "faulty.robot.yaml", root).names == {}
+
+
+def test_the_command_tells_of_specs_with_errors_and_writes_once(tmp_path: Path):
+    root = written(tmp_path)
+    run = linkforge("schema", "--workspace", cwd=root)
+    told = "faulty.robot.yaml has errors, so names of it may be missing; `linkforge check` tells them\n"
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", f"{told}wrote .linkforge/robot.schema.json\n")
+    again = linkforge("schema", "--workspace", str(root), "-o", "here.json", cwd=root)
+    assert again.stderr == f"{told}wrote here.json\n"
+    assert (root / "here.json").read_bytes() == (root / ".linkforge/robot.schema.json").read_bytes()
+    assert linkforge("schema", "--workspace", cwd=root).stderr == f"{told}.linkforge/robot.schema.json is up to date\n"
+    assert linkforge("schema", "--workspace", "nowhere", cwd=root).returncode == 2
+
+
+def test_specs_are_those_that_a_person_wrote(tmp_path: Path):
+    copies = {f"{folder}/arm.robot.yaml": ARM for folder in (".venv", "build/arm", "install/share", "parts/.hidden")}
+    root = written(tmp_path, {**copies, "a/b.robot.yml": ARM, "c.robot.yaml": ARM, "d.yaml": ARM})
+    assert [path.relative_to(root).as_posix() for path in specs_below(root)] == ["a/b.robot.yml", "c.robot.yaml"]
+
+
+def test_a_folder_of_more_than_robots_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    root = written(tmp_path)
+    monkeypatch.setattr(specs_module, "MAX_SPECS", 2)
+    with pytest.raises(TooManyFilesError, match="more than 2 specs"):
+        specs_below(root)
+    monkeypatch.setattr(specs_module, "MAX_FOLDERS", 2)
+    with pytest.raises(TooManyFilesError, match="more than 2 folders"):
+        specs_below(root)
