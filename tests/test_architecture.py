@@ -32,7 +32,7 @@ MAY_IMPORT = {
     "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core roots stack",
     "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
     "launch": "diagnostics backends core pipeline",
-    "editor": "diagnostics syntax schema modules lowering core stack resources",
+    "editor": "diagnostics syntax schema modules lowering core roots stack resources",
     "cli": (
         "source diagnostics core checks schema pipeline importing backends writers compare editor resources _version"
     ),

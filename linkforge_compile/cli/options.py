@@ -25,6 +25,17 @@ def add_spec_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--variant", metavar="NAME", help="the variant of the spec that sets what -p does not, before the defaults"
     )
+    add_package_option(parser)
+    add_outside_option(parser)
+    parser.add_argument(
+        "--gazebo",
+        choices=("gz", "classic"),
+        default="gz",
+        help="the simulator that reads the sensors (gz unless said)",
+    )
+
+
+def add_package_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--package",
         metavar="NAME=PATH",
@@ -32,13 +43,6 @@ def add_spec_options(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="the folder that package://NAME/ stands for, before any other place it is looked for",
-    )
-    add_outside_option(parser)
-    parser.add_argument(
-        "--gazebo",
-        choices=("gz", "classic"),
-        default="gz",
-        help="the simulator that reads the sensors (gz unless said)",
     )
 
 

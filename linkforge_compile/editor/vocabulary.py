@@ -21,6 +21,7 @@ from linkforge_compile.modules import (
     list_used,
 )
 from linkforge_compile.modules.mesh_files import no_mesh
+from linkforge_compile.roots import Roots
 from linkforge_compile.stack import with_room
 
 
@@ -39,17 +40,17 @@ class Vocabulary:
     is_whole: bool = True
 
 
-def vocabulary_of(spec: Path, root: Path) -> Vocabulary:
+def vocabulary_of(spec: Path, root: Path, packages: Mapping[str, Path] | None = None) -> Vocabulary:
     """Read a spec as far as its faults leave it; `root` is the folder of the workspace.
 
-    Meshes are not read: they bear no names.
+    `packages` are where `package://` leads first. Meshes are not read: they bear no names.
     """
-    return with_room(lambda: _vocabulary_of(spec, root))
+    return with_room(lambda: _vocabulary_of(spec, root, packages or {}))
 
 
-def _vocabulary_of(path: Path, root: Path) -> Vocabulary:
+def _vocabulary_of(path: Path, root: Path, packages: Mapping[str, Path]) -> Vocabulary:
     found = Vocabulary((_relative(path, root),), is_whole=False)
-    sink, loader = Diagnostics(), Loader()
+    sink, loader = Diagnostics(), Loader(packages, Roots.around(path, (root, *packages.values())))
     try:
         spec = loader.open(path, sink)
         if spec is None:

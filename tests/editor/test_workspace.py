@@ -109,7 +109,10 @@ OFFERED = {
     "an end effector's group": ("semantic:\n  end_effectors:\n    e: {parent_group: |}", ["left_arm"]),
     "a group with states": ("semantic:\n  group_states:\n    |", ["left_arm", "state"]),
     "links that are not checked": ("semantic:\n  no_default_collision_links: [|]", CELL_LINKS),
-    "a link of a pair": ("semantic:\n  disabled_collisions:\n    table: {le|}", ["left_base", "left_tool0", "pair", "table", "value"]),
+    "a link of a pair": (
+        "semantic:\n  disabled_collisions:\n    table: {le|}",
+        ["left_base", "left_tool0", "pair", "table", "value"],
+    ),
     "a joint of hardware": ("ros2_control:\n  arm:\n    joints:\n      |", ["joint", "left_elbow", "left_joint"]),
     "a material": ("links:\n  a:\n    visual: {material: |}", ["steel"]),
     "a file": ("modules:\n  left:\n    use: |", ["../faulty.robot.yaml", "../parts/arm.robot.yaml"]),
@@ -142,7 +145,10 @@ def test_another_spec_has_its_own_names(server: LanguageServer, shop: str):
 
 def test_a_variant_sets_the_parameters_of_its_file(server: LanguageServer, shop: str):
     document = f"{HEAD}variants:\n  quick:\n    |"
-    assert [found.label for found in server.completions(document, f"{shop}/parts/arm.robot.yaml")] == ARGUMENTS
+    assert [found.label for found in server.completions(document, f"{shop}/parts/arm.robot.yaml")] == [
+        *ARGUMENTS,
+        "variant",
+    ]
 
 
 def test_a_parameter_is_put_in_with_its_default_and_told(server: LanguageServer, shop: str):

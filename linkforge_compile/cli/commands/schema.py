@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import OK, UsageError
+from linkforge_compile.cli.options import add_package_option, packages_of
 
 if TYPE_CHECKING:
     import argparse
@@ -31,6 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--workspace", metavar="FOLDER", nargs="?", const=".", help="with the names of all specs below; '.' unless said"
     )
+    add_package_option(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -44,11 +47,12 @@ def run(arguments: argparse.Namespace) -> int:
     if not root.is_dir():
         raise UsageError(f"--workspace takes a folder, found '{arguments.workspace}'")
     output = arguments.output or str(root / ".linkforge" / "robot.schema.json")
-    put_json(_workspace_text(root), output, quiet=arguments.quiet)
+    packages = {name: Path(folder) for name, folder in packages_of(arguments).items()}
+    put_json(_workspace_text(root, packages), output, quiet=arguments.quiet)
     return OK
 
 
-def _workspace_text(root: Path) -> str:
+def _workspace_text(root: Path, packages: Mapping[str, Path]) -> str:
     """Return the schema of a repository; say of which specs names may be missing."""
     from linkforge_compile.cli.telling import to_stderr
     from linkforge_compile.editor import TooManyFilesError, specs_below, vocabulary_of, workspace_text
@@ -59,7 +63,7 @@ def _workspace_text(root: Path) -> str:
         raise UsageError(f"there are {error} below '{root}'; --workspace takes the folder of the robots") from error
     if not specs:
         to_stderr(f"there is no spec, NAME.robot.yaml, below '{root}'\n")
-    vocabularies = [vocabulary_of(spec, root) for spec in specs]
+    vocabularies = [vocabulary_of(spec, root, packages) for spec in specs]
     for vocabulary in vocabularies:
         if not vocabulary.is_whole:
             file = vocabulary.files[0]
