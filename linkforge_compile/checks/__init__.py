@@ -78,6 +78,7 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     gazebo.check_tiny_masses,
     gazebo.check_merged_joints,
     gazebo.check_merged_links,
+    gazebo.check_tags_of_several_blocks,
 )
 
 SEMANTIC_CHECKS: tuple[Check, ...] = (
@@ -96,6 +97,7 @@ SEMANTIC_CHECKS: tuple[Check, ...] = (
     groups.check_end_effectors,
     groups.check_arms_of_end_effectors,
     states.check_group_states,
+    states.check_states_taken_over,
     states.check_states_of_mimics,
     states.check_states_are_whole,
 )

@@ -10,7 +10,8 @@ from linkforge_compile.checks.references import SHOWN, Use, listed
 from linkforge_compile.checks.tree import hanging, parent_joints
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, Gaps, Note
+from linkforge_compile.diagnostics.codes.model import TAG_OF_TWO_BLOCKS
 from linkforge_compile.diagnostics.codes.physics import (
     BLOCK_OF_MERGED_JOINT,
     MASSLESS_BODY,
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.frozen_map import FreePart
     from linkforge_compile.core.models.gazebo import GazeboElement
     from linkforge_compile.core.models.link import Link
+    from linkforge_compile.source import SourceRef
 
 NEGLIGIBLE_MASS = 1e-6
 """What Gazebo takes for no mass [kg]."""
@@ -107,6 +109,29 @@ def check_merged_links(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
                 if joint := merged.get(name):
                     use = Use(name, f"plugin '{plugin.name}'", plugin.source or block.source, ("parameters", *path))
                     yield use.told(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
+
+
+def check_tags_of_several_blocks(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """The Gazebo blocks of a link or joint say a thing in one way.
+
+    Of a tag that stands in two of them Gazebo takes the last, and says so in its log at best. Write it once.
+    """
+    said: dict[tuple[str | None, str], tuple[str, SourceRef | None]] = {}
+    for block in robot.gazebo_elements:
+        for tag, text in dict(_tags(block)).items():
+            first, where = said.setdefault((block.reference, tag), (text, block.source))
+            if block.reference and text != first:
+                notes = [Note("the other block is here", where.span)] if where else []
+                path = (tag,) if block.source and block.source.node.child(tag) else ("properties", tag)
+                facts = {"tag": tag, "owner": block.reference, "found": text, "first": first}
+                yield TAG_OF_TWO_BLOCKS.at(block.source, *path, notes=notes, **facts)
+
+
+def _tags(block: GazeboElement) -> Iterator[tuple[str, str]]:
+    """Yield the tags of a block that hold one value; one that holds elements, such as a sensor, may stand twice."""
+    fields = ("material", "static", "stop_cfm", "stop_erp", "provide_feedback", "implicit_spring_damper")
+    yield from ((name, f"{value}") for name in fields if (value := getattr(block, name)) is not None)
+    yield from ((tag, text) for tag, text in block.properties.items() if isinstance(text, str))
 
 
 def _merged_joints(robot: Robot) -> Iterator[Joint]:

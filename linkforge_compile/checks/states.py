@@ -17,6 +17,7 @@ from linkforge_compile.diagnostics.codes.model import (
     STATE_INCOMPLETE,
     STATE_OUTSIDE_GROUP,
     STATE_OUTSIDE_LIMITS,
+    STATE_TAKES_OTHERS_ALONG,
     STATE_VALUE_COUNT,
 )
 from linkforge_compile.source import Key
@@ -61,6 +62,24 @@ def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
                 )
             elif isinstance(values, tuple):
                 yield from _faults_of_values(use, joint, values)
+
+
+def check_states_taken_over(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A state takes over what its own group can do.
+
+    A position that comes from the state of another group is written into this one, and MoveIt ignores it where the
+    joint is not in the group. Put the other group among the `subgroups` of this one, or take the name out.
+    """
+    links = group_links(robot)
+    for state in robot.semantic.group_states:
+        members, own = links.get(state.group), own_positions(state)
+        taken = [joint for name in state.joint_values if name not in own and (joint := robot.joints.get(name))]
+        outside = [joint.name for joint in taken if members and _moved_link(joint) not in members]
+        if outside:
+            them = "it" if len(outside) == 1 else "them"
+            yield STATE_TAKES_OTHERS_ALONG.at(
+                state.source, state=state.name, group=state.group, joints=listed(outside), them=them
+            )
 
 
 def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[object, ...]) -> Iterator[Diagnostic]:

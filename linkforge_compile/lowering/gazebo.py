@@ -11,6 +11,7 @@ from linkforge_compile.diagnostics.codes.model import TAG_TWICE
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_elements, is_unsaid
+from linkforge_compile.lowering.joint import joints_of, positions_of_type
 from linkforge_compile.lowering.quantities import NOT_NEGATIVE, ZERO_TO_ONE
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap
@@ -60,7 +61,9 @@ def lower_gazebo(owner: Fields, reference: str | None) -> Iterator[GazeboElement
         if block is None:
             continue
         _refuse_repeated_tags(block, said_by_physics)
-        element = _element(block, block.text("reference") if reference is None else reference)
+        about = block.text("reference") if reference is None else reference
+        joint = owner.node if reference is not None or about is None else joints_of(owner.node).get(about)
+        element = _element(block, about, positions_of_type(joint))
         if element:
             yield element
 
@@ -70,11 +73,11 @@ def lower_plugin(plugin: Fields) -> GazeboPlugin | None:
     return _plugin(plugin, plugin.text("name", required="controller"))
 
 
-def _element(block: Fields, reference: str | None) -> GazeboElement | None:
+def _element(block: Fields, reference: str | None, position: tuple[Dimension, ...]) -> GazeboElement | None:
     return block.build(
         lambda: GazeboElement(
             reference,
-            {**dict(_known_properties(block)), **free_elements(block, "properties")},
+            {**dict(_known_properties(block, position)), **free_elements(block, "properties")},
             [plugin for plugin in _plugins(block) if plugin],
             block.text("material"),
             block.flag("static"),
@@ -88,10 +91,11 @@ def _element(block: Fields, reference: str | None) -> GazeboElement | None:
     )
 
 
-def _known_properties(block: Fields) -> Iterator[tuple[str, FreePart]]:
-    """Yield the tags that have keys of their own, in the order written."""
+def _known_properties(block: Fields, position: tuple[Dimension, ...]) -> Iterator[tuple[str, FreePart]]:
+    """Yield the tags that have keys of their own, in the order written; `position` is what the joint goes by."""
+    readers = {**_READ, "springReference": _of(*position)}
     for entry in block.node:
-        read = _READ.get(entry.name)
+        read = readers.get(entry.name)
         text = read(block, entry.name) if read else None
         if text is not None:
             yield entry.name, text

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from linkforge_compile.core.constants import EPSILON
@@ -28,7 +28,8 @@ from linkforge_compile.diagnostics.codes.model import (
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import NOT_NEGATIVE, Measure, found
-from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlScalar
+from linkforge_compile.source.ref import Located
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
 
 
@@ -84,6 +85,21 @@ def position_measure(joint: Joint | None) -> Measure:
         return _SOME_POSITION
     dimensions = _MOTIONS[joint.type].position
     return Measure(dimensions) if dimensions else _SOME_POSITION
+
+
+def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
+    """Return the joints that a file itself writes, by name: its `joints`, and the one by which it hangs."""
+    sections = [section for name in ("joints", "mount") if isinstance(section := file.get(name), YamlMap)]
+    entries = (entry for section in sections for entry in section)
+    return {entry.name: entry.value for entry in entries if isinstance(entry.value, YamlMap)}
+
+
+def positions_of_type(joint: Located | None) -> tuple[Dimension, ...]:
+    """Return what a joint that is written somewhere goes by: an angle, a length, or either where nobody knows."""
+    kind = joint.child("type") if joint else None
+    motions = {str(each): motion for each, motion in _MOTIONS.items()}
+    motion = motions.get(kind.text) if isinstance(kind, YamlScalar) else None
+    return (motion and motion.position) or _SOME_POSITION.dimensions
 
 
 class Ends(NamedTuple):

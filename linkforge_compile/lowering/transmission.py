@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import TypeVar
 
@@ -11,7 +11,9 @@ from linkforge_compile.core.models.transmission import Transmission, Transmissio
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_elements
+from linkforge_compile.lowering.joint import joints_of, positions_of_type
 from linkforge_compile.lowering.quantities import NOT_ZERO
+from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlList, YamlNode
 from linkforge_compile.units import Dimension
 
@@ -20,16 +22,17 @@ End = TypeVar("End", TransmissionJoint, TransmissionActuator)
 
 def lower_transmissions(file: Fields) -> Iterator[Transmission]:
     """Lower the transmissions of a file, without those that are lost."""
-    for _, transmission in file.each("transmissions", "transmission", _transmission):
+    joints = joints_of(file.node)
+    for _, transmission in file.each("transmissions", "transmission", partial(_transmission, joints)):
         if transmission:
             yield transmission
 
 
-def _transmission(fields: Fields, name: str) -> Transmission | None:
+def _transmission(written: Mapping[str, Located], fields: Fields, name: str) -> Transmission | None:
     valid = fields.name_is_valid(name, "transmission", fields.ref)
     kind = fields.text("type", required="transmission_interface/SimpleTransmission")
-    joints = dict(fields.each("joints", "transmission joint", partial(_end, TransmissionJoint)))
-    actuators = dict(fields.each("actuators", "transmission actuator", partial(_end, TransmissionActuator)))
+    joints = dict(fields.each("joints", "transmission joint", partial(_joint, written)))
+    actuators = dict(fields.each("actuators", "transmission actuator", _actuator))
     parameters = free_elements(fields, "parameters")
     whole_joints = [joint for joint in joints.values() if joint]
     whole_actuators = [actuator for actuator in actuators.values() if actuator]
@@ -40,12 +43,21 @@ def _transmission(fields: Fields, name: str) -> Transmission | None:
     return fields.build(lambda: make(source=fields.ref, **extras_of(fields)), is_whole=is_whole)
 
 
-def _end(kind: type[End], end: Fields, name: str) -> End | None:
+def _joint(written: Mapping[str, Located], end: Fields, name: str) -> TransmissionJoint | None:
+    return _end(TransmissionJoint, end, name, positions_of_type(written.get(name)))
+
+
+def _actuator(end: Fields, name: str) -> TransmissionActuator | None:
+    # Nobody says whether a motor turns or slides.
+    return _end(TransmissionActuator, end, name, positions_of_type(None))
+
+
+def _end(kind: type[End], end: Fields, name: str, position: tuple[Dimension, ...]) -> End | None:
     said = end.node.get("hardware_interfaces")
     are_stated = not _is_empty_list(said)
     interfaces = end.names("hardware_interfaces") if said and are_stated else (HW_IF_POSITION,)
     reduction = end.number("mechanical_reduction", bound=NOT_ZERO)
-    offset = end.number("offset", Dimension.ANGLE, Dimension.LENGTH)
+    offset = end.number("offset", *position)
     make = partial(kind, name, interfaces, reduction, offset or 0.0, stated=("offset",) if offset == 0 else ())
     is_whole = not end.has_faulty_items("hardware_interfaces")
     finish = partial(make, interfaces_stated=are_stated, source=end.ref)

@@ -125,6 +125,9 @@ GROUP_WITHOUT_JOINT = Code("LF5617", _W, "planning group '{group}' has no joint,
 ENABLED_ANYWAY = Code(
     "LF5618", _N, "the pair of '{link1}' and '{link2}' is looked at anyway: neither is in 'no_default_collision_links'"
 )
+STATE_TAKES_OTHERS_ALONG = Code(
+    "LF5680", _W, "state '{state}' takes over {joints} from another group, not in '{group}', and cannot set {them}"
+)
 
 # LF57xx: sensors, hardware, simulators and raw XML
 ATTRIBUTE_OF_OWNER = Code(
@@ -132,6 +135,11 @@ ATTRIBUTE_OF_OWNER = Code(
 )
 LIST_IN_LIST = Code("LF5702", _E, "a list repeats the tag '{field}', so it cannot hold another list")
 TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is said twice")
+TAG_OF_TWO_BLOCKS = Code(
+    "LF5780",
+    _W,
+    "Gazebo's tag '{tag}' of '{owner}' is {found} here, {first} in another block; Gazebo takes the last",
+)
 UNPREFIXED_NAME = Code("LF5704", _W, "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}")
 ABSOLUTE_TOPIC = Code(
     "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
