@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.element import InsideError, RestatedAttributeError, attributes, elements, inside_of
 from linkforge_compile.backends.namespaces import undeclared_prefixes
+from linkforge_compile.backends.parts import Held, Part, parts_in
 from linkforge_compile.backends.srdf import render_srdf
-from linkforge_compile.backends.unwritable import extended_parts, refused, unwritable_texts
+from linkforge_compile.backends.unwritable import refused, unwritable_texts
 from linkforge_compile.backends.urdf import capsules, render_urdf, require_dialect
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.part import Inside
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.backends import (
     NEW_GEOMETRY,
@@ -38,8 +40,9 @@ def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
 
     """
     require_dialect(gazebo)
-    yield from check_texts(robot)
-    yield from check_attributes(_collections(robot), robot, partial(render_urdf, robot, gazebo=gazebo))
+    parts = parts_in(_collections(robot))
+    yield from check_texts(robot, parts)
+    yield from check_attributes(parts, robot, partial(render_urdf, robot, gazebo=gazebo))
     yield from check_capsules(robot)
     yield from check_version(robot)
     yield from check_materials_of_one_name(robot)
@@ -51,27 +54,28 @@ def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
 
 def srdf_limits(robot: Robot) -> Iterator[Diagnostic]:
     """Yield what `render_srdf` refuses."""
-    yield from unwritable_texts(robot.semantic)
+    parts = parts_in(robot.semantic)
+    yield from unwritable_texts(parts)
     if robot.says_semantic:
-        yield from undeclared_prefixes(robot.semantic, robot.semantic)
-        yield from check_attributes(robot.semantic, robot, partial(render_srdf, robot))
+        yield from undeclared_prefixes(robot.semantic, parts)
+        yield from check_attributes(parts, robot, partial(render_srdf, robot))
 
 
-def check_texts(robot: Robot) -> Iterator[Diagnostic]:
+def check_texts(robot: Robot, parts: Sequence[Held]) -> Iterator[Diagnostic]:
     """XML holds no control characters, extras must be well-formed, and only some names can be those of tags."""
     yield from refused(lambda: attributes(robot), robot.source, "extra_attributes")
     yield from refused(lambda: elements(robot), robot.source, "extra")
-    yield from unwritable_texts(_collections(robot))
-    yield from undeclared_prefixes(robot, _collections(robot))
+    yield from unwritable_texts(parts)
+    yield from undeclared_prefixes(robot, parts)
 
 
-def check_attributes(parts: object, robot: Robot, render: Callable[[], str]) -> Iterator[Diagnostic]:
+def check_attributes(parts: Sequence[Held], robot: Robot, render: Callable[[], str]) -> Iterator[Diagnostic]:
     """An element has each attribute once: what a field of the language says, `extra_attributes` cannot say again.
 
     Which attributes an element has, only its rendering knows; so where there are extra ones at all, it is tried.
     The same goes for what `extra_inside` speaks of.
     """
-    extended = tuple(extended_parts(parts))
+    extended = [part for part, _, _ in parts if _is_extended(part)]
     if not (robot.extra_attributes or extended):
         return
     try:
@@ -86,6 +90,11 @@ def check_attributes(parts: object, robot: Robot, render: Callable[[], str]) -> 
             yield UNWRITABLE.at(part.source, "extra_inside", Key(fault.key), reason=fault)
     except RobotGeneratorError:
         return  # told by what looks at the texts
+
+
+def _is_extended(part: Part) -> bool:
+    """Whether it has attributes beside its fields', or says what is inside it: that is of the part, none by itself."""
+    return not isinstance(part, Inside) and bool(part.extra_attributes or inside_of(part))
 
 
 def _collections(robot: Robot) -> tuple[object, ...]:

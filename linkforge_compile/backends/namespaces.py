@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import fields, is_dataclass
+from collections.abc import Iterable, Iterator
 
 from linkforge_compile.backends.element import Extended
+from linkforge_compile.backends.parts import Held
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.models.interface import Interface
-from linkforge_compile.core.models.link import Link
-from linkforge_compile.core.part import Element, attribute_pairs
+from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.backends import UNDECLARED_PREFIX
 from linkforge_compile.source import SourceRef
@@ -18,26 +16,14 @@ _OF_XML = frozenset({"xml", "xmlns"})
 _DECLARATION = "xmlns:"
 
 
-def undeclared_prefixes(root: Extended, parts: object) -> Iterator[Diagnostic]:
-    """Yield a warning for each prefix in a root element or its parts, at any depth, that is not declared around it."""
+def undeclared_prefixes(root: Extended, parts: Iterable[Held]) -> Iterator[Diagnostic]:
+    """Yield a warning for each prefix in a root element or its parts that is not declared around it."""
     known = _OF_XML | _declared_by(_names(root))
     yield from _in_extras(root, known, root.source)
-    yield from _in_part(parts, known, root.source)
-
-
-def _in_part(part: object, known: frozenset[str], where: SourceRef | None) -> Iterator[Diagnostic]:
-    if isinstance(part, Element | Link | Interface):
-        where = part.source or where
-        known |= _declared_by(_names(part))
-        yield from _in_extras(part, known, where)
-        for field in fields(part) if is_dataclass(part) else ():
-            yield from _in_part(getattr(part, field.name), known, where)
-    elif isinstance(part, Mapping):
-        for item in part.values():
-            yield from _in_part(item, known, where)
-    elif isinstance(part, Sequence) and not isinstance(part, str):
-        for item in part:
-            yield from _in_part(item, known, where)
+    for part, where, around in parts:
+        if part.extra_attributes or part.extra_elements:
+            names = (name for holder in (*around, part) for name in _names(holder))
+            yield from _in_extras(part, known | _declared_by(names), where)
 
 
 def _in_extras(part: Extended, known: frozenset[str], where: SourceRef | None) -> Iterator[Diagnostic]:

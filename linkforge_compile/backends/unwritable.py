@@ -2,53 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import fields, is_dataclass
-from functools import cache, partial
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 
-from linkforge_compile.backends.element import Extended, attributes, inside_of, raw
+from linkforge_compile.backends.element import attributes, raw
 from linkforge_compile.backends.markup import escaped
+from linkforge_compile.backends.parts import Held, Part, content
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.models.geometry import Vector3
-from linkforge_compile.core.models.interface import Interface
-from linkforge_compile.core.models.link import Link
-from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.backends import UNWRITABLE
 from linkforge_compile.source import SourceRef
 
-# Nine fields of ten; they hold no text.
-_NUMBERS = (float, int, Vector3, type(None))
 
-
-def unwritable_texts(part: object, where: SourceRef | None = None, *path: str) -> Iterator[Diagnostic]:
-    """Yield an error for each text in a part of a robot, at any depth, that cannot be written as XML.
-
-    `where` and `path` are the place of what holds the part.
-    """
-    if isinstance(part, str):
-        yield from refused(lambda: escaped(part), where, *path)
-    if isinstance(part, Element | Link | Interface):
-        where = part.source or where
+def unwritable_texts(parts: Iterable[Held]) -> Iterator[Diagnostic]:
+    """Yield an error for each text in parts of a robot that cannot be written as XML."""
+    for part, where, _ in parts:
         if part.extra_attributes:
-            yield from refused(lambda: attributes(part), where, "extra_attributes")
+            yield from refused(partial(attributes, part), where, "extra_attributes")
         if part.extra_elements:
-            yield from refused(lambda: raw(part), where, "extra")
-        yield from unwritable_texts(inside_of(part), where, "extra_inside")
-        kind: type = type(part)
-        for name in _content(kind):
-            if not isinstance(value := getattr(part, name), _NUMBERS):
-                yield from _in_field(part, name, value, where)
-    elif isinstance(part, Mapping):
-        for key, value in part.items():
-            yield from unwritable_texts(key, where, *path)
-            yield from unwritable_texts(value, where, *path, key)
-    elif isinstance(part, Sequence) and not isinstance(part, str):
-        for item in part:
-            yield from unwritable_texts(item, where, *path)
+            yield from refused(partial(raw, part), where, "extra")
+        for name, value in content(part):
+            yield from _in_field(part, name, value, where)
 
 
-def _in_field(part: object, name: str, value: object, where: SourceRef | None) -> Iterator[Diagnostic]:
+def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> Iterator[Diagnostic]:
     if name == "raw_xml" and isinstance(value, str):
         from linkforge_compile.backends.raw import raw_elements
 
@@ -60,10 +37,23 @@ def _in_field(part: object, name: str, value: object, where: SourceRef | None) -
         for key, text in value.items() if getattr(part, "raw_xml", None) is None else ():
             yield from refused(partial(parameter_elements, {key: text}), where, name, key)
     else:
-        yield from unwritable_texts(value, where, name)
+        yield from _in_value(value, where, name)
 
 
-def _keys_are_tags(part: object) -> bool:
+def _in_value(value: object, where: SourceRef | None, *path: str) -> Iterator[Diagnostic]:
+    """Look at texts, and those in collections; parts in them are looked at for themselves."""
+    if isinstance(value, str):
+        yield from refused(lambda: escaped(value), where, *path)
+    elif isinstance(value, Mapping):
+        for key, inner in value.items():
+            yield from _in_value(key, where, *path)
+            yield from _in_value(inner, where, *path, key)
+    elif isinstance(value, Sequence):
+        for inner in value:
+            yield from _in_value(inner, where, *path)
+
+
+def _keys_are_tags(part: Part) -> bool:
     from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
     from linkforge_compile.core.models.transmission import Transmission
 
@@ -76,30 +66,3 @@ def refused(write: Callable[[], object], where: SourceRef | None, *path: str) ->
         write()
     except RobotGeneratorError as error:
         yield UNWRITABLE.at(where, *path, reason=error)
-
-
-def extended_parts(part: object) -> Iterator[Extended]:
-    """Yield all in a part of a robot, at any depth, that has attributes beside its fields', or says what is inside."""
-    if isinstance(part, Element | Link | Interface):
-        if part.extra_attributes or inside_of(part):
-            yield part
-        kind: type = type(part)
-        for name in _content(kind):
-            yield from extended_parts(getattr(part, name))
-    elif isinstance(part, Mapping):
-        for item in part.values():
-            yield from extended_parts(item)
-    elif isinstance(part, Sequence) and not isinstance(part, str):
-        for item in part:
-            yield from extended_parts(item)
-
-
-@cache
-def _content(kind: type) -> tuple[str, ...]:
-    """Return the fields of a kind of part, without what every part has."""
-    if not is_dataclass(kind):
-        return ("parameters",)
-    return tuple(field.name for field in fields(kind) if field.name not in _EVERYWHERE)
-
-
-_EVERYWHERE = frozenset(field.name for field in fields(Element))

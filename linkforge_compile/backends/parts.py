@@ -1,0 +1,72 @@
+"""All parts that a robot is made of, at any depth: looked for once, for whoever looks into them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from functools import cache
+from typing import NamedTuple, TypeAlias
+
+from linkforge_compile.backends.element import inside_of
+from linkforge_compile.core.models.geometry import Vector3
+from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.part import Element
+from linkforge_compile.source import SourceRef
+
+Part: TypeAlias = Element | Link | Interface
+"""What becomes an XML element, and may hold what no field says."""
+
+
+class Held(NamedTuple):
+    """A part, where it was written, else what holds it, and the parts around it, outermost first."""
+
+    part: Part
+    where: SourceRef | None
+    around: tuple[Part, ...]
+
+
+def parts_in(value: object) -> list[Held]:
+    """Return a part, or those in collections of them, and all that are in these, `extra_inside` among them."""
+    found: list[Held] = []
+    _gather(value, None, (), found)
+    return found
+
+
+def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], found: list[Held]) -> None:
+    if isinstance(value, Part):
+        where = value.source or where
+        found.append(Held(value, where, around))
+        around = (*around, value)
+        _gather(inside_of(value), where, around, found)
+        for _, inner in content(value):
+            if type(inner) is not str:
+                _gather(inner, where, around, found)
+    elif isinstance(value, Mapping):
+        for inner in value.values():
+            _gather(inner, where, around, found)
+    elif isinstance(value, Sequence) and not isinstance(value, str):
+        for inner in value:
+            _gather(inner, where, around, found)
+
+
+# Nine fields of ten; they hold neither parts nor text.
+_NUMBERS = (float, int, Vector3, type(None))
+
+
+def content(part: Part) -> Iterator[tuple[str, object]]:
+    """Yield the fields of a part that hold more than numbers, without those that every part has."""
+    kind: type = type(part)
+    for name in _names_of(kind):
+        if not isinstance(value := getattr(part, name), _NUMBERS):
+            yield name, value
+
+
+@cache
+def _names_of(kind: type) -> tuple[str, ...]:
+    if not is_dataclass(kind):
+        return ("parameters",)
+    return tuple(field.name for field in fields(kind) if field.name not in _EVERYWHERE)
+
+
+_EVERYWHERE = frozenset(field.name for field in fields(Element))
