@@ -40,6 +40,8 @@ class Reading:
         self._attributes = dict(element.attributes)
         self._children = list(element.children)
         self._text_is_taken = False
+        self._inside: dict[str, YamlNode] = {}
+        self._left: YamlMap | None = None
 
     @property
     def span(self) -> Span:
@@ -123,7 +125,9 @@ class Reading:
 
     def within(self, child: XmlElement, read: Callable[[Reading], YamlNode]) -> YamlNode:
         """Take a child that must be said: where it is declined, so is this element."""
-        node = read(Reading(self.draft, child))
+        reading = Reading(self.draft, child)
+        node = read(reading)
+        self._keep_left(reading)
         self._children.remove(child)
         self.draft.made(node, child)
         return node
@@ -161,12 +165,14 @@ class Reading:
         try:
             if refused := self.draft.refused.get(child.span):
                 raise DeclinedError(refused.reason, refused.span)
-            node = read(Reading(self.draft, child))
+            reading = Reading(self.draft, child)
+            node = read(reading)
         except DeclinedError as declined:
             # What was told of its parts, that they were kept raw or left out, is no longer so.
             del self.draft.told[mark:]
             self.draft.told.append(KEPT_RAW.at(declined.span, tag=child.tag, reason=declined.reason))
             return None
+        self._keep_left(reading)
         self._children.remove(child)
         if node is not None:
             self.draft.made(node, child)
@@ -186,6 +192,17 @@ class Reading:
         if not self._text_is_taken and self.element.text.strip():
             raise self.declined("it holds text")
 
+    def _keep_left(self, child: Reading) -> None:
+        if child._left is not None:
+            self._inside[child.element.tag] = child._left
+
+    def leave_rest(self) -> None:
+        """Leave what nobody has taken to the element around, whose `extra_inside` says it; decline text."""
+        if self.element.text.strip() and not self._text_is_taken:
+            raise self.declined("it holds text")
+        rest = {name: node for name, node in self.rest().items() if node is not None}
+        self._left = self.draft.map_of(rest, self.span) if rest else None
+
     def is_spent(self) -> bool:
         """Whether nothing is left of the element: text is, though there is no place for it, for that is to be told."""
         has_text = bool(self.element.text.strip()) and not self._text_is_taken
@@ -196,7 +213,7 @@ class Reading:
         return self.draft.map_of({**entries, **self.rest()}, self.span)
 
     def rest(self) -> dict[str, YamlNode | None]:
-        """Return what nobody has taken as `extra` and `extra_attributes`; text has no place in them and is lost."""
+        """Return what nobody has taken as `extra` and the like; text has no place in them and is lost."""
         text = " ".join(self.element.text.split())
         if text and not self._text_is_taken:
             shown = text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
@@ -206,6 +223,7 @@ class Reading:
         return {
             "extra": self.draft.one_or_list(extra),
             "extra_attributes": self.draft.map_of(attributes, self.span) if attributes else None,
+            "extra_inside": self.draft.map_of(self._inside, self.span) if self._inside else None,
         }
 
     def _raw(self, child: XmlElement) -> YamlNode:

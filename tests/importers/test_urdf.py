@@ -407,3 +407,51 @@ def test_what_is_kept_raw_for_one_reason_is_told_once_with_how_often(tmp_path: P
     [one] = told.diagnostics
     assert one.message == "<transmission> is kept as raw XML in 'extra': it has no 'name'"
     assert [(note.message, note.span.line) for note in one.notes] == [("and 8 more like this, the next one here", 3)]
+
+
+def test_what_no_key_says_of_an_element_inside_stands_beside_what_keys_say(read):
+    shape = '<geometry by="me"><box size="1 1 1" unit="m"/></geometry>'
+    text = read(f"""
+      <material name="red"><color rgba="1 0 0 1" space="srgb"/></material>
+      <link name="a">
+        <visual>{shape}<material name="red"/></visual>
+        <inertial><mass value="1" by="scale"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+      </link>
+      <link name="b"/>
+      <joint name="j" type="continuous">
+        <parent link="a" frame="f"/><child link="b"><note/></child><axis xyz="0 0 1" expressed_in="a"/>
+      </joint>""")
+    assert text == spec("""
+        materials:
+          red:
+            color: [1, 0, 0]
+            extra_inside: {color: {extra_attributes: {space: srgb}}}
+
+        links:
+          a:
+            visual:
+              box: [1, 1, 1]
+              material: red
+              extra_inside:
+                geometry:
+                  extra_attributes: {by: me}
+                  extra_inside: {box: {extra_attributes: {unit: m}}}
+            inertial:
+              mass: 1
+              inertia: {ixx: 1, iyy: 1, izz: 1}
+              extra_inside: {mass: {extra_attributes: {by: scale}}}
+          b: {}
+
+        joints:
+          j:
+            type: continuous
+            parent: a
+            child: b
+            axis: z
+            extra_inside:
+              parent: {extra_attributes: {frame: f}}
+              child: {extra: <note/>}
+              axis: {extra_attributes: {expressed_in: a}}""")
+    urdf = compiled(f"linkforge: 1\nname: r\n{text}\n")
+    for kept in ('by="me"', 'unit="m"', 'by="scale"', 'frame="f"', "<note/>", 'expressed_in="a"', 'space="srgb"'):
+        assert kept in urdf

@@ -21,6 +21,13 @@ STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro's, not URDF; name the file .u
 # LF802x: what comes in, but not as its own kind
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML in 'extra': {reason}")
 
+ENDS_KEPT_RAW = Code(
+    "LF8090",
+    _W,
+    "lower is {lower} and upper is {upper}: they are kept as raw attributes in 'extra_attributes'; a lower limit is not"
+    " above its upper one",
+)
+
 # LF803x: xacro
 XACRO_NOT_INSTALLED = Code(
     "LF8031",

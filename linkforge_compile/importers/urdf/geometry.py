@@ -30,7 +30,7 @@ def read_geometry(geometry: Reading) -> YamlMap:
     if read is None:
         raise geometry.declined(f"there is no shape named '{shape.tag}'")
     node = geometry.within(shape, read)
-    geometry.spent()
+    geometry.leave_rest()
     return geometry.draft.map_of({shape.tag: node}, shape.span)
 
 
@@ -40,7 +40,7 @@ def _box(box: Reading) -> YamlNode:
         raise box.declined("it has no 'size'")
     if any(_value(item) <= 0 for item in size):
         raise box.declined(f"every side must be above 0, found '{box.element.get('size')}'")
-    box.spent()
+    box.leave_rest()
     return size
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from typing import NamedTuple
 
+from linkforge_compile.diagnostics.codes.importing import ENDS_KEPT_RAW
 from linkforge_compile.importers.draft import DeclinedError, number_of
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.urdf.gazebo import Blocks
@@ -69,7 +70,7 @@ def _part(joint: Reading, tag: str, read: Callable[[Reading, _Motion], YamlNode]
 
 def _link(end: Reading) -> YamlNode:
     link = end.name("link")
-    end.spent()
+    end.leave_rest()
     return link
 
 
@@ -80,7 +81,7 @@ def _axis_of(joint: Reading) -> YamlNode | None:
 
 def _axis(axis: Reading) -> YamlNode:
     xyz = axis.numbers("xyz", 3)
-    axis.spent()
+    axis.leave_rest()
     if xyz is None:
         return axis.draft.text("x", axis.span)
     letter = _AXES.get(tuple(map(number_of, (axis.element.get("xyz") or "").split())))
@@ -90,10 +91,12 @@ def _axis(axis: Reading) -> YamlNode:
 def _limits(limit: Reading, motion: _Motion) -> YamlNode:
     lower, upper = (number_of(limit.element.get(name) or "0") for name in ("lower", "upper"))
     if lower is not None and upper is not None and lower > upper:
-        raise limit.declined("its lower limit is above its upper one")
+        limit.draft.told.append(ENDS_KEPT_RAW.at(limit.span, lower=f"{lower:g}", upper=f"{upper:g}"))
+        ends = {}
+    else:
+        ends = {name: limit.number(name, motion.position) for name in ("lower", "upper")}
     return limit.map(
-        lower=limit.number("lower", motion.position),
-        upper=limit.number("upper", motion.position),
+        **ends,
         effort=_not_negative(limit, "effort"),
         velocity=_not_negative(limit, "velocity", motion.velocity),
     )

@@ -70,7 +70,7 @@ def _mass(mass: Reading) -> YamlNode:
     value = mass.required_number("value")
     if value.text.startswith("-"):
         raise mass.declined(f"the mass must be 0 or above [kg], found {value.text}")
-    mass.spent()
+    mass.leave_rest()
     return value
 
 

@@ -69,14 +69,14 @@ def _color(color: Reading) -> YamlNode:
         raise color.declined("it has no 'rgba'")
     if any(not 0 <= float(part) <= 1 for part in (color.element.get("rgba") or "").split()):
         raise color.declined(f"its components must be from 0 to 1, found '{color.element.get('rgba')}'")
-    color.spent()
+    color.leave_rest()
     *rgb, opacity = rgba
     return color.draft.list_of(rgb, rgba.span) if same(opacity, color.draft.number("1", rgba.span)) else rgba
 
 
 def _texture(texture: Reading) -> YamlNode:
     file = texture.name("filename")
-    texture.spent()
+    texture.leave_rest()
     return file
 
 
