@@ -151,7 +151,11 @@ def defaults() -> Iterator[tuple[type, Field[object]]]:
     """Yield every field of the IR whose default is a value, not nothing at all."""
     for kind in (getattr(core, name) for name in core.__all__):
         for field in fields(kind) if is_part(kind) else ():
-            if default_of(field) not in (MISSING, None, (), {}) and not field.name.startswith("is_"):
+            if (
+                default_of(field) not in (MISSING, None, (), {})
+                and not field.name.startswith("is_")
+                and not field.name.endswith("_stated")
+            ):
                 yield kind, field
 
 
