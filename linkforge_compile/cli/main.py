@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     import argparse
 
 _COMMANDS = {
+    "init": "begin a robot: a folder with a first spec, and what editors, git and builds want beside it",
     "compile": "compile a spec to URDF and SRDF",
     "watch": "compile a spec, and again whenever something changes that it is made from",
     "check": "tell all that is wrong with specs, writing nothing",

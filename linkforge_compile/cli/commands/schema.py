@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -46,26 +45,8 @@ def run(arguments: argparse.Namespace) -> int:
     root = Path(arguments.workspace)
     if not root.is_dir():
         raise UsageError(f"--workspace takes a folder, found '{arguments.workspace}'")
-    output = arguments.output or str(root / ".linkforge" / "robot.schema.json")
+    from linkforge_compile.cli.workspace import SCHEMA, schema_of
+
     packages = {name: Path(folder) for name, folder in packages_of(arguments).items()}
-    put_json(_workspace_text(root, packages), output, quiet=arguments.quiet)
+    put_json(schema_of(root, packages), arguments.output or str(root / SCHEMA), quiet=arguments.quiet)
     return OK
-
-
-def _workspace_text(root: Path, packages: Mapping[str, Path]) -> str:
-    """Return the schema of a repository; say of which specs names may be missing."""
-    from linkforge_compile.cli.telling import to_stderr
-    from linkforge_compile.editor import TooManyFilesError, specs_below, vocabulary_of, workspace_text
-
-    try:
-        specs = specs_below(root)
-    except TooManyFilesError as error:
-        raise UsageError(f"there are {error} below '{root}'; --workspace takes the folder of the robots") from error
-    if not specs:
-        to_stderr(f"there is no spec, NAME.robot.yaml, below '{root}'\n")
-    vocabularies = [vocabulary_of(spec, root, packages) for spec in specs]
-    for vocabulary in vocabularies:
-        if not vocabulary.is_whole:
-            file = vocabulary.files[0]
-            to_stderr(f"{file} has errors, so names of it may be missing; `linkforge check` tells them\n")
-    return workspace_text(vocabularies)

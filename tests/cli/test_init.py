@@ -1,0 +1,108 @@
+"""`linkforge init`, run as a program: what it writes works, and nothing of the user's is lost."""
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+import yaml
+
+from linkforge_compile import check_file
+from tests.cli.test_compile import linkforge
+
+FILES = {
+    ".gitignore",
+    ".linkforge/robot.schema.json",
+    ".pre-commit-config.yaml",
+    ".vscode/extensions.json",
+    ".vscode/settings.json",
+    "CMakeLists.txt",
+    "my-arm.robot.yaml",
+}
+
+
+def files_in(folder: Path) -> dict[str, bytes]:
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_a_new_robot_is_one_to_begin_with(tmp_path: Path):
+    run = linkforge("init", "my-arm", cwd=tmp_path)
+    assert (run.returncode, run.stdout) == (0, "")
+    assert files_in(tmp_path / "my-arm").keys() == FILES
+    spec = tmp_path / "my-arm" / "my-arm.robot.yaml"
+    assert check_file(spec).diagnostics == ()
+    robot = check_file(spec).result()
+    assert robot.name == "my-arm"
+    assert [joint.name for joint in robot.joints] == ["base_joint", "shoulder", "tool0_joint"]
+    assert robot.semantic.groups
+    assert robot.ros2_controls
+    # What it says to do next can be done, word for word.
+    steps = [line.split("  ")[0].split()[1:] for line in re.findall(r"^  (linkforge .*)", run.stderr, re.MULTILINE)]
+    assert [linkforge(*step, cwd=spec.parent).returncode for step in steps] == [0, 0]
+    assert {path.name for path in (spec.parent / "build").iterdir()} == {"my-arm.urdf", "my-arm.srdf"}
+
+
+def test_it_says_what_it_wrote_and_what_comes_next(tmp_path: Path):
+    told = linkforge("init", "my-arm", cwd=tmp_path).stderr.splitlines()
+    written = {line.removeprefix("wrote my-arm/") for line in told if line.startswith("wrote ")}
+    assert written == FILES
+    assert told[told.index("next:") + 1] == "  cd my-arm"
+    assert linkforge("init", "other", "--quiet", cwd=tmp_path).stderr == ""
+    assert "cd " not in linkforge("init", "my-arm", "--dir", ".", cwd=tmp_path).stderr
+
+
+def test_what_is_there_is_kept(tmp_path: Path):
+    mine = {".gitignore": "/secret\n", "CMakeLists.txt": "project(mine)\n", "arm.robot.yaml": "linkforge: 1\n"}
+    for name, text in mine.items():
+        (tmp_path / name).write_text(text)
+    run = linkforge("init", "arm", "--dir", ".", cwd=tmp_path)
+    assert run.returncode == 0
+    for name, text in mine.items():
+        assert (tmp_path / name).read_text() == text
+        assert f"kept {name}, which is there already" in run.stderr
+    before = files_in(tmp_path)
+    assert "wrote" not in linkforge("init", "arm", "--dir", ".", cwd=tmp_path).stderr
+    assert files_in(tmp_path) == before
+
+
+def test_the_bytes_are_the_same_wherever_it_is_run(tmp_path: Path):
+    for place in ("here", "over there"):
+        (tmp_path / place).mkdir()
+        linkforge("init", "my-arm", cwd=tmp_path / place)
+    assert files_in(tmp_path / "here") == files_in(tmp_path / "over there")
+
+
+@pytest.mark.parametrize("name", ["../arm", "my arm", "1st", "", "arm.robot.yaml"])
+def test_a_name_that_is_none_is_refused(tmp_path: Path, name: str):
+    run = linkforge("init", name, cwd=tmp_path)
+    assert run.returncode == 2
+    assert "NAME is letters, digits, _ and -" in run.stderr
+    assert files_in(tmp_path) == {}
+
+
+def test_the_files_for_tools_are_what_these_read(tmp_path: Path):
+    linkforge("init", "arm", cwd=tmp_path)
+    folder = tmp_path / "arm"
+    schemas = json.loads((folder / ".vscode/settings.json").read_text())["yaml.schemas"]
+    assert all((folder / schema).is_file() for schema in schemas)
+    assert json.loads((folder / ".vscode/extensions.json").read_text())["recommendations"] == ["redhat.vscode-yaml"]
+    (repository,) = yaml.safe_load((folder / ".pre-commit-config.yaml").read_text())["repos"]
+    (hook,) = repository["hooks"]
+    assert hook["id"] == "linkforge-check"
+    assert linkforge(*hook["entry"].split()[1:], "arm.robot.yaml", cwd=folder).returncode == 0
+    assert re.search(hook["files"], "arm.robot.yaml")
+
+
+def test_its_cmake_finds_the_function_and_gives_it_what_it_takes(tmp_path: Path):
+    cmake = shutil.which("cmake")
+    assert cmake, "the extra `dev` has it"
+    linkforge("init", "arm", cwd=tmp_path)
+    # The real one is tested with its builds; here is asked what the file asks of it.
+    (tmp_path / "linkforge_compileConfig.cmake").write_text(
+        'function(linkforge_add_robot)\n  message(STATUS "asked: ${ARGV}")\nendfunction()\n'
+    )
+    command = (cmake, "-S", "arm", "-B", "build", f"-Dlinkforge_compile_DIR={tmp_path}")
+    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=True)
+    assert "asked: arm.robot.yaml;FORMATS;urdf;srdf;INSTALL" in run.stdout
