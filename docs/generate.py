@@ -13,14 +13,14 @@ from pathlib import Path
 
 import yaml
 
-from linkforge_compile.bounds import Limit
+from linkforge_compile.bounds import MAX_FILE_BYTES, Limit
 from linkforge_compile.core.meshes.read import MAX_TRIANGLES
 from linkforge_compile.diagnostics.render import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_TOLD
 from linkforge_compile.expressions import grammar, operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.lowering import mesh_solids
-from linkforge_compile.modules import file_text, includes, patterns
+from linkforge_compile.modules import includes, patterns
 from linkforge_compile.modules.expand import MAX_DEPTH
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import definitions
@@ -228,7 +228,7 @@ def _functions() -> str:
 def _bounds() -> str:
     mebibyte = 1024 * 1024
     bounds: dict[str, int | str] = {
-        "size of a spec or data file": f"{file_text.MAX_BYTES // mebibyte} MiB",
+        "size of a spec or data file": f"{MAX_FILE_BYTES // mebibyte} MiB",
         "depth of nested lists and maps": reader.MAX_DEPTH,
         "modules within modules": MAX_DEPTH,
         "files included from included files": includes.MAX_DEPTH,

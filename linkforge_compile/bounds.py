@@ -9,6 +9,9 @@ from linkforge_compile.diagnostics import BeyondLimitError, Where
 from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
 from linkforge_compile.frozen import dataclass
 
+MAX_FILE_BYTES = 16 * 1024 * 1024
+"""How large one text may be that is read, a spec, data or XML."""
+
 FACTOR_VARIABLE = "LINKFORGE_LIMITS"
 """The environment variable that allows so many times as much: the user's word, which no spec can say."""
 
@@ -50,6 +53,16 @@ class Limit(Enum):
         "steps of expressions and patterns, where each item of a list that is looked through is one",
         3_000_000,
         "compute what is used often once, in 'variables'",
+    )
+    IGNORED_CODES = _Limit(
+        "codes in comments that ask not to be told of them",
+        20_000,
+        "mend what is told, or leave it out with '--ignore'",
+    )
+    MESH_BYTES = _Limit(
+        "bytes in the meshes that an inertia is computed from",
+        256 * 1024**2,
+        "give links their 'inertia', or simpler collision meshes",
     )
 
     @property

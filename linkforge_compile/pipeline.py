@@ -13,7 +13,7 @@ from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.checks import check
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Gaps, Severity
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
-from linkforge_compile.diagnostics.ignores import heed
+from linkforge_compile.diagnostics.ignores import Ignore, heed
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
@@ -266,17 +266,18 @@ def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilatio
     require_dialect(settings.gazebo)
     sink = Diagnostics()
     loader = settings.loader(place)
-    meshes = MeshSolids()
+    meshes = MeshSolids(loader.budget)
     robot = None
+    ignores: tuple[Ignore, ...] = ()
     try:
         spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them
         robot = robot_of(spec, settings, loader, meshes, sink) if spec else None
+        ignores = tuple(one for file in loader.sources for one in ignore_comments(file, loader.budget))
     except BeyondLimitError as beyond:
         sink.end(beyond)
     is_whole = not any(diagnostic.code is NOT_JUDGED for diagnostic in sink)
     if sink.has_errors or not is_whole:
         robot = None
-    ignores = tuple(ignore for file in loader.sources for ignore in ignore_comments(file))
     report = heed(sink.sorted(), ignores, is_whole=robot is not None)
     return Compilation(robot, report, (*loader.files, *meshes.files), (*loader.unread, *meshes.unread))
 

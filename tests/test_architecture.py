@@ -24,7 +24,7 @@ MAY_IMPORT = {
     "importers": "source diagnostics units syntax",
     "modules": "source diagnostics bounds units syntax schema expressions importers roots",
     "core": "source units",
-    "lowering": "source diagnostics units syntax modules core",
+    "lowering": "source diagnostics bounds units syntax modules core",
     "checks": "source diagnostics core",
     "backends": "source diagnostics units core resources",
     "writers": "source units syntax core modules",
@@ -34,7 +34,8 @@ MAY_IMPORT = {
     "launch": "diagnostics backends core pipeline",
     "editor": "diagnostics syntax schema modules lowering core roots stack resources",
     "cli": (
-        "source diagnostics core checks schema pipeline importing backends writers compare editor resources _version"
+        "source diagnostics bounds core checks schema pipeline importing backends writers compare editor resources "
+        "_version"
     ),
 }
 

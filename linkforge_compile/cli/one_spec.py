@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, TypedDict
 
+from linkforge_compile.bounds import MAX_FILE_BYTES
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.options import packages_of
 
@@ -74,9 +75,13 @@ def _settings(assignments: list[str], arguments: argparse.Namespace) -> _Setting
 
 
 def _standard_input() -> str:
+    """Return the text on standard input, of which no more is read than of a file."""
     if sys.stdin is None:
         raise UsageError("cannot read standard input: it is closed")
+    content = sys.stdin.buffer.read(MAX_FILE_BYTES + 1)
+    if len(content) > MAX_FILE_BYTES:
+        raise UsageError(f"standard input is larger than {MAX_FILE_BYTES // 1024**2} MiB")
     try:
-        return sys.stdin.buffer.read().decode("utf-8")
+        return content.decode("utf-8")
     except UnicodeDecodeError as error:
         raise UsageError(f"standard input is not UTF-8: {error.reason} at byte {error.start}") from None

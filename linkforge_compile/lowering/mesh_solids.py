@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.core.meshes import MeshError, MeshFault, solid_in
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.diagnostics import Diagnostics, Note
@@ -26,7 +27,7 @@ from linkforge_compile.modules.file_text import TooLargeError, UnreadableError, 
 from linkforge_compile.modules.mesh_files import FindMesh, misspelt_part
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.paths import as_typed
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar
 
 if TYPE_CHECKING:
@@ -52,7 +53,9 @@ _CODES = {
 class MeshSolids:
     """The solids of all mesh files of one compile, each read once."""
 
-    def __init__(self) -> None:
+    def __init__(self, budget: Budget | None = None) -> None:
+        """`budget` is what the files of the compile share; without one it is a compile by itself."""
+        self._budget = budget or Budget()
         self._known: dict[str, Solid | MeshError] = {}  # by real path
         self._files: list[Path] = []
         self._unread: list[Path] = []
@@ -69,11 +72,12 @@ class MeshSolids:
         """Every mesh file that was asked for and is not there, or too large, in that order."""
         return tuple(dict.fromkeys(self._unread))
 
-    def solid(self, path: Path) -> Solid | None:
-        """Return the solid in a file, in the unit of the file; None where there is no file.
+    def solid(self, path: Path, where: Span) -> Solid | None:
+        """Return the solid in a file that is named at a place, in the unit of the file; None where there is no file.
 
         Raises:
             MeshError: There is one, and no solid in it.
+            BeyondLimitError: The meshes of the compile are too much together.
 
         """
         real = os.path.realpath(path)
@@ -81,6 +85,7 @@ class MeshSolids:
             content = self._content(path)
             if content is None:
                 return None
+            self._budget.spend(Limit.MESH_BYTES, len(content), where)
             self._files.append(as_typed(path))
             try:
                 self._known[real] = solid_in(content, path.name)
@@ -128,7 +133,7 @@ class MeshReader:
             return None
         asked = Note("its inertia is needed here", inertial.span)
         try:
-            solid = self._solids.solid(path)
+            solid = self._solids.solid(path, where.span)
         except MeshError as error:
             if not self._solids.is_without_library:
                 facts = {"path": written, "reason": error.message, "library": error.message}

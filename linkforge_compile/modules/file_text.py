@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-MAX_BYTES = 16 * 1024 * 1024
+from linkforge_compile.bounds import MAX_FILE_BYTES
 
 
 class UnreadableError(Exception):
@@ -20,7 +20,7 @@ def file_text(path: Path, *, only_regular: bool) -> str | None:
 
     `only_regular` refuses pipes and terminals, for which a reader would wait.
     """
-    content = file_bytes(path, MAX_BYTES, only_regular=only_regular)
+    content = file_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
     try:
         return None if content is None else content.decode("utf-8")
     except UnicodeDecodeError as error:

@@ -8,13 +8,13 @@ from dataclasses import field
 from pathlib import Path
 from typing import Protocol, TypeAlias
 
-from linkforge_compile.bounds import Budget, Limit
+from linkforge_compile.bounds import MAX_FILE_BYTES, Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
 from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.importers import EncodingError, xml_text
-from linkforge_compile.modules.file_text import MAX_BYTES, UnreadableError, file_bytes, file_text
+from linkforge_compile.modules.file_text import UnreadableError, file_bytes, file_text
 from linkforge_compile.modules.includes import Whole, lay_together, reached
 from linkforge_compile.modules.noted import NotedSink, used_from
 from linkforge_compile.modules.packages import Package
@@ -231,7 +231,7 @@ def _spec(whole: Whole, folder: Path | None, package: Package | None) -> SpecFil
 
 
 def _xml_text(path: Path, *, only_regular: bool) -> str | None:
-    content = file_bytes(path, MAX_BYTES, only_regular=only_regular)
+    content = file_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
     try:
         return None if content is None else xml_text(content)
     except EncodingError as error:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 import yaml
 from yaml.events import ScalarEvent
 
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics.ignores import Ignore
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax.marks import Marks
@@ -21,23 +22,26 @@ _CODE = re.compile(r"LF\w+", re.IGNORECASE)
 _NOTHING_BUT_COMMENT = re.compile(r"\s*(#.*)?")
 
 
-def ignore_comments(file: SourceFile) -> Iterator[Ignore]:
+def ignore_comments(file: SourceFile, budget: Budget | None = None) -> Iterator[Ignore]:
     """Yield the comments that name codes to ignore: those of their line, or of the next where they stand alone.
 
-    What follows the codes is the author's reason. A file without the words costs one search.
+    What follows the codes is the author's reason. A file without the words costs one search. They are counted in
+    the budget, without one in their own.
     """
     if not _WORDS.search(file.text):
         return
     marks = Marks(file, file.text.removeprefix("\ufeff"))
-    found = list(_COMMENT.finditer(marks.text))
-    if not found or (texts := _texts(marks)) is None:
+    if not _COMMENT.search(marks.text) or (texts := _texts(marks)) is None:
         return
+    budget = budget or Budget()
     starts, line_meant = [text.start for text in texts], _lines_meant(file)
-    for comment in found:
+    for comment in _COMMENT.finditer(marks.text):
         span = marks.part(comment.start(), len(comment[0]))
         before = bisect_right(starts, span.start)
         if before and span.start < texts[before - 1].end:
             continue
+        # A comment without a code is one thing to tell of as well.
+        budget.spend(Limit.IGNORED_CODES, max(1, len(_CODE.findall(comment["codes"]))), span)
         codes = (
             (code[0], marks.part(code.start(), len(code[0])))
             for code in _CODE.finditer(marks.text, *comment.span("codes"))

@@ -122,6 +122,12 @@ def test_a_spec_is_checked_from_standard_input_with_paths_from_here(specs: Path)
     assert linkforge("compile", "-", cwd=specs, stdin=required).returncode == 1
 
 
+def test_no_more_is_read_of_standard_input_than_of_a_file(specs: Path):
+    run = linkforge("check", "-", cwd=specs, stdin="#" * (16 * 1024**2 + 1))
+    assert (run.returncode, run.stdout) == (2, "")
+    assert "standard input is larger than 16 MiB" in run.stderr
+
+
 def test_colours_are_written_where_they_are_asked_for(specs: Path):
     always = linkforge("check", "faulty.robot.yaml", "--color", "always", cwd=specs, NO_COLOR="1")
     assert "\033[1;31merror:" in always.stderr

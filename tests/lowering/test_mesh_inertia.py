@@ -2,12 +2,14 @@
 
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from linkforge_compile import Compilation, check_file, compile_file, compile_text
+from linkforge_compile.bounds import Limit
 from linkforge_compile.core import Vector3
 from linkforge_compile.core.meshes import solid_in
 from linkforge_compile.lowering import mesh_solids
@@ -143,6 +145,18 @@ def test_a_huge_file_is_not_read(tmp_path, monkeypatch):
         "LF6014: mesh 'cube.stl' is too large to compute an inertia from: it is larger than 0 MiB; "
         "give it a simpler collision mesh"
     ]
+
+
+def test_the_meshes_of_a_compile_are_bounded_together_each_file_once(tmp_path, monkeypatch):
+    for name in ("one.stl", "two.stl"):
+        save(CUBE, tmp_path / name)
+    size = (tmp_path / "one.stl").stat().st_size
+    monkeypatch.setattr(Limit.MESH_BYTES, "_value_", replace(Limit.MESH_BYTES.value, most=2 * size - 1))
+    assert messages(compile_file(spec(tmp_path, link("[{mesh: one.stl}, {mesh: {file: one.stl, scale: 2}}]")))) == []
+    (fault,) = compile_file(spec(tmp_path, link("[{mesh: one.stl}, {mesh: two.stl}]"))).diagnostics
+    assert fault.code.id == "LF3301"
+    assert f"more than {2 * size - 1:,} bytes in the meshes" in fault.message
+    assert fault.span.text == "two.stl"
 
 
 def test_a_fault_of_a_mesh_says_what_it_is_needed_for_and_who_uses_the_file(tmp_path):

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from linkforge_compile.bounds import MAX_FILE_BYTES
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.modules import Instance, Loader, arguments_from_text, expand
-from linkforge_compile.modules.file_text import MAX_BYTES
 from linkforge_compile.modules.paths import follow
 from tests.modules.assembling import write
 
@@ -43,7 +43,7 @@ def test_files_count_in_the_order_they_are_read(tmp_path):
     ("content", "reason"),
     [
         (b"linkforge: 1\nname: \xff\n", "it is not UTF-8: line 2 has the byte 0xff"),
-        (b" " * (MAX_BYTES + 1), "it is larger than 16 MiB"),
+        (b" " * (MAX_FILE_BYTES + 1), "it is larger than 16 MiB"),
     ],
 )
 def test_a_file_that_is_no_text_is_told(tmp_path, content, reason):

@@ -1,10 +1,12 @@
 """Comments that ask not to be told something."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from linkforge_compile import compile_file
+from linkforge_compile import compile_file, compile_text
+from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics.runs import told_once
 from linkforge_compile.pipeline import check_variants
 from linkforge_compile.source import SourceFile
@@ -87,3 +89,13 @@ joints: {weld: {type: fixed, parent: base, child: tool}}
     assert [one.code.id for one in runs["None"]] == ["LF1204", "LF1204"]
     (told,) = told_once(runs)
     assert told.message == "LF6004 is not told on line 9, so there is nothing to ignore"
+
+
+def test_comments_are_counted_by_their_codes_and_end_the_compile_beyond_the_bound(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(Limit.IGNORED_CODES, "_value_", replace(Limit.IGNORED_CODES.value, most=3))
+    spec = "linkforge: 1\nname: r\nlinks: {base: }\n# linkforge: ignore LF6003, LF6004\n"
+    few = compile_text(spec + "# linkforge: ignore LF6005\n")
+    assert {told.code.id for told in few.diagnostics} == {"LF1204"}
+    (told,) = compile_text(spec + "# linkforge: ignore\n# linkforge: ignore\n").diagnostics
+    assert (told.code.id, told.span and told.span.line) == ("LF3301", 6)
+    assert "3 codes in comments" in told.message
