@@ -19,6 +19,7 @@ from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
     XACRO,
     Arguments,
+    Instance,
     ListedParameter,
     Listing,
     Loader,
@@ -39,6 +40,7 @@ from linkforge_compile.syntax import ignore_comments
 if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
+    from linkforge_compile.core.resolver import FileSystemResolver
 
 __all__ = [
     "Compilation",
@@ -287,9 +289,12 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
     arguments = settings.arguments(loader, sink)
     instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant)
     lowered = lower(instance, sink, meshes)
+    resolver = _resolver(instance, loader)
     for alone in lowered.unmerged:
+        alone.robot.resource_resolver = resolver
         sink.report_all(check(alone.robot, Gaps(removed=alone.removed, may_look=loader.roots.hold)))
     if lowered.robot is not None:
+        lowered.robot.resource_resolver = resolver
         sink.report_all(check(lowered.robot, lowered.gaps.looking(loader.roots.hold)))
         sink.report_all(urdf_limits(lowered.robot, gazebo=settings.gazebo))
         sink.report_all(srdf_limits(lowered.robot))
@@ -298,6 +303,17 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
 
             sink.report_all(lost_on_the_way(lowered.robot, settings.output))
     return lowered.robot
+
+
+def _resolver(instance: Instance, loader: Loader) -> FileSystemResolver:
+    """Return what finds the meshes of a robot: by the user's packages, the spec's, and then those of its modules."""
+    from linkforge_compile.core.resolver import FileSystemResolver
+
+    packages: dict[str, Path] = dict(loader.packages)
+    for use in instance.with_modules:
+        for name, folder in use.packages.items():
+            packages.setdefault(name, folder)
+    return FileSystemResolver(packages=packages)
 
 
 def _errors_of(spec: SpecFile, loader: Loader) -> tuple[Diagnostic, ...]:

@@ -22,11 +22,15 @@ from linkforge_compile.checks import (
     states,
     tree,
 )
+from linkforge_compile.checks.mesh_files import RobotMeshes
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
 
 Check: TypeAlias = Callable[[Robot, Gaps], Iterator[Diagnostic]]
 """Looks at one question; its docstring is its manual page. It says nothing of names in the gaps."""
+
+MeshCheck: TypeAlias = Callable[[Robot, RobotMeshes], Iterator[Diagnostic]]
+"""A check that looks at mesh files as well; all of them share what was seen."""
 
 ROBOT_CHECKS: tuple[Check, ...] = (
     names.check_duplicates,
@@ -48,16 +52,9 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     joints.check_joint_speed,
     joints.check_soft_limits,
     inertia.check_inertia,
-    mass.check_density,
-    mass.check_inertia_scale,
-    mass.check_centre_of_mass,
     mass.check_signs_of_products,
     geometry.check_untouched_visuals,
     geometry.check_unseen_collisions,
-    meshes.check_mesh_files,
-    meshes.check_mesh_formats,
-    meshes.check_mirrored_collisions,
-    meshes.check_fine_collisions,
     sensors.check_sensor_links,
     sensors.check_sensor_frames,
     sensors.check_contacts,
@@ -81,6 +78,16 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     gazebo.check_tags_of_several_blocks,
 )
 
+MESH_CHECKS: tuple[MeshCheck, ...] = (
+    mass.check_density,
+    mass.check_inertia_scale,
+    mass.check_centre_of_mass,
+    meshes.check_mesh_files,
+    meshes.check_mesh_formats,
+    meshes.check_mirrored_collisions,
+    meshes.check_fine_collisions,
+)
+
 SEMANTIC_CHECKS: tuple[Check, ...] = (
     names.check_semantic_duplicates,
     srdf.check_semantic_links,
@@ -102,9 +109,6 @@ SEMANTIC_CHECKS: tuple[Check, ...] = (
     states.check_states_are_whole,
 )
 
-CHECKS = (*ROBOT_CHECKS, *SEMANTIC_CHECKS)
-"""Every check, in the order in which they run."""
-
 
 def check(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """Yield all that is wrong with the robot, each fault once, in the order of the checks.
@@ -112,5 +116,8 @@ def check(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     `gaps` are the names that the author wrote and the robot lacks, which has been told.
     """
     # To ask a robot for its semantic part makes one, and costs the import of its classes.
-    for one in CHECKS if robot.says_semantic else ROBOT_CHECKS:
+    for one in (*ROBOT_CHECKS, *SEMANTIC_CHECKS) if robot.says_semantic else ROBOT_CHECKS:
         yield from one(robot, gaps)
+    files = RobotMeshes(robot, gaps)
+    for looking in MESH_CHECKS:
+        yield from looking(robot, files)

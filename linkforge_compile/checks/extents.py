@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Transform
@@ -26,9 +26,14 @@ class Extent(NamedTuple):
         return math.dist(self.low, self.high)
 
     @property
+    def sides(self) -> tuple[float, ...]:
+        """How long it is along each axis [m]."""
+        return tuple(high - low for low, high in zip(self.low, self.high, strict=True))
+
+    @property
     def volume(self) -> float:
         """The volume [m³]."""
-        return math.prod(high - low for low, high in zip(self.low, self.high, strict=True))
+        return math.prod(self.sides)
 
     def distance(self, point: Iterable[float]) -> float:
         """Return how far a point lies outside [m]; 0 inside."""
@@ -36,9 +41,13 @@ class Extent(NamedTuple):
         return math.hypot(*(max(low - at, 0.0, at - high) for low, at, high in axes))
 
 
-def extent_of(shapes: Iterable[Visual | Collision]) -> Extent | None:
-    """Return the box that holds all of the shapes; None without any, and for meshes, which are not read here."""
-    extents = [_extent(shape.geometry, shape.origin) for shape in shapes]
+MeasureMesh: TypeAlias = Callable[[Mesh], Extent | None]
+"""Returns the box around a mesh in its own frame [m], None where it cannot be measured."""
+
+
+def extent_of(shapes: Iterable[Visual | Collision], measure: MeasureMesh = lambda _: None) -> Extent | None:
+    """Return the box that holds all of the shapes; None without any, and where a mesh cannot be measured."""
+    extents = [_extent(shape.geometry, shape.origin, measure) for shape in shapes]
     known = [extent for extent in extents if extent]
     if not known or len(known) < len(extents):
         return None
@@ -53,14 +62,21 @@ def volume_of(shapes: Shapes) -> float | None:
     return math.fsum(volumes) if volumes and len(volumes) == len(shapes) else None
 
 
-def _extent(geometry: Geometry, pose: Transform) -> Extent | None:
-    half = _half(geometry)
+def _extent(geometry: Geometry, pose: Transform, measure: MeasureMesh) -> Extent | None:
+    half, middle = _half(geometry), (0.0, 0.0, 0.0)
+    if isinstance(geometry, Mesh) and (box := measure(geometry)):
+        half = tuple(side / 2 for side in box.sides)
+        x, y, z = (low + side for low, side in zip(box.low, half, strict=True))
+        middle = (x, y, z)
     if half is None:
         return None
     if any(pose.rpy):
-        half = tuple(sum(map(operator.mul, map(abs, row), half)) for row in rotation_matrix(pose.rpy))
+        matrix = rotation_matrix(pose.rpy)
+        half = tuple(sum(map(operator.mul, map(abs, row), half)) for row in matrix)
+        x, y, z = (sum(map(operator.mul, row, middle)) for row in matrix)
+        middle = (x, y, z)
     (x, y, z), (to_x, to_y, to_z) = (
-        [at + sign * side for at, side in zip(pose.xyz, half, strict=True)] for sign in (-1, 1)
+        [place + at + sign * side for place, at, side in zip(pose.xyz, middle, half, strict=True)] for sign in (-1, 1)
     )
     return Extent((x, y, z), (to_x, to_y, to_z))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -99,9 +100,11 @@ def check_arms_of_end_effectors(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic
     links = group_links(robot)
     if gaps or len(links) < len(robot.semantic.groups):
         return
+    parents = {effector.parent_link for effector in robot.semantic.end_effectors}
+    holders = Counter(link for members in links.values() for link in parents & members)
     for effector in robot.semantic.end_effectors:
-        others = (members for group, members in links.items() if group != effector.group)
-        is_held = any(effector.parent_link in members for members in others)
+        own = links.get(effector.group, frozenset())
+        is_held = holders[effector.parent_link] > (effector.parent_link in own)
         if not effector.parent_group and not is_held and robot.has_link(effector.parent_link):
             use = Use(effector.parent_link, f"end effector '{effector.name}'", effector.source, ("parent_link",))
             yield use.told(NO_ARM, link=effector.parent_link)

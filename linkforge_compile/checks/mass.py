@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from typing import NamedTuple
 
-from linkforge_compile.checks.extents import extent_of, volume_of
+from linkforge_compile.checks.extents import Extent, extent_of, volume_of
+from linkforge_compile.checks.mesh_files import RobotMeshes
 from linkforge_compile.core.models.geometry import Mesh
-from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link
+from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.physics import inertial_of_shapes, rotated
 from linkforge_compile.diagnostics import Diagnostic, Gaps
@@ -30,6 +32,9 @@ from failing, and markers for shapes.
 LIGHTEST, DENSEST = 1.0, 25_000.0
 """Bounds of what links are made of [kg/m³]: air weighs 1.2, osmium 22,600."""
 
+MESH_SLACK = 10.0
+"""How much farther bounds lie for meshes: they may be hollow, and more may hang on a link than is drawn."""
+
 WIDEST = 10.0
 """The radius of gyration of a body some 30 m wide [m]; no link is."""
 
@@ -46,39 +51,43 @@ FARTHEST = 10.0
 """How many times the size of its shapes a centre of mass may lie outside of them."""
 
 
-def check_density(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_density(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     """A link is neither lighter than the air around it nor denser than any metal.
 
     Told where its mass, spread over its shapes, is less than 1 kg/m³, or more than 25,000 kg/m³ though it filled the
     whole box around them. Shapes in millimetres or a mass in grams or tonnes are the usual causes: write the units.
-    Links with meshes are not judged, since meshes are not measured here, nor those with less than a hundredth of the
-    robot's mass.
+    Of meshes, as far as they are .stl or .obj files at hand, a few corners are looked at: with them less than a
+    hundredth of the one bound, or ten times the other, is told. Links with less than a hundredth of the robot's mass
+    are not judged.
     """
     for link, inertial in _bodies(robot):
+        room = _room(link, meshes)
         volumes = [volume for shapes in (link.visuals, link.collisions) if (volume := volume_of(shapes))]
-        least = min(volumes, default=None)
-        around = extent_of((*link.visuals, *link.collisions))
-        mass = f"{inertial.mass:g}"
-        if least and (density := inertial.mass / least) < LIGHTEST:
-            yield LIGHT_LINK.at(link.source, "inertial", "mass", link=link.name, mass=mass, density=f"{density:.2g}")
-        elif around and around.volume and (density := inertial.mass / around.volume) > DENSEST:
-            yield DENSE_LINK.at(link.source, "inertial", "mass", link=link.name, mass=mass, density=f"{density:.2g}")
+        least, slack = min(volumes, default=None), 1.0
+        if least is None and room and room.is_of_meshes:
+            least, slack = room.volume, MESH_SLACK
+        facts = {"link": link.name, "mass": f"{inertial.mass:g}"}
+        if least and (density := inertial.mass / least) < LIGHTEST / slack**2:
+            yield LIGHT_LINK.at(link.source, "inertial", "mass", notes=(), density=f"{density:.2g}", **facts)
+        elif room and room.volume and (density := inertial.mass / room.volume) > DENSEST * room.slack:
+            yield DENSE_LINK.at(link.source, "inertial", "mass", notes=(), density=f"{density:.2g}", **facts)
 
 
-def check_inertia_scale(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_inertia_scale(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     """An inertia is about that of a body of the link's mass and size.
 
     Told where it is a hundred times, or a thousandth, of that of the box around the link's shapes filled with its
-    mass; where the shapes are meshes, which are not measured here, where it is that of a body 30 m wide. CAD programs
-    give g·mm² or kg·mm², which are 1e9 and 1e6 times the number in kg·m²: write the unit, such as '350 kg*mm^2', or
-    leave `inertia` out to have it computed. Links with less than a hundredth of the robot's mass are not judged.
+    mass, a thousand times where meshes are measured; where meshes cannot be, where it is that of a body 30 m wide. CAD
+    programs give g·mm² or kg·mm², which are 1e9 and 1e6 times the number in kg·m²: write the unit, such as
+    '350 kg*mm^2', or leave `inertia` out to have it computed. Links with less than a hundredth of the robot's mass are
+    not judged.
     """
     for link, inertial in _bodies_with_a_tensor(robot):
         moment = (inertial.inertia.ixx + inertial.inertia.iyy + inertial.inertia.izz) / 2
-        around = extent_of((*link.visuals, *link.collisions))
-        if around:
-            part = moment / (inertial.mass * around.diagonal**2 / 12)
-            if part > LARGEST:
+        room = _room(link, meshes)
+        if room and room.box.diagonal:
+            part = moment / (inertial.mass * room.box.diagonal**2 / 12)
+            if part > LARGEST * room.slack:
                 code, hint = LARGE_INERTIA, _unit_hint(part)
                 yield code.at(link.source, "inertial", "inertia", link=link.name, factor=_power(part), hint=hint)
             elif 0 < part < SMALLEST:
@@ -99,15 +108,16 @@ def _unit_hint(part: float) -> str:
     return f"; write the unit if it is in {UNITS[factor]}" if 0.3 < part / USUAL / factor < 3 else ""
 
 
-def check_centre_of_mass(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_centre_of_mass(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     """The centre of mass lies in or near the shapes of its link.
 
     Told where it is ten times the size of the shapes away from them: millimetres instead of metres, or a pose in
-    the frame of another link. `origin` is in the frame of the link. Links with meshes are not judged.
+    the frame of another link. `origin` is in the frame of the link. Meshes are measured as far as they are .stl or
+    .obj files at hand.
     """
     for link, inertial in _bodies_with_a_tensor(robot):
-        around = extent_of((*link.visuals, *link.collisions))
-        if around and (distance := around.distance(inertial.origin.xyz)) > FARTHEST * around.diagonal:
+        around = room.box if (room := _room(link, meshes)) else None
+        if around and (distance := around.distance(inertial.origin.xyz)) > FARTHEST * around.diagonal > 0:
             size = f"{around.diagonal:.2g}"
             yield FAR_CENTRE.at(
                 link.source, "inertial", "origin", link=link.name, distance=f"{distance:.3g}", size=size
@@ -141,6 +151,34 @@ def _is_turned(tensor: InertiaTensor, computed: InertiaTensor) -> bool:
 
 def _products(tensor: InertiaTensor) -> tuple[float, float, float]:
     return tensor.ixy, tensor.ixz, tensor.iyz
+
+
+class _Room(NamedTuple):
+    """The box around the shapes of a link, and whether meshes are among them."""
+
+    box: Extent
+    is_of_meshes: bool
+
+    @property
+    def slack(self) -> float:
+        """How far a bound is moved because the box is that of a few corners."""
+        return MESH_SLACK if self.is_of_meshes else 1.0
+
+    @property
+    def volume(self) -> float:
+        """The volume of the box [m³]; a sheet of triangles counts for a plate."""
+        thinnest = self.box.diagonal / 100 if self.is_of_meshes else 0.0
+        return math.prod(max(side, thinnest) for side in self.box.sides)
+
+
+def _room(link: Link, meshes: RobotMeshes) -> _Room | None:
+    """Return the room of all shapes of a link, or of those to touch or to see where the others are unknown."""
+    seen: list[Visual | Collision] = [*link.visuals]
+    touched: list[Visual | Collision] = [*link.collisions]
+    for shapes in ([*seen, *touched], touched, seen):
+        if box := extent_of(shapes, meshes.fitting_box):
+            return _Room(box, any(isinstance(shape.geometry, Mesh) for shape in shapes))
+    return None
 
 
 def _bodies(robot: Robot) -> Iterator[tuple[Link, Inertial]]:

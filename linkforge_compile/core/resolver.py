@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import islice
 from pathlib import Path
 from typing import Protocol, runtime_checkable
@@ -34,14 +34,18 @@ class IResourceResolver(Protocol):
 class FileSystemResolver:
     """Finds `package://`, `file://`, absolute and relative paths in the file system.
 
-    Packages are looked for in `additional_search_paths`, then in those of ROS_PACKAGE_PATH, then under
-    `share` of those of AMENT_PREFIX_PATH, then from `relative_to` up to ten folders outwards, where a package
-    is a folder of its name or with a package.xml that says the name. The first of them that holds the file
-    wins. Relative paths are looked for in `relative_to`, then in the current folder.
+    Packages are in the folders that `packages` says by their names; others are looked for in
+    `additional_search_paths`, then in those of ROS_PACKAGE_PATH, then under `share` of those of AMENT_PREFIX_PATH,
+    then from `relative_to` up to ten folders outwards, where a package is a folder of its name or with a package.xml
+    that says the name. The first of them that holds the file wins. Relative paths are looked for in `relative_to`,
+    then in the current folder.
     """
 
-    def __init__(self, additional_search_paths: list[Path] | None = None) -> None:
+    def __init__(
+        self, additional_search_paths: list[Path] | None = None, *, packages: Mapping[str, Path] | None = None
+    ) -> None:
         self.additional_search_paths = additional_search_paths
+        self.packages = dict(packages or {})
 
     def resolve(self, uri: str, relative_to: Path | None = None) -> Path:
         """Return the absolute path of an existing file or folder.
@@ -67,6 +71,8 @@ class FileSystemResolver:
             yield Path(uri)
 
     def _package_folders(self, package: str, start: Path) -> Iterator[Path]:
+        if package in self.packages:
+            yield self.packages[package]
         ros = _folders_of("ROS_PACKAGE_PATH")
         ament = (prefix / "share" for prefix in _folders_of("AMENT_PREFIX_PATH"))
         for folder in (*(self.additional_search_paths or ()), *ros, *ament):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import field
+from pathlib import Path
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Removed
@@ -35,6 +36,7 @@ class Instance:
     make it relative to the compiled file: "../arm/", or "package://arm_description/robots/"; "" for no other file.
     `references` are the names that expressions asked for, which must be names of this file or its modules.
     `find_mesh` finds the meshes that an inertia is to be computed from.
+    `packages` are the folders that the file declares for packages.
     `defaults` are those of the file, evaluated, None for none: the tree has them where an entry took them over.
     `removed` says of names of this file why it has nothing of that name: a `when`, or an override.
     `trail` lists the `use` that brought the file in, then the use of the file that wrote that, and outwards.
@@ -50,6 +52,7 @@ class Instance:
     references: tuple[NameReference, ...] = ()
     find_mesh: FindMesh = no_mesh
     removed: Removed = field(default_factory=Removed)
+    packages: Mapping[str, Path] = field(default_factory=dict)
     defaults: YamlMap | None = None
 
     @property

@@ -131,6 +131,7 @@ class _Expansion:
             modules=modules,
             references=asked,
             removed=body.removed,
+            packages=names.packages,
             defaults=defaults,
         )
 

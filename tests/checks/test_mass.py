@@ -1,4 +1,6 @@
 import math
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -18,6 +20,7 @@ from linkforge_compile.core import (
     Sphere,
     Transform,
     Vector3,
+    Visual,
 )
 from linkforge_compile.core.physics import inertial_of_shapes
 from tests.checks.robots import fixed, told
@@ -101,3 +104,71 @@ def test_the_box_around_shapes_holds_them_turned_and_moved():
     assert extent.high == pytest.approx((1.02, 0.15, 0.1))
     assert extent.distance((1.02, 0.15, 0.5)) == pytest.approx(0.4)
     assert extent.distance((0, 0, 0)) == 0
+
+
+def of_meshes(folder: Path, inertial: Inertial, scale: float = 1.0) -> Robot:
+    """Return a robot of one link, whose one shape is a tetrahedron of 0.2, 0.1 and 0.1 m around [0.1, 0.05, 0.05]."""
+    corners = ((0, 0, 0), (0.2, 0, 0), (0, 0.1, 0), (0, 0, 0.1))
+    text = "".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "f 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"
+    (folder / "part.obj").write_text(text)
+    mesh = Mesh(f"file://{folder}/part.obj", Vector3(scale, scale, scale))
+    return Robot("r", links=[Link("a", inertial, visuals=[Visual(mesh)])])
+
+
+FITTING = InertiaTensor(0.002, 0.005, 0.005)
+
+
+@pytest.mark.parametrize(
+    ("inertial", "scale", "messages"),
+    [
+        (Inertial(2.0, inertia=FITTING), 1.0, []),
+        (
+            Inertial(2.0, inertia=FITTING),
+            300.0,
+            [
+                "LF6030 link 'a' of 2 kg is lighter than air: 3.7e-05 kg/m³ in its shapes; is one in another unit?",
+                "LF6033 inertia of link 'a' is 7e-6 of that of the box around its shapes",
+            ],
+        ),
+        (
+            Inertial(2.0, inertia=FITTING),
+            1000.0,  # told of the mesh, and not again of what does not fit it
+            [],
+        ),
+        (
+            Inertial(2.0, inertia=scaled(FITTING, 1e-6)),
+            0.001,
+            [
+                "LF6031 link 'a' of 2 kg is denser than any metal: 1e+12 kg/m³ in the box around its shapes; "
+                "is one in another unit?"
+            ],
+        ),
+        (
+            Inertial(2.0, inertia=scaled(FITTING, 1e6)),
+            1.0,
+            [
+                "LF6032 inertia of link 'a' is 6e5 times that of the box around its shapes; "
+                "write the unit if it is in kg*mm^2"
+            ],
+        ),
+        (
+            Inertial(2.0, Transform(Vector3(120.0, 0.0, 0.0)), FITTING),
+            1.0,
+            ["LF6035 centre of mass of link 'a' is 120 m away from its shapes, which are 0.24 m in size"],
+        ),
+    ],
+)
+def test_a_link_of_meshes_is_judged_by_their_boxes(
+    tmp_path: Path, inertial: Inertial, scale: float, messages: list[str]
+):
+    assert [one for one in told(of_meshes(tmp_path, inertial, scale)) if "LF6020" not in one] == messages
+
+
+def test_a_mesh_that_is_a_sheet_or_not_at_hand_is_no_heavy_body(tmp_path: Path):
+    (tmp_path / "sheet.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    link = Link(
+        "a", Inertial(20.0, inertia=InertiaTensor(1, 1, 2)), visuals=[Visual(Mesh(f"file://{tmp_path}/sheet.obj"))]
+    )
+    assert told(Robot("r", links=[link])) == []
+    elsewhere = replace(link, visuals=[Visual(Mesh("package://elsewhere/a.obj"))])
+    assert told(Robot("r", links=[elsewhere])) == []

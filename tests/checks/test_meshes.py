@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile.checks import check
-from linkforge_compile.checks.meshes import SAMPLES, look_at
+from linkforge_compile import compile_file
+from linkforge_compile.checks import check, mesh_files
+from linkforge_compile.checks.mesh_files import SAMPLES, MeshFile, look_at
 from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
 from linkforge_compile.diagnostics import Gaps
 from tests.checks.robots import told
@@ -100,15 +101,15 @@ def test_millimetres_are_told_unless_they_are_scaled(meshes: Path):
     (meshes / "a.stl").write_bytes(strip(1000, 250.0))
     assert told(of(meshes, "package://arm/meshes/a.stl", scale=Vector3(0.001, 0.001, 0.001))) == []
     (message,) = told(of(meshes, "package://arm/meshes/a.stl"))
-    assert message.startswith("LF6020 mesh 'package://arm/meshes/a.stl' is 2.4e+02 metres wide")
+    assert message.startswith("LF6020 mesh 'package://arm/meshes/a.stl' is 2.5e+02 metres wide")
 
 
 def test_a_few_triangles_from_all_over_the_file_tell_its_size(meshes: Path):
     (meshes / "a.stl").write_bytes(strip(100_000, 1.0))
     look = look_at(meshes / "a.stl")
     assert look.triangles == 100_000
-    assert look.size is not None
-    assert look.size.x > 1 - 2 / SAMPLES
+    assert look.box is not None
+    assert look.box.sides[0] > 1 - 2 / SAMPLES
 
 
 @pytest.mark.parametrize(
@@ -139,3 +140,57 @@ def test_a_collision_that_is_turned_by_its_scale_is_fine(meshes: Path):
     assert told(of(meshes, "package://b/a.stl", scale=turned, as_collision=True)) == []
     assert told(of(meshes, "package://b/a.stl", scale=mirrored)) == []
     assert [one[:6] for one in told(of(meshes, "package://b/a.stl", scale=mirrored, as_collision=True))] == ["LF6024"]
+
+
+ASCII_STL = "solid a\n" + "".join(
+    f"facet normal 0 0 1\nouter loop\nvertex {x} 0 0\n vertex {x + 1} 0 0\nvertex {x} -2e0 0.5\nendloop\nendfacet\n"
+    for x in range(2000)
+)
+OBJ = "# a\no part\n" + "".join(f"v {x} -2 0.5\nv {x + 1}. 0 0 1 1 1\n" for x in range(2000)) + "vt 9 9 9\nf 1 2 3\n"
+
+
+@pytest.mark.parametrize(("name", "text"), [("a.stl", ASCII_STL), ("a.STL", ASCII_STL), ("a.obj", OBJ)])
+def test_a_few_pieces_of_a_mesh_of_text_tell_its_box(meshes: Path, name: str, text: str):
+    (meshes / name).write_text(text)
+    box = look_at(meshes / name).box
+    assert box is not None
+    assert box.low[1:] == (-2.0, 0.0)
+    assert box.high[1:] == (0.0, 0.5)
+    assert box.low[0] == 0
+    assert 1700 < box.high[0] <= 2000
+
+
+def test_a_mesh_of_text_is_read_whole_where_it_is_short(meshes: Path):
+    (meshes / "a.obj").write_text("v 1 2 3\nv 4 5 6\nv x y z\nv 1")
+    assert look_at(meshes / "a.obj").box == ((1, 2, 3), (4, 5, 6))
+
+
+def test_each_file_is_looked_at_once(meshes: Path, monkeypatch: pytest.MonkeyPatch):
+    (meshes / "a.stl").write_bytes(strip(12_000, 1.0))
+    looks: list[Path] = []
+
+    def counted(path: Path) -> MeshFile:
+        looks.append(path)
+        return look_at(path)
+
+    monkeypatch.setattr(mesh_files, "look_at", counted)
+    subject = of(meshes, "package://arm/meshes/a.stl", "package://arm/meshes/a.stl", as_collision=True)
+    assert len(told(subject)) == 1
+    assert len(looks) == 1
+
+
+def test_packages_of_the_command_line_come_before_those_of_spec_and_modules(tmp_path: Path):
+    for name in ("given", "declared", "of_module"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "given" / "a.stl").write_bytes(strip(2, 0.1))
+    (tmp_path / "of_module" / "b.stl").write_bytes(b"")
+    module = "linkforge: 1\nname: m\npackages: {p: declared, q: of_module}\nlinks: {m: {visual: {mesh: package://q/b.stl}}}\n"
+    (tmp_path / "m.robot.yaml").write_text(module)
+    spec = "linkforge: 1\nname: r\npackages: {p: declared}\nlinks: {a: {visual: {mesh: package://p/a.stl}}}\n"
+    (tmp_path / "r.robot.yaml").write_text(spec + "modules: {one: {use: m.robot.yaml, parent: a}}\n")
+
+    def codes(**options: dict[str, Path]) -> list[str]:
+        return [one.code.id for one in compile_file(tmp_path / "r.robot.yaml", **options).diagnostics]
+
+    assert codes() == ["LF6021", "LF6022"]
+    assert codes(packages={"p": tmp_path / "given"}) == ["LF6022"]

@@ -69,6 +69,16 @@ def test_what_is_not_there_is_not_found(uri, tmp_path):
         FileSystemResolver().resolve(uri, tmp_path)
 
 
+def test_a_package_that_is_named_is_looked_for_there_first(tmp_path):
+    for folder in ("named", "found/arm"):
+        (tmp_path / folder).mkdir(parents=True)
+        (tmp_path / folder / "arm.stl").touch()
+    (tmp_path / "found" / "arm" / "leg.stl").touch()
+    resolver = FileSystemResolver([tmp_path / "found"], packages={"arm": tmp_path / "named"})
+    assert resolver.resolve("package://arm/arm.stl") == tmp_path / "named" / "arm.stl"
+    assert resolver.resolve("package://arm/leg.stl") == tmp_path / "found" / "arm" / "leg.stl"
+
+
 class Fixed:
     """A resolver with one answer."""
 
