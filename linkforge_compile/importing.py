@@ -16,7 +16,7 @@ from linkforge_compile.frozen import dataclass
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
 from linkforge_compile.modules import XACRO, Loader, SpecFile, Used
-from linkforge_compile.pipeline import Parameters, Settings, robot_of
+from linkforge_compile.pipeline import Packages, Parameters, Settings, robot_of
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.stack import with_room
 from linkforge_compile.syntax import YamlMap, read
@@ -53,14 +53,16 @@ def import_urdf(
     *,
     srdf: str | Path | None = None,
     arguments: Parameters = (),
+    packages: Packages | None = None,
     allow_outside: bool = False,
 ) -> Import:
     """Read a URDF file, and the SRDF of the same robot, as a spec that compiles to the same robot.
 
-    Its errors are told where those files have them. A xacro file is expanded with the arguments first, and what it
-    names is read where `compile_file` reads; `allow_outside` lets it read anything.
+    Its errors are told where those files have them. A xacro file is expanded with the arguments first, its packages
+    are looked for in `packages` before other places, and what it names is read where `compile_file` reads;
+    `allow_outside` lets it read anything.
     """
-    settings = Settings(arguments, allow_outside=allow_outside)
+    settings = Settings(arguments, packages, allow_outside=allow_outside)
     return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), settings))
 
 

@@ -192,6 +192,8 @@ def check_variants(
 
 def _variants(path: Path, settings: Settings) -> Iterable[str]:
     """Return the names of a spec's variants, none where it cannot be read: then its check says so."""
+    if path.suffix.lower() == XACRO:
+        return ()
     try:
         spec = settings.loader(path).open(path, Diagnostics())
     except BeyondLimitError:
@@ -200,12 +202,19 @@ def _variants(path: Path, settings: Settings) -> Iterable[str]:
 
 
 def parameters_of(path: str | Path, *, allow_outside: bool = False) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
-    """List the parameters and variants of a spec file, None where it cannot be read, and what is wrong with them."""
+    """List the parameters and variants of a spec file, None where it cannot be read, and what is wrong with them.
+
+    Those of a xacro file are the arguments that it declares itself; none is declared by a URDF.
+    """
     sink, loader = Diagnostics(), Settings(allow_outside=allow_outside).loader(Path(path))
     listing = None
     try:
-        spec = loader.open(Path(path), sink)
-        listing = list_parameters(spec, loader, sink) if spec else None
+        if Path(path).suffix.lower() == XACRO:
+            from linkforge_compile.modules.xacro import list_arguments
+
+            listing = list_arguments(Path(path), loader, sink)
+        elif spec := loader.open(Path(path), sink):
+            listing = list_parameters(spec, loader, sink)
     except BeyondLimitError as beyond:
         sink.end(beyond)
     return listing, sink.sorted()

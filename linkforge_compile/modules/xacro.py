@@ -22,6 +22,7 @@ from linkforge_compile.expressions import FAULT
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
+from linkforge_compile.modules.listing import ListedParameter, Listing
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
@@ -105,6 +106,21 @@ def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Robot | None
     expanded = SourceFile(f"{main.name} (expanded)", result.text, order=main.order)
     imported = read_urdf(expanded, inside, partial(moved_back, find=written.element))
     return Robot(imported, main, (*written.files, expanded)) if imported else None
+
+
+def list_arguments(path: Path, loader: Loader, sink: Diagnostics) -> Listing | None:
+    """List the arguments that a xacro file declares, those of the files that it includes left out."""
+    from linkforge_compile.importers.xml import read_xml
+
+    file = loader.open_xml(path, sink)
+    document = read_xml(file, sink) if file else None
+    if document is None:
+        return None
+    arguments: dict[str, ListedParameter] = {}
+    for element in _in_order(document.root):
+        if element.tag == "xacro:arg" and (name := element.get("name")):
+            arguments.setdefault(name, ListedParameter(name, "string", default=element.get("default")))
+    return Listing(document.root.get("name") or path.name, parameters=tuple(arguments.values()))
 
 
 class _Asked:

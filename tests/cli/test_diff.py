@@ -55,7 +55,8 @@ def test_what_differs_is_told_in_a_robots_terms(arms: Path):
 def test_the_same_robot_is_no_difference(arms: Path):
     linkforge("compile", "old.robot.yaml", "-o", "old.urdf", cwd=arms)
     run = linkforge("diff", "old.robot.yaml", "old.urdf", cwd=arms)
-    assert (run.returncode, run.stdout) == (0, "old.robot.yaml and old.urdf are the same robot\n")
+    told = "old.robot.yaml and old.urdf are the same robot\nthe semantic part is left out: old.urdf has none\n"
+    assert (run.returncode, run.stdout) == (0, told)
 
 
 def test_parameters_go_to_every_spec(arms: Path):
@@ -63,6 +64,31 @@ def test_parameters_go_to_every_spec(arms: Path):
     run = linkforge("diff", "old.urdf", "old.robot.yaml", "reach:=1.5", cwd=arms)
     assert run.returncode == 1
     assert "  ~ flange\n      origin: moved by 500 mm (z +500 mm)\n" in run.stdout
+
+
+def test_each_side_has_parameters_and_a_variant_of_its_own(arms: Path):
+    file = arms / "old.robot.yaml"
+    file.write_text(f"{OLD}variants: {{long: {{reach: 2}}}}\n")
+    twice = ("diff", file.name, file.name)
+    run = linkforge(*twice, "--before", "reach=0.5", "--after", "reach:=0.75 m", cwd=arms)
+    assert "  ~ flange\n      origin: moved by 250 mm (z +250 mm)\n" in run.stdout
+    run = linkforge(*twice, "--after-variant", "long", cwd=arms)
+    assert "  ~ flange\n      origin: moved by 1000 mm (z +1000 mm)\n" in run.stdout
+    linkforge("compile", file.name, "-o", "old.urdf", cwd=arms)
+    run = linkforge("diff", "old.urdf", file.name, "--before", "reach=1", cwd=arms)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert "'old.urdf' has no parameters" in run.stderr
+
+
+def test_a_xacro_takes_its_arguments(arms: Path):
+    pytest.importorskip("xacro")
+    (arms / "a.urdf.xacro").write_text(
+        '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="link" default="b"/>'
+        '<link name="$(arg link)"/></robot>'
+    )
+    run = linkforge("diff", "a.urdf.xacro", "a.urdf.xacro", "--after", "link=c", cwd=arms)
+    assert (run.returncode, run.stderr) == (1, "")
+    assert "> c: was 'b'" in run.stdout
 
 
 def test_json_is_as_its_schema_says(arms: Path):

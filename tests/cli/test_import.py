@@ -6,6 +6,7 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.cli.main import main
+from tests.cli.test_compile import linkforge
 
 ARM = """<robot name="arm"><link name="base"/>{}</robot>"""
 
@@ -71,3 +72,16 @@ def test_a_file_in_another_encoding_than_it_says_is_told(tmp_path: Path, capfd: 
     urdf.write_bytes(b'<?xml version="1.0" encoding="utf-8"?><robot name="\xff"/>')
     assert main(["import", str(urdf)]) == 1
     assert "line 1 has the byte 0xff, which is not utf-8" in capfd.readouterr().err
+
+
+def test_a_xacro_finds_its_packages_where_they_are_said_to_be(tmp_path: Path):
+    pytest.importorskip("xacro")
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "part.xacro").write_text('<robot><link name="part"/></robot>')
+    (tmp_path / "a.urdf.xacro").write_text(
+        '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        '<xacro:include filename="$(find parts)/part.xacro"/></robot>'
+    )
+    run = linkforge("import", "a.urdf.xacro", "--package", "parts=elsewhere", cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert "part: {}" in run.stdout

@@ -113,3 +113,21 @@ def test_one_variant_or_all_of_them(arm: Path):
     run = linkforge("check", "arm.robot.yaml", "--all-variants", "--variant", "lab", cwd=arm)
     assert run.returncode == 2
     assert "--variant or --all-variants" in run.stderr
+
+
+def test_a_xacro_has_its_arguments_and_a_urdf_none(tmp_path: Path):
+    (tmp_path / "a.urdf.xacro").write_text(
+        '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        '<xacro:arg name="reach" default="0.5"/><xacro:arg name="serial"/><link name="a"/></robot>'
+    )
+    (tmp_path / "a.urdf").write_text('<robot name="arm"><link name="a"/></robot>')
+    run = linkforge("params", "a.urdf.xacro", cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert [line.split() for line in run.stdout.splitlines()[3:]] == [
+        ["reach", "string", "0.5"],
+        ["serial", "string", "(required)"],
+    ]
+    assert linkforge("params", "a.urdf", cwd=tmp_path).stdout == "arm\n\nIt has no parameters.\n"
+    run = linkforge("check", "--all-variants", "a.urdf", "a.urdf.xacro", "serial:=7", "--quiet", cwd=tmp_path)
+    assert run.returncode == 1, "the URDF has no parameter 'serial'"
+    assert "serial" in run.stderr

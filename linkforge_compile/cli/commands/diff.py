@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import OK, UsageError
-from linkforge_compile.cli.options import add_spec_options, split_assignments
+from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
@@ -21,14 +21,19 @@ if TYPE_CHECKING:
 DIFFERENT, NO_ROBOT = 1, 2
 """Exit codes, as diff(1) has them: 0 is for the same, and 2 for trouble."""
 
+_SIDES = ("before", "after")
+
 _EXAMPLES = """\
-A and B are specs or URDFs (.urdf, .xml); `-p`, `--variant` and `--package` go to every spec among them. Where one of
-them is a URDF, the semantic part is left out. Only errors of theirs are told; `linkforge check` tells the rest.
+A and B are specs or URDFs (.urdf, .xml, .xacro); `-p`, `--variant` and `--package` go to every spec among them,
+`--before` and `--after` to A or B alone. Beside a URDF the semantic part is left out, which is said. Only errors of
+theirs are told; `linkforge check` tells the rest.
 Exit codes: 0 for the same robot, 1 for another one, 2 for wrong usage and for what is no robot.
 
 examples:
   linkforge diff old.robot.yaml new.robot.yaml
   linkforge diff arm.urdf arm.robot.yaml --tolerance 1e-9
+  linkforge diff arm.robot.yaml arm.robot.yaml --before reach=0.7m --after reach=0.9m
+  linkforge diff arm.robot.yaml arm.robot.yaml --after-variant sim
   linkforge diff old.urdf new.urdf --json
 """
 
@@ -45,6 +50,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="T",
         help="what is taken for the same: poses within T m and T rad, other numbers within that share (1e-6)",
     )
+    for side in _SIDES:
+        parser.add_argument(
+            f"--{side}",
+            metavar="NAME=VALUE",
+            action="append",
+            default=[],
+            help=f"set a parameter of the robot {side} alone",
+        )
+        parser.add_argument(f"--{side}-variant", metavar="NAME", help=f"the variant of the robot {side} alone")
     add_spec_options(parser)
     add_telling_options(parser)
 
@@ -55,8 +69,9 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(f"takes two robots, found {len(words)}")
     if words == ["-", "-"]:
         raise UsageError("only one of the robots can come from standard input")
-    robots = [_robot(word, assignments, arguments) for word in words]
-    before, after = robots
+    before, after = (
+        _robot(word, assignments, _for_side(side, word, arguments)) for side, word in zip(_SIDES, words, strict=True)
+    )
     if before is None or after is None:
         return NO_ROBOT
     from linkforge_compile.cli.output import write_to_stdout
@@ -69,8 +84,29 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         write_to_stdout(_json_text(words, tolerance, semantic, differences, gone))
     else:
-        write_to_stdout("".join(f"{line}\n" for line in _lines(words, differences, gone)))
+        lines = (*_lines(words, differences, gone), *_left_out(words, (before, after)))
+        write_to_stdout("".join(f"{line}\n" for line in lines))
     return DIFFERENT if differences else OK
+
+
+def _for_side(side: str, word: str, arguments: argparse.Namespace) -> argparse.Namespace:
+    """Return the arguments as they are for the robot of one side."""
+    from argparse import Namespace
+
+    parameters: list[str] = getattr(arguments, side)
+    variant: str | None = getattr(arguments, f"{side}_variant")
+    if _is_urdf(word) and (variant or (parameters and not _is_xacro(word))):
+        raise UsageError(f"'{word}' has no {'variants' if variant else 'parameters'}")
+    ours = Namespace(**vars(arguments))
+    ours.parameters = [*arguments.parameters, *parameters]
+    ours.variant = variant or arguments.variant
+    return ours
+
+
+def _left_out(words: Sequence[str], robots: Sequence[Robot]) -> Iterator[str]:
+    """Yield the line that says that the semantic part is not compared, where one of the robots has one."""
+    if any(robot.says_semantic for robot in robots) and any(map(_is_urdf, words)):
+        yield f"the semantic part is left out: {' and '.join(filter(_is_urdf, words))} has none"
 
 
 def _tolerance(text: str) -> float:
@@ -89,12 +125,21 @@ def _is_urdf(word: str) -> bool:
     return Path(word).suffix.lower() in {".urdf", ".xml", ".xacro"}
 
 
+def _is_xacro(word: str) -> bool:
+    return Path(word).suffix.lower() == ".xacro"
+
+
 def _robot(word: str, assignments: list[str], arguments: argparse.Namespace) -> Robot | None:
     if _is_urdf(word):
         from linkforge_compile.importing import import_urdf
         from linkforge_compile.pipeline import compile_text
 
-        imported = import_urdf(word)
+        imported = import_urdf(
+            word,
+            arguments=[*arguments.parameters, *assignments] if _is_xacro(word) else (),
+            packages=packages_of(arguments),
+            allow_outside=arguments.allow_outside,
+        )
         if tell((*_errors(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
             return None
         compilation = compile_text(imported.text, name=word, folder=Path(word).parent)

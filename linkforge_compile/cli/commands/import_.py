@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import one_spec
-from linkforge_compile.cli.options import add_outside_option, split_assignments
+from linkforge_compile.cli.options import add_outside_option, add_package_option, packages_of, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, say, tell
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--srdf", metavar="ROBOT.srdf", help="what planners know of the same robot")
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
     parser.add_argument("--strict", action="store_true", help="fail, writing nothing, where something cannot be kept")
+    add_package_option(parser)
     add_outside_option(parser)
     add_telling_options(parser)
 
@@ -44,7 +45,13 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
     from linkforge_compile.importing import import_urdf
 
-    imported = import_urdf(urdf, srdf=arguments.srdf, arguments=assignments, allow_outside=arguments.allow_outside)
+    imported = import_urdf(
+        urdf,
+        srdf=arguments.srdf,
+        arguments=assignments,
+        packages=packages_of(arguments),
+        allow_outside=arguments.allow_outside,
+    )
     is_faulty = tell(imported.diagnostics, arguments) or imported.has_errors
     if imported.text is None or (arguments.strict and (imported.losses or is_faulty)):
         return FAULTY_SPEC
