@@ -75,7 +75,7 @@ def _prefixed(field: Field[Any]) -> str:
     if kind.startswith("str"):
         return "value and prefix + value"
     if kind == "Sequence[str]":
-        return "value and tuple([prefix + name for name in value])"
+        return "value and tuple([name and prefix + name for name in value])"
     if kind.startswith("Sequence["):
         return "value and tuple([each.with_prefix(prefix) for each in value])"
     if kind.startswith("Mapping[str"):

@@ -11,6 +11,7 @@ from linkforge_compile.core.models.graph import refuse_cycles
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Note, Removed
 from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
+from linkforge_compile.diagnostics.codes.names import OWN_ATTRIBUTE_STAYS
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.asked_names import tell_unknown_names
 from linkforge_compile.lowering.clashes import Clash, told_of_clashes
@@ -121,10 +122,14 @@ class _Fold:
         root = _root_of(component) if component else None
         final_root = None if root is None else module.prefix + root
         is_whole = component is not None and (root is not None or bool(lowered.gaps))
-        is_named = component is not None and is_whole and self._prefixed(component, module)
+        takes_prefix = self._takes_prefix(module)
+        is_named = component is not None and is_whole and takes_prefix
+        if component and is_named:
+            component.prefix_all(module.prefix)
         clashes = tuple(self._clashes(component)) if component and is_named else ()
         # What a clash keeps out is not judged for where it would hang.
-        hanging = self._module_joint(module, lowered.mount, None if clashes else final_root)
+        mount = lowered.mount if takes_prefix else lowered.mount and lowered.mount._replace(joint=None, gazebo=())
+        hanging = self._module_joint(module, mount, None if clashes else final_root)
         if component is None:
             joined = False
         elif not is_named:
@@ -174,6 +179,7 @@ class _Fold:
                 lost=self._gaps,
             )
             states = resolve_states(self._states, around)
+            self._gaps |= gaps_of({state.name for state in self._states} - {state.name for state in states})
             self._robot.semantic = replace(semantic, group_states=(*states, *semantic.group_states))
         if hangs_alone and self._robot.says_semantic:
             from linkforge_compile.lowering.srdf_order import side_by_side
@@ -185,15 +191,12 @@ class _Fold:
             self._under_a_prefix += warnings_under_a_prefix(self._passed_on, self._robot)
         return Lowered(self._robot, tuple(self._unmerged), self._gaps, tuple(self._under_a_prefix), mount)
 
-    def _prefixed(self, component: Robot, module: Instance) -> bool:
-        """Give a component its final names; False, and told, for a prefix that no name may begin with."""
+    def _takes_prefix(self, module: Instance) -> bool:
+        """Whether names may begin with the prefix of a module; told where they may not."""
         fields = module_fields(module, self._sink)
-        if module.prefix and fields:
-            place = fields.node.get("prefix") or fields.ref
-            if not fields.name_is_valid(module.prefix, "prefix", place):
-                return False
-        component.prefix_all(module.prefix)
-        return True
+        if not module.prefix or not fields:
+            return True
+        return fields.name_is_valid(module.prefix, "prefix", fields.node.get("prefix") or fields.ref)
 
     def _clashes(self, component: Robot) -> Iterator[Clash]:
         """Yield every part whose final name is taken already; materials that are equal may share one."""
@@ -211,6 +214,7 @@ class _Fold:
 
         The joint by which it hangs is added apart, for its parent may be a link of a module that comes later.
         """
+        self._sink.report_all(self._attributes_that_stay(component, module))
         if held is not None and component.says_semantic:
             self._leave_out_virtual_joints(component, held, module.prefix)
         parts = dict(_parts(component))
@@ -225,6 +229,23 @@ class _Fold:
         self._parts.update(parts)
         self._owners.update(dict.fromkeys((*parts, *materials), module))
         return True
+
+    def _attributes_that_stay(self, component: Robot, module: Instance) -> Iterator[Diagnostic]:
+        """Yield what a module says of the whole robot that this file says otherwise."""
+        whole = [("the robot", dict(self._robot.extra_attributes), dict(component.extra_attributes))]
+        if self._robot.says_semantic and component.says_semantic:
+            own, other = self._robot.semantic, component.semantic
+            whole.append(("the SRDF", dict(own.extra_attributes), dict(other.extra_attributes)))
+        for owner, ours, theirs in whole:
+            for name, value in theirs.items():
+                if ours.get(name, value) != value:
+                    yield OWN_ATTRIBUTE_STAYS.at(
+                        module.entry,
+                        what=f"attribute '{name}' of {owner}",
+                        module=module.name,
+                        theirs=value,
+                        ours=ours[name],
+                    )
 
     def _leave_out_virtual_joints(self, component: Robot, root: str, prefix: str) -> None:
         """Leave out how a module would stand in the world by itself, once it hangs on a link, and what names that.

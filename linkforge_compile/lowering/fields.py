@@ -9,7 +9,7 @@ from typing import TypeVar
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.naming import is_valid_name
-from linkforge_compile.diagnostics import Code, Diagnostics
+from linkforge_compile.diagnostics import Code, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.model import (
     MISSING_FIELD,
     REFUSED,
@@ -17,7 +17,7 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_COUNT,
     WRONG_KIND,
 )
-from linkforge_compile.diagnostics.codes.names import INVALID_NAME
+from linkforge_compile.diagnostics.codes.names import INVALID_NAME, NAME_TWICE
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.extra import extras_of
@@ -191,8 +191,17 @@ class Fields:
 
     def names(self, key: str) -> tuple[str, ...]:
         """Read a list of references to names, without those that are faulty."""
-        texts = (self.text_at(node, key) for node in self.items(key))
-        return tuple(text for text in texts if text is not None)
+        names: list[str] = []
+        seen: set[str] = set()
+        for node in self.items(key):
+            name = self.text_at(node, key)
+            if name is None:
+                continue
+            if name in seen:
+                self.tell(NAME_TWICE, node, name=name, field=key, owner=self.title)
+            seen.add(name)
+            names.append(name)
+        return tuple(names)
 
     # Reading a node that is at hand
 
@@ -253,27 +262,32 @@ class Fields:
         """Whether a fault in this object has been told: what it seems to lack may be that, misspelt."""
         return any(isinstance(entry.value, YamlFault) for entry in self.node)
 
-    def has_faulty_items(self, *keys: str) -> bool:
-        """Whether a list under one of the keys, or an item of it, has been told to be faulty."""
-        return any(isinstance(node, YamlFault) for key in keys for node in self.items(key))
-
     def tell_lack(self, code: Code, **facts: object) -> None:
         """Report what this object lacks; silent where something in it is faulty."""
         if not self.is_faulty:
             self.tell(code, self.ref, near=(), **facts)
 
-    def build(self, make: Callable[[], T], *, is_whole: bool = True) -> T | None:
+    def build(self, make: Callable[[], T]) -> T | None:
         """Make an object of the IR; what its constructor refuses is told at the field it names.
 
-        Of an object that is not whole, since faulty parts were left out, it may refuse just that: silently.
+        Where a fault in this object has been told, it may refuse what stands in for that, or its lack: silently.
         """
         try:
             return make()
         except RobotModelError as error:
-            if is_whole:
+            if not self._has_told_faults:
                 reason = error.message.removeprefix(f"{self.title} ")
                 self.sink.report(REFUSED.at(self.ref, *error.field, owner=self.title, reason=reason))
             return None
+
+    @property
+    def _has_told_faults(self) -> bool:
+        """Whether something in this object, however deep, is known to be wrong."""
+        told = [one.span for one in self.sink if one.span and one.severity is Severity.ERROR]
+        return any(
+            isinstance(node, YamlFault) or any(span.lies_in(node.span) for span in told)
+            for node in _nodes_within(self.node)
+        )
 
     def said(self, key: str, required: str = "") -> YamlNode | None:
         """Return what is said under a key; with an example of what to write, nothing said is told."""
@@ -287,6 +301,20 @@ class Fields:
         """Report a node of another kind than its field takes; silent where that has been done."""
         if not isinstance(node, YamlFault):
             self.tell(WRONG_KIND, node, field=field, expected=expected, found=found(node))
+
+
+def _nodes_within(node: YamlNode) -> Iterator[YamlNode]:
+    """Yield all keys, scalars and empty nodes; not what holds others, for an arranged map spans nothing of its own."""
+    match node:
+        case YamlMap() if node.entries:
+            for entry in node:
+                yield entry.key
+                yield from _nodes_within(entry.value)
+        case YamlList() if node.items:
+            for item in node:
+                yield from _nodes_within(item)
+        case _:
+            yield node
 
 
 def or_default(said: T | None, default: T) -> T:

@@ -86,7 +86,7 @@ def lower_file(
         **outer_extras_of(file),
     )
     lost = [name for parts in (links, joints) for name, part in parts.items() if part is None]
-    gaps = gaps_of([*lost, *(semantic.lost_groups if semantic else ())])
+    gaps = gaps_of([*lost, *(semantic.lost if semantic else ())])
     if is_part or _has_lost(tree, _SECTIONS_OF_NAMES) or _has_lost(tree.get("semantic"), _SECTIONS_OF_SEMANTIC_NAMES):
         gaps |= Gaps(prefixes=("",))
     return LoweredFile(robot, semantic.states if semantic else (), gaps, tuple(_mounts(file)))

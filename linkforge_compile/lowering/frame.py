@@ -26,9 +26,11 @@ def lower_frames(file: Fields) -> Iterator[Frame]:
         yield frame or Frame(name, f"{name}_joint")
 
 
-def _frame(fields: Fields, name: str) -> Frame | None:
+def _frame(fields: Fields, name: str) -> Frame:
     valid = fields.name_is_valid(name, "frame", fields.ref)
-    joint_name = f"{name}_joint" if fields.node.get("joint") is None else fields.name("joint", "joint")
+    said = fields.text("joint")
+    joint_name = f"{name}_joint" if said is None else said
+    valid &= said is None or fields.name_is_valid(said, "joint", fields.node.get("joint") or fields.ref)
     ends = Ends(fields.text("parent", required="base"), name, fields.origin())
     joint = joint_between(fields, joint_name if valid else None, JointType.FIXED, ends)
-    return None if joint is None else Frame(name, joint.name, Link(name, source=fields.ref), joint)
+    return Frame(name, joint_name, Link(name, source=fields.ref) if joint else None, joint)

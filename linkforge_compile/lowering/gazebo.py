@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from linkforge_compile.core.frozen_map import FreePart
-from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
+from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, GazeboPlugin
+from linkforge_compile.core.models.link import PHYSICS_TAGS
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import TAG_TWICE
 from linkforge_compile.lowering.extra import extras_of
@@ -16,26 +17,6 @@ from linkforge_compile.lowering.quantities import NOT_NEGATIVE, ZERO_TO_ONE
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap
 from linkforge_compile.units import Dimension, number_text
-
-_PHYSICS_TAGS = {
-    "self_collide": "selfCollide",
-    "gravity": "gravity",
-    "mu": "mu1",
-    "mu2": "mu2",
-    "kp": "kp",
-    "kd": "kd",
-}
-"""The tag that each key of a link's `physics` becomes."""
-
-_FIELD_TAGS = {
-    "material": "material",
-    "static": "static",
-    "stop_cfm": "stopCfm",
-    "stop_erp": "stopErp",
-    "provide_feedback": "provideFeedback",
-    "implicit_spring_damper": "implicitSpringDamper",
-}
-"""The tag that each key becomes for which the IR has a field."""
 
 
 def lower_gazebo_elements(file: Fields) -> Iterator[GazeboElement]:
@@ -129,14 +110,14 @@ def _refuse_repeated_tags(block: Fields, said_by_physics: Mapping[str, YamlEntry
 
 def _tags_of_physics(physics: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
     for entry in physics:
-        tag = _PHYSICS_TAGS.get(entry.name)
+        tag = PHYSICS_TAGS.get(entry.name)
         if tag and physics.get(entry.name) is not None:
             yield tag, entry
 
 
 def _tags_of_block(block: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
     for entry in block:
-        tag = entry.name if entry.name in _READ else _FIELD_TAGS.get(entry.name)
+        tag = entry.name if entry.name in _READ else ELEMENT_TAGS.get(entry.name)
         if tag and block.get(entry.name) is not None:
             yield tag, entry
     properties = block.get("properties")

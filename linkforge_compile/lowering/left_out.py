@@ -53,6 +53,7 @@ def without_virtual_joint(semantic: SemanticRobotDescription, joint: str, prefix
     )
     gone = [("group", name) for group in semantic.groups if (name := group.name) in empty]
     gone += [("end effector", effector.name) for effector in semantic.end_effectors if effector.group in empty]
+    gone += [("state", state.name) for state in semantic.group_states if state.group in empty]
     named = tuple(f"{kind} '{name.removeprefix(prefix)}'" for kind, name in gone)
     return Remainder(left, empty, named, tuple(_changed(semantic, left, prefix)))
 
@@ -65,6 +66,9 @@ def _changed(before: SemanticRobotDescription, after: SemanticRobotDescription, 
     for state in after.group_states:
         if state not in before.group_states:
             yield f"state '{state.name.removeprefix(prefix)}' of group '{state.group.removeprefix(prefix)}'"
+    for effector in after.end_effectors:
+        if effector not in before.end_effectors:
+            yield f"end effector '{effector.name.removeprefix(prefix)}'"
     if len(after.passive_joints) < len(before.passive_joints):
         yield "passive_joints"
     if len(after.joint_properties) < len(before.joint_properties):

@@ -7,7 +7,15 @@ from dataclasses import replace
 
 from linkforge_compile.core.constants import DEFAULT_LINK_MASS
 from linkforge_compile.core.models.geometry import Geometry, Mesh, Transform
-from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
+from linkforge_compile.core.models.link import (
+    PHYSICS_TAGS,
+    Collision,
+    Inertial,
+    InertiaTensor,
+    Link,
+    LinkPhysics,
+    Visual,
+)
 from linkforge_compile.core.physics import inertial_of_shapes
 from linkforge_compile.diagnostics.codes.model import (
     COPY_OF_NOTHING,
@@ -83,7 +91,7 @@ def _physics(link: Fields) -> LinkPhysics:
     )
     if lowered is None:
         return unsaid
-    said = [entry.name for entry in physics.node if physics.node.get(entry.name) is not None]
+    said = [name for name in PHYSICS_TAGS if physics.node.get(name) is not None]
     return replace(lowered, stated=[name for name in said if getattr(lowered, name) == getattr(unsaid, name)])
 
 
@@ -109,7 +117,7 @@ def _collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) ->
             WRONG_KIND, node, field="collision", expected="a shape, a list of them or 'visual'", found=found(node)
         )
         return [None]
-    if not visuals:
+    if not visuals and not link.is_faulty:
         link.tell(COPY_OF_NOTHING, node, owner=link.title)
     return [Collision(one.geometry, one.origin, source=one.source) if one else None for one in visuals]
 

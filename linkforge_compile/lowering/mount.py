@@ -90,7 +90,7 @@ def hang_on_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diag
     world = declared or Link(WORLD, source=mount.joint.source)
     robot.links = (world, *(link for link in robot.links if link.name != WORLD))
     robot.joints = (mount.joint, *robot.joints)
-    robot.gazebo_elements = robot.gazebo_elements.extended(mount.gazebo)
+    robot.gazebo_elements = (*mount.gazebo, *robot.gazebo_elements)
     return True
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import field
 
+from linkforge_compile.core.constants import EPSILON
 from linkforge_compile.diagnostics import Code
 from linkforge_compile.diagnostics.codes.model import (
     LONG_LENGTH,
@@ -58,6 +59,7 @@ class Bound:
 ABOVE_ZERO = Bound("above 0", lambda value: value > 0)
 NOT_NEGATIVE = Bound("0 or above", lambda value: value >= 0)
 NOT_ZERO = Bound("other than 0", lambda value: value != 0)
+BEYOND_EPSILON = Bound("further than 1e-9 from 0", lambda value: abs(value) >= EPSILON)
 UP_TO_HALF_A_TURN = Bound("above 0 and at most pi", lambda value: 0 < value <= math.pi * (1 + 1e-9))
 ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1)
 

@@ -19,7 +19,7 @@ from linkforge_compile.lowering.extra import EXTRA_KEYS, extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_texts, texts_in
 from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlMap
+from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
 
 Commanded = TypeVar("Commanded", Ros2ControlJoint, Ros2ControlGpio)
 
@@ -57,8 +57,7 @@ def _control(fields: Fields, name: str) -> Ros2Control | None:
             gpios=[gpio for gpio in gpios.values() if gpio],
             source=fields.ref,
             **extras_of(fields),
-        ),
-        is_whole=None not in joints.values(),
+        )
     )
 
 
@@ -68,7 +67,7 @@ def _commanded(kind: type[Commanded], part: Fields, name: str) -> Commanded | No
     parameters = free_texts(part, "parameters")
     # Interfaces that are faulty are told as that, and not that there are none.
     make = partial(kind, name, commands, states, parameters, source=part.ref, **extras_of(part))
-    return part.build(make, is_whole=not part.has_faulty_items("command_interfaces", "state_interfaces"))
+    return part.build(make)
 
 
 def _sensor(part: Fields, name: str) -> Ros2ControlSensor | None:
@@ -81,10 +80,9 @@ def _interfaces(part: Fields, key: str) -> Iterator[Interface]:
     if isinstance(part.node.get(key), YamlMap):
         yield from (interface for _, interface in part.each(key, "interface", _interface) if interface is not None)
         return
-    for node in part.items(key):
-        name = part.text_at(node, key)
-        if name is not None:
-            yield Interface(name, source=SourceRef(node, node.span, part.trail))
+    items = [node for node in part.items(key) if isinstance(node, YamlScalar)]
+    for name, node in zip(part.names(key), items, strict=True):
+        yield Interface(name, source=SourceRef(node, node.span, part.trail))
 
 
 def _interface(interface: Fields, name: str) -> Interface:

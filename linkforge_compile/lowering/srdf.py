@@ -32,11 +32,14 @@ from linkforge_compile.units import Dimension
 
 
 class Semantic(NamedTuple):
-    """A file's semantic part without its states, its states as written, and the names of the groups that are lost."""
+    """A file's semantic part without its states, and its states as written.
+
+    `lost` are the names of its groups and virtual joints that are faulty.
+    """
 
     description: SemanticRobotDescription
     states: tuple[WrittenState, ...]
-    lost_groups: frozenset[str]
+    lost: frozenset[str]
 
 
 class _VirtualJointType(StrEnum):
@@ -66,7 +69,8 @@ def lower_semantic(file: Fields) -> Semantic | None:
         source=semantic.ref,
         **extras_of(semantic),
     )
-    lost = frozenset(name for name, group in groups.items() if group is None)
+    named = (*groups.items(), *virtual_joints.items())
+    lost = frozenset(name for name, part in named if part is None)
     return Semantic(description, tuple(written_states(semantic)), lost)
 
 

@@ -12,7 +12,7 @@ from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_elements
 from linkforge_compile.lowering.joint import joints_of, positions_of_type
-from linkforge_compile.lowering.quantities import NOT_ZERO
+from linkforge_compile.lowering.quantities import BEYOND_EPSILON
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlList, YamlNode
 from linkforge_compile.units import Dimension
@@ -39,8 +39,7 @@ def _transmission(written: Mapping[str, Located], fields: Fields, name: str) -> 
     if not valid or kind is None:
         return None
     make = partial(Transmission, name, kind, whole_joints, whole_actuators, parameters)
-    is_whole = len(whole_joints) == len(joints) and len(whole_actuators) == len(actuators)
-    return fields.build(lambda: make(source=fields.ref, **extras_of(fields)), is_whole=is_whole)
+    return fields.build(lambda: make(source=fields.ref, **extras_of(fields)))
 
 
 def _joint(written: Mapping[str, Located], end: Fields, name: str) -> TransmissionJoint | None:
@@ -56,12 +55,11 @@ def _end(kind: type[End], end: Fields, name: str, position: tuple[Dimension, ...
     said = end.node.get("hardware_interfaces")
     are_stated = not _is_empty_list(said)
     interfaces = end.names("hardware_interfaces") if said and are_stated else (HW_IF_POSITION,)
-    reduction = end.number("mechanical_reduction", bound=NOT_ZERO)
+    reduction = end.number("mechanical_reduction", bound=BEYOND_EPSILON)
     offset = end.number("offset", *position)
     make = partial(kind, name, interfaces, reduction, offset or 0.0, stated=("offset",) if offset == 0 else ())
-    is_whole = not end.has_faulty_items("hardware_interfaces")
     finish = partial(make, interfaces_stated=are_stated, source=end.ref)
-    return end.build(lambda: finish(**extras_of(end)), is_whole=is_whole)
+    return end.build(lambda: finish(**extras_of(end)))
 
 
 def _is_empty_list(node: YamlNode | None) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
-from linkforge_compile.core.models.link import LinkPhysics
+from linkforge_compile.core.models.link import PHYSICS_TAGS, LinkPhysics
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.syntax import YamlMap, YamlNode, scalar_value
 from linkforge_compile.units import number_text
@@ -47,7 +47,7 @@ def gazebo_places(robot: Robot) -> GazeboPlaces:
 
 def _repeats(physics: LinkPhysics, element: GazeboElement) -> bool:
     """Whether a block says a tag that the physics of its link say, which no entry may do."""
-    return any(tag in element.properties and physics.is_written(field) for field, tag in _PHYSICS_TAGS.items())
+    return any(tag in element.properties and physics.is_written(field) for field, tag in PHYSICS_TAGS.items())
 
 
 def written_blocks(pen: Pen, blocks: Iterable[GazeboElement], *, beside: bool = True) -> YamlNode | None:
@@ -122,16 +122,6 @@ def _is_whole_number(text: str) -> bool:
 def _is_flag(text: str) -> bool:
     return text in ("true", "false")
 
-
-_PHYSICS_TAGS = {
-    "self_collide": "selfCollide",
-    "gravity": "gravity",
-    "mu": "mu1",
-    "mu2": "mu2",
-    "kp": "kp",
-    "kd": "kd",
-}
-"""The tag that each field of a link's physics becomes."""
 
 _SPELLED_SO: Mapping[str, Callable[[str], bool]] = {
     **dict.fromkeys(("mu1", "mu2", "kp", "kd", "maxVel", "minDepth", "dampingFactor", "laserRetro"), _is_number),

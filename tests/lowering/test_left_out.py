@@ -31,8 +31,14 @@ def test_all_that_names_a_virtual_joint_goes_with_it():
 
 def test_what_goes_and_what_says_less_is_named():
     left = without_virtual_joint(WHOLE, "ground")
-    assert left.gone == ("group 'stand'", "group 'nested'", "end effector 'floor'")
-    assert left.changed == ("group 'all'", "state 'home' of group 'all'", "passive_joints", "joint_properties")
+    assert left.gone == ("group 'stand'", "group 'nested'", "end effector 'floor'", "state 'here'")
+    assert left.changed == (
+        "group 'all'",
+        "state 'home' of group 'all'",
+        "end effector 'foot'",
+        "passive_joints",
+        "joint_properties",
+    )
 
 
 def test_a_virtual_joint_that_nothing_names_goes_alone():

@@ -9,25 +9,8 @@ from linkforge_compile.backends.element import attributes, attributes_at, elemen
 from linkforge_compile.backends.markup import Xml, placed, spelled
 from linkforge_compile.backends.raw import parameter_elements, raw_elements
 from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS
-from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
-from linkforge_compile.core.models.link import Link, LinkPhysics
-
-_PHYSICS_TAGS = {
-    "self_collide": "selfCollide",
-    "gravity": "gravity",
-    "mu": "mu1",
-    "mu2": "mu2",
-    "kp": "kp",
-    "kd": "kd",
-}
-_ELEMENT_TAGS = {
-    "material": "material",
-    "static": "static",
-    "stop_cfm": "stopCfm",
-    "stop_erp": "stopErp",
-    "provide_feedback": "provideFeedback",
-    "implicit_spring_damper": "implicitSpringDamper",
-}
+from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, GazeboPlugin
+from linkforge_compile.core.models.link import PHYSICS_TAGS, Link, LinkPhysics
 
 
 class PluginView(NamedTuple):
@@ -65,7 +48,7 @@ def gazebo_views(blocks: Iterable[GazeboElement]) -> tuple[GazeboView, ...]:
             attributes(block, reference=block.reference),
             tuple(
                 (tag, placed(spelled(value), block.source, name))
-                for name, tag in _ELEMENT_TAGS.items()
+                for name, tag in ELEMENT_TAGS.items()
                 if (value := getattr(block, name)) is not None
             ),
             _properties(block),
@@ -99,6 +82,6 @@ def _properties(block: GazeboElement) -> Xml:
 def _physics_tags(physics: LinkPhysics) -> tuple[tuple[str, str], ...]:
     return tuple(
         (tag, placed(spelled(getattr(physics, name)), physics.source, name))
-        for name, tag in _PHYSICS_TAGS.items()
+        for name, tag in PHYSICS_TAGS.items()
         if physics.is_written(name)
     )

@@ -28,6 +28,11 @@ class GazeboPlugin(Element):
 
     PREFIXED = ("name",)
 
+    name: str
+    filename: str
+    parameters: Mapping[str, FreePart] = FrozenMap()
+    raw_xml: str | None = field(default=None, compare=False)
+
     def with_prefix(self, prefix: str) -> GazeboPlugin:
         """Return the plugin with the prefix before its name, unless that is a class of Gazebo Sim's.
 
@@ -35,11 +40,6 @@ class GazeboPlugin(Element):
         `gz::sim::systems::Imu`, and there is none with a prefix.
         """
         return self if "::" in self.name else prefixed_copy(self, prefix) if prefix else self
-
-    name: str
-    filename: str
-    parameters: Mapping[str, FreePart] = FrozenMap()
-    raw_xml: str | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         freeze(self, mappings=("parameters",))
@@ -51,6 +51,17 @@ class GazeboPlugin(Element):
                 target="PluginFilename",
                 field=("filename",),
             )
+
+
+ELEMENT_TAGS = {
+    "material": "material",
+    "static": "static",
+    "stop_cfm": "stopCfm",
+    "stop_erp": "stopErp",
+    "provide_feedback": "provideFeedback",
+    "implicit_spring_damper": "implicitSpringDamper",
+}
+"""The tag that each field of GazeboElement becomes that is one, in the order in which they are written."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -118,6 +118,16 @@ class LinkPhysics(Part):
 
 _USUAL_PHYSICS = LinkPhysics()
 
+PHYSICS_TAGS = {
+    "self_collide": "selfCollide",
+    "gravity": "gravity",
+    "mu": "mu1",
+    "mu2": "mu2",
+    "kp": "kp",
+    "kd": "kd",
+}
+"""The tag of Gazebo that each field of LinkPhysics becomes, in the order in which they are written."""
+
 
 @dataclass(frozen=True, slots=True)
 class Visual(Element):

@@ -166,7 +166,8 @@ class Robot(SemanticRobot):
         ros2_controls = self.ros2_controls.extended(parts.ros2_controls)
         gazebo_elements = self.gazebo_elements.extended(parts.gazebo_elements)
         extra_elements = self.extra_elements.extended(parts.extra_elements)
-        extra_attributes = tuple((dict(parts.extra_attributes) | dict(self.extra_attributes)).items())
+        own = dict(self.extra_attributes)
+        extra_attributes = (*own.items(), *(said for said in parts.extra_attributes if said[0] not in own))
         semantic = self._semantic.joined(parts.semantic) if parts.semantic else self._semantic
         # From here on the robot changes. Links come first: they alone can still be refused, had two been renamed alike.
         self.links = links

@@ -26,6 +26,10 @@ LINK_AND_JOINT = Code(
     "LF4108", Severity.WARNING, "a link and a joint are both named '{name}', which Gazebo refuses; rename one of them"
 )
 SHARED_TOPIC = Code("LF4109", Severity.WARNING, "sensors '{first}' and '{second}' both publish on topic '{topic}'")
+NAME_TWICE = Code("LF4160", Severity.WARNING, "'{name}' stands twice in '{field}' of {owner}; remove one")
+OWN_ATTRIBUTE_STAYS = Code(
+    "LF4161", Severity.WARNING, "{what} is '{theirs}' in module '{module}' and '{ours}' here, which stays"
+)
 
 # LF42xx: references across the layers
 UNKNOWN_GAZEBO_REFERENCE = Code("LF4201", Severity.WARNING, "no link or joint named '{name}'")
