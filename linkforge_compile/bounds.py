@@ -12,6 +12,9 @@ from linkforge_compile.frozen import dataclass
 MAX_FILE_BYTES = 16 * 1024 * 1024
 """How large one text may be that is read, a spec, data or XML."""
 
+MAX_NESTED_ELEMENTS = 100
+"""How deep the elements of a document of XML, or of raw XML in a spec, may be nested."""
+
 FACTOR_VARIABLE = "LINKFORGE_LIMITS"
 """The environment variable that allows so many times as much: the user's word, which no spec can say."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.backends.marks import mark, mark_of_line
@@ -15,10 +15,9 @@ from linkforge_compile.backends.markup import (
     verbatim_comment,
     verbatim_text,
 )
+from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.source import SourceRef
-
-_MOST_NESTED = 100
 
 Content: TypeAlias = "str | Node"
 """What stands in an element: text, an element, or a comment, which is Xml."""
@@ -139,48 +138,16 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     # expat knows nothing of namespaces unless told, so an undeclared `drake:` stays what it is; lxml refuses it.
     from xml.parsers import expat
 
-    document = Node("", (), [])
-    open_nodes = [document]
-
-    keeps_space = [False]
-
-    def begin(tag: str, attributes: list[str]) -> None:
-        if len(open_nodes) > _MOST_NESTED:
-            raise RobotGeneratorError(f"raw XML is nested more than {_MOST_NESTED} elements deep")
-        pairs = tuple(zip(attributes[::2], attributes[1::2], strict=True))
-        node = Node(tag, pairs, [], mark_of_line(source, path, parser.CurrentLineNumber))
-        open_nodes[-1].content.append(node)
-        open_nodes.append(node)
-        space = dict(pairs).get("xml:space")
-        keeps_space.append(keeps_space[-1] if space is None else space == "preserve")
-
-    def end(_: str) -> None:
-        content = open_nodes.pop().content
-        if not keeps_space.pop() and all(not _is_text(item) or not str(item).strip() for item in content):
-            content[:] = [item for item in content if not _is_text(item)]
-
-    def characters(text: str) -> None:
-        open_nodes[-1].content.append(text)
-
-    def comment(text: str) -> None:
-        open_nodes[-1].content.append(verbatim_comment(text))
-
-    def begin_cdata() -> None:
-        keeps_space[-1] = True
-
-    def instruction(target: str, _: str) -> None:
-        reason = "most readers of URDF refuse a file with one"
-        raise RobotGeneratorError(f"raw XML holds the processing instruction '<?{target}'; {reason}")
-
     parser = expat.ParserCreate("utf-8")
     parser.ordered_attributes = True
     parser.buffer_text = True
-    parser.StartElementHandler = begin
-    parser.EndElementHandler = end
-    parser.CharacterDataHandler = characters
-    parser.CommentHandler = comment
-    parser.StartCdataSectionHandler = begin_cdata
-    parser.ProcessingInstructionHandler = instruction
+    reader = _Reader(lambda: mark_of_line(source, path, parser.CurrentLineNumber))
+    parser.StartElementHandler = reader.begin
+    parser.EndElementHandler = reader.end
+    parser.CharacterDataHandler = reader.characters
+    parser.CommentHandler = reader.comment
+    parser.StartCdataSectionHandler = reader.begin_cdata
+    parser.ProcessingInstructionHandler = reader.instruction
     try:
         # Wrapped, so that any number of elements is one document and a DOCTYPE is a fault.
         parser.Parse(f"<extra>{text}</extra>", True)
@@ -188,6 +155,45 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
         # Its column counts the wrapper.
         reason = f"{expat.ErrorString(error.code)} in line {error.lineno}"
         raise RobotGeneratorError(f"raw XML is not well-formed: {reason}: {text!r}") from None
-    [wrapper] = document.content
+    [wrapper] = reader.document.content
     assert isinstance(wrapper, Node)
     return wrapper.content
+
+
+class _Reader:
+    """What a parser tells of a document, as nodes below `document`; `mark` says where the parser is."""
+
+    def __init__(self, mark: Callable[[], str]) -> None:
+        self.document = Node("", (), [])
+        self._mark = mark
+        self._open = [self.document]
+        # Of each open element, whether white space in it is text.
+        self._keeps_space = [False]
+
+    def begin(self, tag: str, attributes: list[str]) -> None:
+        if len(self._open) > MAX_NESTED_ELEMENTS:
+            raise RobotGeneratorError(f"raw XML is nested more than {MAX_NESTED_ELEMENTS} elements deep")
+        pairs = tuple(zip(attributes[::2], attributes[1::2], strict=True))
+        node = Node(tag, pairs, [], self._mark())
+        self._open[-1].content.append(node)
+        self._open.append(node)
+        space = dict(pairs).get("xml:space")
+        self._keeps_space.append(self._keeps_space[-1] if space is None else space == "preserve")
+
+    def end(self, _: str) -> None:
+        content = self._open.pop().content
+        if not self._keeps_space.pop() and all(not _is_text(item) or not str(item).strip() for item in content):
+            content[:] = [item for item in content if not _is_text(item)]
+
+    def characters(self, text: str) -> None:
+        self._open[-1].content.append(text)
+
+    def comment(self, text: str) -> None:
+        self._open[-1].content.append(verbatim_comment(text))
+
+    def begin_cdata(self) -> None:
+        self._keeps_space[-1] = True
+
+    def instruction(self, target: str, _: str) -> None:
+        reason = "most readers of URDF refuse a file with one"
+        raise RobotGeneratorError(f"raw XML holds the processing instruction '<?{target}'; {reason}")

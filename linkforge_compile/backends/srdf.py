@@ -12,9 +12,10 @@ from linkforge_compile.backends.markup import Xml, placed, spelled
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
+    from linkforge_compile.core.models.collision_rules import LinkSphereApproximation
     from linkforge_compile.core.models.planning import GroupState, PlanningGroup
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.core.part import Element
 
 __all__ = ["render_srdf"]
 
@@ -82,45 +83,21 @@ def _semantic_view(robot: Robot) -> SemanticView:
         Xml(mark(robot.source, "name") + attributes(semantic, name=semantic.robot_name or robot.name)),
         tuple(map(_group, semantic.groups)),
         tuple(map(_group_state, semantic.group_states)),
-        tuple(
-            leaf(
-                "end_effector",
-                effector,
-                name=effector.name,
-                parent_link=effector.parent_link,
-                group=effector.group,
-                parent_group=effector.parent_group,
-            )
-            for effector in semantic.end_effectors
-        ),
-        tuple(
-            leaf(
-                "virtual_joint",
-                joint,
-                name=joint.name,
-                type=joint.type,
-                parent_frame=joint.parent_frame,
-                child_link=joint.child_link,
-            )
-            for joint in semantic.virtual_joints
-        ),
-        tuple(leaf("passive_joint", joint, name=joint.name) for joint in semantic.passive_joints),
-        tuple(
-            leaf(
-                "joint_property",
-                remark,
-                joint_name=remark.joint_name,
-                property_name=remark.property_name,
-                value=remark.value,
-            )
-            for remark in semantic.joint_properties
-        ),
+        _leaves("end_effector", semantic.end_effectors, "name", "parent_link", "group", "parent_group"),
+        _leaves("virtual_joint", semantic.virtual_joints, "name", "type", "parent_frame", "child_link"),
+        _leaves("passive_joint", semantic.passive_joints, "name"),
+        _leaves("joint_property", semantic.joint_properties, "joint_name", "property_name", "value"),
         tuple(map(_spheres, semantic.link_sphere_approximations)),
         _without_collisions(robot),
-        _pairs("enable_collisions", semantic.enabled_collisions),
-        _pairs("disable_collisions", semantic.disabled_collisions),
+        _leaves("enable_collisions", semantic.enabled_collisions, "link1", "link2", "reason"),
+        _leaves("disable_collisions", semantic.disabled_collisions, "link1", "link2", "reason"),
         elements(semantic),
     )
+
+
+def _leaves(tag: str, parts: Iterable[Element], *fields: str) -> tuple[Xml, ...]:
+    """Return elements whose attributes are these fields, in this order and under the same names."""
+    return tuple(leaf(tag, part, **{field: getattr(part, field) for field in fields}) for part in parts)
 
 
 def _group(group: PlanningGroup) -> GroupView:
@@ -128,7 +105,7 @@ def _group(group: PlanningGroup) -> GroupView:
         attributes(group, name=group.name),
         _members(group, group.links, "links"),
         _members(group, group.joints, "joints"),
-        tuple(leaf("chain", chain, base_link=chain.base_link, tip_link=chain.tip_link) for chain in group.chains),
+        _leaves("chain", group.chains, "base_link", "tip_link"),
         _members(group, group.subgroups, "subgroups"),
         elements(group),
     )
@@ -169,7 +146,3 @@ def _spheres(approximation: LinkSphereApproximation) -> SpheresView:
         ),
         elements(approximation),
     )
-
-
-def _pairs(tag: str, pairs: Iterable[CollisionPair]) -> tuple[Xml, ...]:
-    return tuple(leaf(tag, pair, link1=pair.link1, link2=pair.link2, reason=pair.reason) for pair in pairs)

@@ -9,6 +9,7 @@ from dataclasses import field
 from typing import TypeAlias
 from xml.parsers import expat
 
+from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.importing import (
     DOCUMENT_TYPE,
@@ -22,7 +23,6 @@ from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 
-MOST_NESTED = 100
 MOST_ELEMENTS = 1_000_000
 
 _LINE_START = re.compile("\r\n|\r|\n")
@@ -166,8 +166,8 @@ class _Parse:
     def _begin(self, tag: str, attributes: list[str]) -> None:
         start = self._here()
         self._elements += 1
-        if len(self._open) > MOST_NESTED:
-            raise _RefusedError(TOO_DEEP.at(self._span(start, len(tag) + 1), limit=MOST_NESTED))
+        if len(self._open) > MAX_NESTED_ELEMENTS:
+            raise _RefusedError(TOO_DEEP.at(self._span(start, len(tag) + 1), limit=MAX_NESTED_ELEMENTS))
         if self._elements > MOST_ELEMENTS:
             raise _RefusedError(TOO_MANY_ELEMENTS.at(self._span(start, len(tag) + 1), limit=MOST_ELEMENTS))
         read, place = self._attributes(start, attributes)

@@ -4,10 +4,11 @@ import time
 
 import pytest
 
+from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.importers import EncodingError, xml_text
 from linkforge_compile.importers import xml as reader
-from linkforge_compile.importers.xml import MOST_NESTED, XmlComment, XmlElement, read_xml
+from linkforge_compile.importers.xml import XmlComment, XmlElement, read_xml
 from linkforge_compile.source import SourceFile, Span
 
 
@@ -117,8 +118,8 @@ def test_bytes_that_are_no_text_are_refused(data: bytes, reason: str):
 
 
 def test_depth_is_bounded():
-    assert document("<a>" * MOST_NESTED + "</a>" * MOST_NESTED)
-    assert codes("<a>" * (MOST_NESTED + 1) + "</a>" * (MOST_NESTED + 1)) == ["LF8003"]
+    assert document("<a>" * MAX_NESTED_ELEMENTS + "</a>" * MAX_NESTED_ELEMENTS)
+    assert codes("<a>" * (MAX_NESTED_ELEMENTS + 1) + "</a>" * (MAX_NESTED_ELEMENTS + 1)) == ["LF8003"]
 
 
 def test_the_number_of_elements_is_bounded(monkeypatch: pytest.MonkeyPatch):
