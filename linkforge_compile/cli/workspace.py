@@ -26,5 +26,5 @@ def schema_of(root: Path, packages: Mapping[str, Path]) -> str:
     for vocabulary in vocabularies:
         if not vocabulary.is_whole:
             file = vocabulary.files[0]
-            to_stderr(f"{file} has errors, so names of it may be missing; `linkforge check` tells them\n")
+            to_stderr(f"names of {file} may be missing; `linkforge check` tells why\n")
     return workspace_text(vocabularies)

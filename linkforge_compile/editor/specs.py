@@ -8,7 +8,7 @@ from pathlib import Path
 
 SPEC_ENDINGS = (".robot.yaml", ".robot.yml")
 
-MAX_SPECS = 500
+MAX_SPECS = 200
 MAX_FOLDERS = 20_000
 
 _NOT_SOURCES = frozenset({"build", "install", "log", "node_modules", "__pycache__"})

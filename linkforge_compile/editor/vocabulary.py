@@ -20,9 +20,10 @@ from linkforge_compile.modules import (
     list_parameters,
     list_used,
 )
-from linkforge_compile.modules.mesh_files import no_mesh
+from linkforge_compile.modules.module_entry import joint_name_of
 from linkforge_compile.roots import Roots
 from linkforge_compile.stack import with_room
+from linkforge_compile.syntax import YamlEntry, YamlMap
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,13 +31,16 @@ class Vocabulary:
     """The words of a spec, final names with their prefixes, each kind in the robot's order.
 
     `files` are the spec and what it includes, relative to the workspace, with `/`. `arguments` are the parameters of
-    the modules that it uses, by the text of `use`. `is_whole` says that nothing is missing because of errors.
+    the modules that it uses, by the text of `use`. `entries` are what an override of it reaches: its own names, without
+    those of its modules, by section. `is_whole` says that nothing is missing because of errors; what depends on a
+    parameter without a value is always.
     """
 
     files: tuple[str, ...]
     names: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     parameters: tuple[ListedParameter, ...] = ()
     arguments: Mapping[str, tuple[ListedParameter, ...]] = field(default_factory=dict)
+    entries: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     is_whole: bool = True
 
 
@@ -61,14 +65,34 @@ def _vocabulary_of(path: Path, root: Path, packages: Mapping[str, Path]) -> Voca
         used = {use: listing.parameters for use, listing in list_used(spec, loader).items()}
         found = replace(found, files=tuple(files), parameters=own, arguments=used)
         expanded = expand(spec, Arguments(), loader, sink, unset=Unset.NOTE)
-        robot = lower(_without_meshes(expanded), Diagnostics()).robot
+        robot = lower(_without_meshes(expanded), sink).robot
     except BeyondLimitError:
         return found
-    return replace(found, names=_names(robot) if robot else {}, is_whole=robot is not None and not sink.has_errors)
+    is_whole = robot is not None and not sink.has_errors
+    return replace(found, names=_names(robot) if robot else {}, entries=_entries(expanded), is_whole=is_whole)
 
 
 def _without_meshes(instance: Instance) -> Instance:
-    return replace(instance, find_mesh=no_mesh, modules=tuple(map(_without_meshes, instance.modules)))
+    modules = tuple(map(_without_meshes, instance.modules))
+    return replace(instance, find_mesh=lambda _path, _where, _sink: None, modules=modules)
+
+
+def _entries(instance: Instance) -> dict[str, tuple[str, ...]]:
+    """Return the names in each section of a file; a frame is a link and a joint, as an override finds it."""
+    frames = _section(instance, "frames")
+    names = {section: [entry.name for entry in _section(instance, section)] for section in _SECTIONS}
+    names["links"] += [frame.name for frame in frames]
+    names["joints"] += [joint_name_of(frame.name, frame.value) for frame in frames if isinstance(frame.value, YamlMap)]
+    names["modules"] = [module.name for module in instance.modules]
+    return {section: tuple(name for name in own if "$(" not in name) for section, own in names.items() if own}
+
+
+_SECTIONS = ("links", "joints", "materials", "sensors", "transmissions", "ros2_control")
+
+
+def _section(instance: Instance, name: str) -> tuple[YamlEntry, ...]:
+    section = instance.tree.get(name) if instance.tree else None
+    return tuple(section) if isinstance(section, YamlMap) else ()
 
 
 def _names(robot: Robot) -> dict[str, tuple[str, ...]]:

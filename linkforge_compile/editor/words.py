@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
+from linkforge_compile.editor.module_words import arguments_of
 from linkforge_compile.editor.vocabulary import Vocabulary
-from linkforge_compile.modules import ListedParameter
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
 from linkforge_compile.schema.patches import PATCH_SUFFIX
 from linkforge_compile.syntax.scalars import scalar_value
@@ -31,13 +31,21 @@ class Words:
     """The words of one file; `made` are the definitions that they need, each name with `prefix` before it."""
 
     def __init__(
-        self, definitions: Mapping[str, Schema], vocabulary: Vocabulary, usable: Sequence[str], *, prefix: str
+        self,
+        definitions: Mapping[str, Schema],
+        words: Vocabulary,
+        files: Sequence[str],
+        modules: Sequence[Schema],
+        *,
+        prefix: str,
     ) -> None:
-        """`definitions` are those of the language; `usable` are the files that `use` may name in this one."""
+        """`definitions` are those of the language; `files` are what `use` may name in this file, and `modules` what
+        there is to offer in an entry that uses one.
+        """
         self._definitions = definitions
-        self._arguments = vocabulary.arguments
-        self._parameters = vocabulary.parameters
-        self._names = {**vocabulary.names, FILE: tuple(usable)}
+        self._parameters = words.parameters
+        self._names = {**words.names, FILE: tuple(files)}
+        self._modules = modules
         self._prefix = prefix
         self._begun: set[str] = set()
         self.made: Schema = {}
@@ -56,7 +64,8 @@ class Words:
         }
         unions = [*_listed(schema, "anyOf"), *_listed(schema, "allOf")]
         inside: list[Json] = [offer for part in unions if (offer := self.of(part))]
-        inside += [self._of_module(use, parameters) for use, parameters in self._used_in(schema)]
+        if any(ARGUMENT in mark_of(mapping(part))[1] for part in mapping(schema.get("properties", {})).values()):
+            inside += self._modules
         return {key: part for key, part in parts.items() if part} | ({"allOf": inside} if inside else {})
 
     def _properties(self, schema: Schema) -> Schema:
@@ -94,7 +103,7 @@ class Words:
     def _keys(self, schema: Schema, kinds: Sequence[str]) -> Schema:
         """Return the keys that a map may have; each is put in with the snippet of its entry."""
         if PARAMETER in kinds:
-            return {parameter.name: _argument(parameter) for parameter in self._parameters}
+            return arguments_of(self._parameters)
         entry = schema.get("additionalProperties")
         snippets = entry.get("defaultSnippets") if isinstance(entry, dict) else None
         # By a union the server knows to put in a key with its colon.
@@ -111,19 +120,6 @@ class Words:
         self.made[made] = offer
         return {"$ref": f"#/definitions/{made}"}
 
-    def _used_in(self, schema: Schema) -> Iterator[tuple[str, tuple[ListedParameter, ...]]]:
-        """Yield what each module takes, where a schema describes an entry that uses one."""
-        marks = (mark_of(mapping(part)) for part in mapping(schema.get("properties", {})).values())
-        if any(ARGUMENT in kinds for _, kinds in marks):
-            yield from self._arguments.items()
-
-    def _of_module(self, use: str, parameters: tuple[ListedParameter, ...]) -> Schema:
-        arguments: Schema = {parameter.name: _argument(parameter) for parameter in parameters}
-        return {
-            "if": {"properties": {"use": {"const": use}}, "required": ["use"]},
-            "then": {"properties": {"with": {"doNotSuggest": True, "properties": arguments}}},
-        }
-
 
 def _listed(schema: Schema, key: str) -> list[Schema]:
     listed = schema.get(key)
@@ -133,21 +129,3 @@ def _listed(schema: Schema, key: str) -> list[Schema]:
 def _plain(name: str) -> str:
     """Return a name as YAML has it: in quotes where it would be read as another kind."""
     return name if _BARE.fullmatch(name) and scalar_value(name) is name else json.dumps(name, ensure_ascii=False)
-
-
-def _argument(parameter: ListedParameter) -> Schema:
-    """Return what a module's parameter means, what it takes and its values, those of its choice or the default."""
-    unit = f" {parameter.unit}" if parameter.unit else ""
-    facts = [f"type `{parameter.type}`"] if parameter.type else []
-    facts.append("required" if parameter.default is None else f"default `{parameter.default}`")
-    facts += [f"at least `{parameter.minimum}{unit}`"] if parameter.minimum is not None else []
-    facts += [f"at most `{parameter.maximum}{unit}`"] if parameter.maximum is not None else []
-    told = "\n\n".join(filter(None, (parameter.description, "; ".join(facts))))
-    values = [f"{choice}{unit}" if unit else choice for choice in parameter.choices or ()]
-    if not values and parameter.type == "boolean":
-        values = [True, False]
-    elif not values and parameter.value is not None and parameter.type not in ("list", "map", "vector"):
-        values = [parameter.default if unit or isinstance(parameter.value, str) else parameter.value]
-    offer: Schema = {"title": parameter.type or "a parameter", "description": told.replace("`", "'")}
-    # As in `_keys`, where there are no examples to put in.
-    return offer | {"markdownDescription": told} | ({"examples": values} if values else {"anyOf": [{}]})

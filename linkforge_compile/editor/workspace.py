@@ -10,6 +10,7 @@ import posixpath
 from collections.abc import Sequence
 from urllib.parse import quote
 
+from linkforge_compile.editor.module_words import entry_of, where_used
 from linkforge_compile.editor.vocabulary import Vocabulary
 from linkforge_compile.editor.words import ARGUMENT, NAMES, Words, mark_of
 from linkforge_compile.schema import bundle
@@ -27,20 +28,56 @@ def workspace_schema(vocabularies: Sequence[Vocabulary]) -> Schema:
     """Return the schema of a repository's specs, which holds for each of its files what is offered in it alone."""
     whole = mapping(_without_examples(bundle()))
     definitions = {name: mapping(part) for name, part in mapping(whole["definitions"]).items()}
-    specs = sorted(vocabulary.files[0] for vocabulary in vocabularies)
+    modules = _Modules(vocabularies)
     offers: list[Json] = []
     made: Schema = {}
     for file, vocabulary in [(file, words) for words in vocabularies for file in words.files]:
-        usable = [_from(file, spec) for spec in specs if spec not in vocabulary.files]
-        words = Words(definitions, vocabulary, usable, prefix=f"words_{len(offers) + 1}_")
+        others = [other.files[0] for other in vocabularies if other.files[0] not in vocabulary.files]
+        usable = [_from(posixpath.dirname(file), other) for other in sorted(others)]
+        prefix = f"words_{len(offers) + 1}_"
+        words = Words(definitions, vocabulary, usable, modules.used_in(file, vocabulary), prefix=prefix)
         offers.append({"if": {"filePatternAssociation": f"*/{quote(file)}"}, "then": words.of(whole)})
         made |= words.made
-    return {**whole, "allOf": offers, "definitions": {**definitions, **made}}
+    return {**whole, "allOf": offers, "definitions": {**definitions, **modules.made, **made}}
 
 
-def _from(file: str, other: str) -> str:
-    """Return the path of another file as a `use` in this file writes it."""
-    return posixpath.relpath(other, posixpath.dirname(file) or ".")
+class _Modules:
+    """What there is to offer in entries that use specs of the workspace; `made` are the definitions it needs.
+
+    They are the same for all files of a folder, which name other files alike.
+    """
+
+    def __init__(self, vocabularies: Sequence[Vocabulary]) -> None:
+        self._specs = {words.files[0]: words for words in vocabularies}
+        self._entries: dict[str, Schema] = {}
+        self._folders: dict[str, Schema] = {}
+        self.made: Schema = {}
+        for number, (file, words) in enumerate(self._specs.items(), start=1):
+            self._entries[file] = self._defined(f"module_{number}", entry_of(words.parameters, words.entries))
+
+    def used_in(self, file: str, vocabulary: Vocabulary) -> list[Schema]:
+        """Return what to offer where a file uses others; its own spelling of a path and packages included."""
+        folder = posixpath.dirname(file)
+        if folder not in self._folders:
+            offers: list[Json] = [where_used(_from(folder, spec), entry) for spec, entry in self._entries.items()]
+            self._folders[folder] = self._defined(f"modules_from_{len(self._folders) + 1}", {"allOf": offers})
+        of_its_own = []
+        for use, parameters in vocabulary.arguments.items():
+            spec = posixpath.normpath(posixpath.join(folder, use))
+            if spec not in self._specs:
+                of_its_own.append(where_used(use, entry_of(parameters, {})))
+            elif use != _from(folder, spec):
+                of_its_own.append(where_used(use, self._entries[spec]))
+        return [self._folders[folder], *of_its_own]
+
+    def _defined(self, name: str, schema: Schema) -> Schema:
+        self.made[name] = schema
+        return {"$ref": f"#/definitions/{name}"}
+
+
+def _from(folder: str, file: str) -> str:
+    """Return the path of a file as a `use` in a file of the folder writes it."""
+    return posixpath.relpath(file, folder or ".")
 
 
 def _without_examples(node: Json) -> Json:

@@ -59,6 +59,8 @@ links:
   hook: {colour: red}
 joints:
   hinge: {type: fixed, parent: base, child: hoook}
+frames:
+  marker: {parent: base}
 """
 
 FILES = {
@@ -120,6 +122,14 @@ OFFERED = {
     "them before the file": ("modules:\n  a:\n    with:\n      |\n    use: ../parts/arm.robot.yaml\n", ARGUMENTS),
     "half of one in flow style": ("modules: {a: {use: ../parts/arm.robot.yaml, with: {re|}}}", ARGUMENTS),
     "those of another file": ("modules:\n  a:\n    use: ../faulty.robot.yaml\n    with:\n      |", []),
+    "what an override reaches": (
+        "modules:\n  a:\n    use: ../parts/arm.robot.yaml\n    override:\n      joints:\n        |",
+        ["elbow"],
+    ),
+    "a frame as an override finds it": (
+        "modules: {a: {use: ../faulty.robot.yaml, override: {links: {ma|}}}}",
+        ["base", "hook", "marker"],
+    ),
     "a parameter's value": ("modules: {a: {use: ../parts/arm.robot.yaml, with: {hand: |}}}", ["gripper", "none"]),
     "a flag": ("modules: {a: {use: ../parts/arm.robot.yaml, with: {fast: |}}}", ["false", "true"]),
 }
@@ -201,7 +211,7 @@ def test_names_are_final_and_of_whatever_can_be_read(tmp_path: Path):
     cell = vocabulary_of(root / "cells/cell.robot.yaml", root)
     assert cell.files == ("cells/cell.robot.yaml", "cells/palette.yaml")
     assert cell.names["joint"] == ("left_elbow", "left_joint")
-    assert cell.is_whole
+    assert "base" not in cell.names["link"]
     faulty = vocabulary_of(root / "faulty.robot.yaml", root)
     assert not faulty.is_whole
     assert "base" in faulty.names["link"]
@@ -212,13 +222,25 @@ def test_names_are_final_and_of_whatever_can_be_read(tmp_path: Path):
 def test_the_command_tells_of_specs_with_errors_and_writes_once(tmp_path: Path):
     root = written(tmp_path)
     run = linkforge("schema", "--workspace", cwd=root)
-    told = "faulty.robot.yaml has errors, so names of it may be missing; `linkforge check` tells them\n"
+    told = "names of faulty.robot.yaml may be missing; `linkforge check` tells why\n"
     assert (run.returncode, run.stdout, run.stderr) == (0, "", f"{told}wrote .linkforge/robot.schema.json\n")
     again = linkforge("schema", "--workspace", str(root), "-o", "here.json", cwd=root)
     assert again.stderr == f"{told}wrote here.json\n"
     assert (root / "here.json").read_bytes() == (root / ".linkforge/robot.schema.json").read_bytes()
     assert linkforge("schema", "--workspace", cwd=root).stderr == f"{told}.linkforge/robot.schema.json is up to date\n"
     assert linkforge("schema", "--workspace", "nowhere", cwd=root).returncode == 2
+
+
+def test_a_package_of_the_command_line_is_found(tmp_path: Path):
+    cell = {
+        "cell.robot.yaml": CELL.replace("../parts/arm", "package://arms/arm").replace("include: [palette.yaml]\n", "")
+    }
+    written(tmp_path / "far", {"arms/arm.robot.yaml": ARM})
+    root = written(tmp_path / "near", {"cell.robot.yaml": cell})
+    assert "may be missing" in linkforge("schema", "--workspace", cwd=root).stderr
+    found = linkforge("schema", "--workspace", "--package", "arms=../far/arms", cwd=root)
+    assert (found.returncode, found.stderr) == (0, "wrote .linkforge/robot.schema.json\n")
+    assert '"left_tool0"' in (root / ".linkforge/robot.schema.json").read_text()
 
 
 def test_specs_are_those_that_a_person_wrote(tmp_path: Path):
