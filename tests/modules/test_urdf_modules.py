@@ -172,6 +172,42 @@ def test_a_vendor_s_robot_moves_as_it_does_alone(name: str, tmp_path: Path):
             assert np.allclose(ours.rotation, theirs.rotation, atol=1e-12)
 
 
+def test_a_vendor_s_gripper_on_a_vendor_s_arm(tmp_path: Path):
+    """Both from URDF and SRDF, each without the world it stands on; every consumer reads what comes out."""
+    arm, gripper = CORPUS / "ur_ur5e", CORPUS / "robotiq_2f_85"
+    if not CORPUS.exists():
+        pytest.skip("the corpus is not at hand")
+    spec = tmp_path / "cell.robot.yaml"
+    spec.write_text(
+        f"""
+linkforge: 1
+name: cell
+links: {{floor: }}
+modules:
+  arm:
+    use: {arm}.urdf
+    srdf: {arm}.srdf
+    parent: floor
+    origin: [0, 0, 0.5]
+    override: {{links: {{world: null}}, joints: {{base_joint: null, elbow_joint: {{limits: {{effort: 99}}}}}}}}
+  hand:
+    use: {gripper}.urdf
+    parent: arm_tool0
+    override: {{links: {{world: null}}, joints: {{robotiq_85_base_joint: null}}}}
+semantic: {{end_effectors: {{hand: {{group: arm_ur_manipulator, parent_link: arm_tool0}}}}}}
+""",
+        "utf-8",
+    )
+    robot = compile_file(spec, allow_outside=True).result()
+    urdf = render_urdf(robot)
+    assert check_urdf(urdf) == "floor"
+    freedom = sum(len(pinocchio_model(Path(f"{one}.urdf").read_text("utf-8")).names) - 1 for one in (arm, gripper))
+    assert len(pinocchio_model(urdf).names) - 1 == freedom
+    assert mujoco_model(urdf).njnt == freedom
+    assert robot.joint("arm_elbow_joint").limits.effort == 99
+    assert "arm_ur_manipulator" in [group.name for group in robot.semantic.groups]
+
+
 SRDF = """\
 <robot name="gripper">
   <group name="fingers"><joint name="slide"/></group>
