@@ -6,14 +6,14 @@ Most files are right, and to say so takes a fiftieth of the time of looking for 
 from __future__ import annotations
 
 import re
+from functools import cached_property
+from math import inf
 from typing import Final
 
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
 from linkforge_compile.schema.words import branch_meant
 from linkforge_compile.syntax.nodes import (
     ScalarValue,
-    YamlEntry,
-    YamlFault,
     YamlList,
     YamlMap,
     YamlNode,
@@ -73,15 +73,13 @@ class Fit:
         `heeds_null` is whether a field without a value is judged, as jsonschema does, and not passed over, as the
         language does.
         """
-        match node:
-            case YamlScalar(value=value):
-                return self._takes_value(value)
-            case YamlMap():
-                return self._takes_map and self._takes_union(node, heeds_null) and self._takes_entries(node, heeds_null)
-            case YamlList():
-                return self._takes_list and self._takes_union(node, heeds_null) and self._takes_items(node, heeds_null)
-            case YamlFault():
-                return False
+        if isinstance(node, YamlScalar):
+            return self._takes_value(node.value)
+        if isinstance(node, YamlMap):
+            return self._takes_map and self._takes_union(node, heeds_null) and self._takes_entries(node, heeds_null)
+        if isinstance(node, YamlList):
+            return self._takes_list and self._takes_union(node, heeds_null) and self._takes_items(node, heeds_null)
+        return False
 
     def _takes_value(self, value: ScalarValue) -> bool:
         if type(value) not in self._scalars:
@@ -104,33 +102,47 @@ class Fit:
         return any(branch.takes(node, heeds_null=True) for branch in self._union)
 
     def _takes_entries(self, node: YamlMap, heeds_null: bool) -> bool:
-        return all(name in node.entries for name in self._required) and all(
-            self._takes_entry(entry, heeds_null) for entry in node
-        )
-
-    def _takes_entry(self, entry: YamlEntry, heeds_null: bool) -> bool:
-        judge = self._under(entry.name)
-        if judge is None:
+        entries = node.entries
+        if not all(name in entries for name in self._required):
             return False
-        return (not heeds_null and is_null(entry.value)) or judge.takes(entry.value, heeds_null=heeds_null)
+        for name, entry in entries.items():
+            judge = self._keys.get(name) or self._other_key(name)
+            if judge is None:
+                return False
+            if not judge.takes(entry.value, heeds_null=heeds_null) and (heeds_null or not is_null(entry.value)):
+                return False
+        return True
 
-    def _under(self, name: str) -> Fit | None:
-        """Return what judges the value of a key; None where there may be no such key."""
-        if name in self._known:
-            return _fit(self._known[name])
-        for pattern, part in self._patterns.items():
-            if pattern.search(name):
-                return _fit(part)
+    @cached_property
+    def _keys(self) -> dict[str, Fit]:
+        return {name: fit_of(mapping(part)) for name, part in self._known.items()}
+
+    def _other_key(self, name: str) -> Fit | None:
+        """Return what judges the value of a key that is not known; None where there may be no such key."""
+        patterns = (part for pattern, part in self._patterns.items() if pattern.search(name))
+        return next((fit_of(mapping(part)) for part in patterns), self._others)
+
+    @cached_property
+    def _others(self) -> Fit | None:
         return _fit(self._schema.get("additionalProperties", True))
 
     def _takes_items(self, node: YamlList, heeds_null: bool) -> bool:
-        shortest, longest = self._schema.get("minItems", 0), self._schema.get("maxItems", len(node))
-        assert isinstance(shortest, int)
-        assert isinstance(longest, int)
-        if not shortest <= len(node) <= longest:
+        shortest, longest = self._bounds
+        if not shortest <= len(node.items) <= longest or self._items is None:
             return False
-        judge = _fit(self._schema.get("items", True))
-        return judge is not None and all(judge.takes(item, heeds_null=heeds_null) for item in node)
+        takes = self._items.takes
+        return all(takes(item, heeds_null=heeds_null) for item in node.items)
+
+    @cached_property
+    def _bounds(self) -> tuple[float, float]:
+        shortest, longest = self._schema.get("minItems", 0), self._schema.get("maxItems", inf)
+        assert isinstance(shortest, int)
+        assert isinstance(longest, int | float)
+        return shortest, longest
+
+    @cached_property
+    def _items(self) -> Fit | None:
+        return _fit(self._schema.get("items", True))
 
 
 def fit_of(schema: Schema) -> Fit:
