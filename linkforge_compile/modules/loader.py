@@ -19,11 +19,10 @@ from linkforge_compile.modules.includes import Whole, lay_together, reached
 from linkforge_compile.modules.noted import NotedSink, used_from
 from linkforge_compile.modules.packages import Package
 from linkforge_compile.modules.paths import as_typed, names_in
-from linkforge_compile.modules.places import judge_places
+from linkforge_compile.modules.trees import known_source, tree_of
 from linkforge_compile.roots import ANYWHERE, Roots
-from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read, read_data
+from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -185,14 +184,14 @@ class Loader:
 
     def _whole(self, source: SourceFile, folder: Path | None, sink: Diagnostics) -> Whole | None:
         """Read a spec with all that it includes; None where its own text is no spec."""
-        tree = self._tree(source, sink)
+        tree = tree_of(source, sink, self.budget)
 
         def read_included(path: Path, item: YamlScalar) -> tuple[SourceFile, YamlMap] | None:
             text = self._text(path, Used(item.text, item.span), sink)
             if text is None:
                 return None
             included = self._source(str(as_typed(path)), text, as_typed(path), item.span, included=item.span)
-            part = self._tree(included, sink)
+            part = tree_of(included, sink, self.budget)
             return None if part is None else (included, part)
 
         return None if tree is None else lay_together(source, tree, folder, read_included, sink)
@@ -201,15 +200,9 @@ class Loader:
         self, name: str, text: str, path: Path | None, asked: Span | None, included: Span | None = None
     ) -> SourceFile:
         self.budget.spend(Limit.CHARACTERS_READ, len(text), asked)
-        source = SourceFile(name, text, path, order=len(self._sources), included=included)
+        source = known_source(SourceFile(name, text, path, order=len(self._sources), included=included))
         self._sources.append(source)
         return source
-
-    def _tree(self, source: SourceFile, sink: Diagnostics) -> YamlMap | None:
-        tree = read(source, sink, self.budget)
-        if tree is None:
-            return None
-        return judge_places(validate(tree, sink, is_included=source.included is not None), sink)
 
 
 def _urdf(source: SourceFile, sink: Diagnostics) -> Whole | None:
