@@ -232,9 +232,7 @@ def test_the_command_tells_of_specs_with_errors_and_writes_once(tmp_path: Path):
 
 
 def test_a_package_of_the_command_line_is_found(tmp_path: Path):
-    cell = {
-        "cell.robot.yaml": CELL.replace("../parts/arm", "package://arms/arm").replace("include: [palette.yaml]\n", "")
-    }
+    cell = CELL.replace("../parts/arm", "package://arms/arm").replace("include: [palette.yaml]\n", "")
     written(tmp_path / "far", {"arms/arm.robot.yaml": ARM})
     root = written(tmp_path / "near", {"cell.robot.yaml": cell})
     assert "may be missing" in linkforge("schema", "--workspace", cwd=root).stderr
