@@ -10,6 +10,7 @@ from typing import NamedTuple
 from linkforge_compile.core.constants import EPSILON
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.models.joint import (
+    HAVE_NO_AXIS,
     Joint,
     JointCalibration,
     JointDynamics,
@@ -56,8 +57,6 @@ _MOTIONS = {
 _ANY_MOTION = _Motion(
     _TURNING.position + _SLIDING.position, _TURNING.effort + _SLIDING.effort, _TURNING.velocity + _SLIDING.velocity
 )
-_WITHOUT_AXIS = (JointType.FIXED, JointType.FLOATING)
-
 # What stands in for what is faulty, which has been told: the joint stays, so that its ends and the tree are judged.
 # Nothing of it is ever written: a compile that told an error gives no robot.
 _STAND_IN_TYPE = JointType.REVOLUTE
@@ -183,7 +182,7 @@ def _joint_of_no_type(fields: Fields, name: str | None, ends: Ends) -> Joint | N
 
 def _axis(fields: Fields, joint_type: JointType | None) -> tuple[Vector3 | None, Vector3 | None]:
     """Return the unit axis, and the axis as written where that is no unit vector."""
-    if joint_type in _WITHOUT_AXIS:
+    if joint_type in HAVE_NO_AXIS:
         _refuse(fields, "axis", joint_type)
         return None, None
     node = fields.said("axis", "z")

@@ -8,6 +8,7 @@ from typing import NamedTuple, TypeVar
 
 from linkforge_compile.core import constants as default
 from linkforge_compile.core.models.sensor import (
+    REQUIRED_INFO,
     CameraInfo,
     ContactInfo,
     ForceTorqueInfo,
@@ -26,17 +27,8 @@ from linkforge_compile.units import Dimension
 
 T = TypeVar("T")
 
-_OWN_INFO = {
-    SensorType.CAMERA: "camera",
-    SensorType.DEPTH_CAMERA: "camera",
-    SensorType.RGBD_CAMERA: "camera",
-    SensorType.LIDAR: "lidar",
-    SensorType.IMU: "imu",
-    SensorType.GPS: "gps",
-    SensorType.CONTACT: "contact",
-    SensorType.FORCE_TORQUE: "force_torque",
-}
-"""What a sensor of each type says about itself; a `ray` or `gpu_lidar` may do without its `lidar`."""
+_OWN_INFO = {kind: field.removesuffix("_info") for kind, field in REQUIRED_INFO.items()}
+"""The key of what a sensor of each type says about itself."""
 
 
 class _Infos(NamedTuple):

@@ -211,6 +211,18 @@ def test_what_the_link_knows_of_physics_goes_there_and_the_rest_to_gazebo():
     assert robot.get_gazebo_elements("arm")[0].material == "Gazebo/Red"
 
 
+def test_what_is_begun_of_a_component_is_attached_and_exported():
+    hand = RobotBuilder("hand")
+    palm = hand.link("palm")
+    palm.commit()
+    hand.link("finger", parent="palm")
+    arm = RobotBuilder("arm")
+    arm.link("base")
+    assert '<link name="base"' in arm.export_urdf(validate=False)
+    arm.attach(hand, "base")
+    assert [link.name for link in arm.robot.links] == ["base", "palm", "finger"]
+
+
 def test_another_robot_is_attached():
     tool = RobotBuilder("tool")
     tool.link("body").root()

@@ -39,7 +39,7 @@ class JointDraft(LinkDraft):
         super().__init__(builder, name, parent, joint_name)
         self._joint_type = JointType.FIXED
         self._joint_origin = IDENTITY
-        self._joint_parts: dict[str, Any] = {}  # fields of Joint that a fixed one has not
+        self._joint_parts: dict[str, Any] = {}  # fields of Joint, none of which LinkForge gives to a fixed one
         self._transmission: dict[str, Any] | None = None  # arguments of Transmission.create_simple
         self._control: dict[str, Any] | None = None  # fields of Ros2ControlJoint
         self._control_system: str | None = None

@@ -66,10 +66,11 @@ class RobotBuilder:
     ) -> RobotBuilder:
         """Merge another robot at a link of this one: see Robot.merge.
 
+        The links of a component that is still being built are finished first, where LinkForge leaves them out.
         The joint is called `LINK_to_ROOT` where it has no name; its axis may be of any length, its limits are
         (lower, upper). With `disable_collision`, planning ignores collisions between the two links that it joins.
         """
-        other = component if isinstance(component, Robot) else component.robot
+        other = component if isinstance(component, Robot) else component.build(validate=False)
         root = prefix + other.root_link.name
         self.robot.merge(
             component=other,
@@ -136,13 +137,9 @@ class RobotBuilder:
         self._unfinished.clear()
 
     def export_urdf(self, validate: bool = True, pretty_print: bool = True) -> str:
-        """Return the robot as URDF; with `validate`, after `build`. See Robot.export_urdf."""
-        if validate:
-            self.build()
-        return self.robot.export_urdf(validate=validate, pretty_print=pretty_print)
+        """Finish all links and return the robot as URDF; `validate` as for `build`. See Robot.export_urdf."""
+        return self.build(validate).export_urdf(validate=validate, pretty_print=pretty_print)
 
     def export_srdf(self, validate: bool = True, pretty_print: bool = True) -> str:
-        """Return what planning is told as SRDF; with `validate`, after `build`. See Robot.export_srdf."""
-        if validate:
-            self.build()
-        return self.robot.export_srdf(validate=validate, pretty_print=pretty_print)
+        """Finish all links and return what planning is told as SRDF; `validate` as for `build`."""
+        return self.build(validate).export_srdf(validate=validate, pretty_print=pretty_print)

@@ -46,7 +46,7 @@ _DEGREES_OF_FREEDOM = {
     JointType.FLOATING: 6,
 }
 _MOVE_ALONG_AN_AXIS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC, JointType.PLANAR)
-_HAVE_NO_AXIS = (JointType.FIXED, JointType.FLOATING)
+HAVE_NO_AXIS = (JointType.FIXED, JointType.FLOATING)
 _NEED_LIMITS = (JointType.REVOLUTE, JointType.PRISMATIC)
 
 
@@ -222,7 +222,7 @@ class Joint(Element):
         kind = f"{self.type}"
         if self.type in _MOVE_ALONG_AN_AXIS and self.axis is None:
             raise self._invalid(f"axis required for joint type '{kind}'", "JointAxis", kind, "axis")
-        if self.type in _HAVE_NO_AXIS and self.axis is not None:
+        if self.type in HAVE_NO_AXIS and self.axis is not None:
             raise self._invalid(f"axis not allowed for joint type '{kind}'", "JointAxis", kind, "axis")
         if self.type in _NEED_LIMITS and self.limits is None:
             raise self._invalid(f"limits required for joint type '{kind}'", "JointLimits", kind, "limits")

@@ -33,7 +33,7 @@ class SensorType(StrEnum):
     RGBD_CAMERA = "rgbd_camera"
 
 
-_REQUIRED_INFO = {
+REQUIRED_INFO = {
     SensorType.CAMERA: "camera_info",
     SensorType.DEPTH_CAMERA: "camera_info",
     SensorType.RGBD_CAMERA: "camera_info",
@@ -43,6 +43,8 @@ _REQUIRED_INFO = {
     SensorType.CONTACT: "contact_info",
     SensorType.FORCE_TORQUE: "force_torque_info",
 }
+"""The field that a sensor of each type must have; a `ray` or `gpu_lidar` may do without its `lidar_info`."""
+
 _FORCE_TORQUE_FRAMES = (default.FT_FRAME_CHILD, default.FT_FRAME_PARENT, default.FT_FRAME_SENSOR)
 _FORCE_TORQUE_DIRECTIONS = (default.FT_DIR_CHILD_TO_PARENT, default.FT_DIR_PARENT_TO_CHILD)
 
@@ -285,7 +287,7 @@ class Sensor(Element):
         require_name(self.name, "sensor name", "SensorName")
         require_name(self.link_name, "link of a sensor", "LinkName", ("link",))
         require_positive(self.update_rate, "update_rate", "UpdateRate", "update_rate")
-        info = _REQUIRED_INFO.get(self.type)
+        info = REQUIRED_INFO.get(self.type)
         if info and getattr(self, info) is None:
             raise RobotValidationError(
                 ValidationErrorCode.INVALID_VALUE,
