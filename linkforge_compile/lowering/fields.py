@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator
 from enum import StrEnum
 from typing import TypeVar
@@ -220,7 +221,7 @@ class Fields:
         """Read a list of as many numbers as one of `counts` says."""
         expected = f"{' or '.join(map(str, counts))} numbers"
         if not isinstance(node, YamlList):
-            self.tell_kind(node, field, f"a list of {expected}")
+            self.tell_kind(node, field, _list_meant(node, counts) or f"a list of {expected}")
             return None
         if len(node) not in counts:
             self.tell(WRONG_COUNT, node, field=field, expected=expected, count=len(node))
@@ -243,7 +244,8 @@ class Fields:
         if is_valid_name(name):
             return True
         if facts := xacro_facts(name):
-            self.tell(XACRO_EXPRESSION, where, text=facts["text"], ours=facts["ours"])
+            for each in facts:
+                self.tell(XACRO_EXPRESSION, where, text=each["text"], ours=each["ours"])
             return False
         wrong = next((character for character in name if not is_valid_name(character)), None)
         reason = "it is empty" if wrong is None else f"{wrong!r} may not stand in one"
@@ -315,6 +317,20 @@ def _nodes_within(node: YamlNode) -> Iterator[YamlNode]:
                 yield from _nodes_within(item)
         case _:
             yield node
+
+
+_WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$])+")
+"""One of the numbers of a row that was written as one text: what holds no space, or an expression."""
+
+
+def _list_meant(node: YamlNode, counts: tuple[int, ...]) -> str | None:
+    """Return the list that a row of numbers in one text was meant for, to be put behind "takes"; None for no row."""
+    words = _WORD.findall((node.span.text or "").strip("'\"")) if isinstance(node, YamlScalar) else []
+    if len(words) not in counts or len(words) < 2:
+        return None
+    # A comma or bracket in an expression would end the item of the list.
+    items = [f'"{word}"' if any(mark in word for mark in ",[]{}") else word for word in words]
+    return f"a list such as [{', '.join(items)}]"
 
 
 def or_default(said: T | None, default: T) -> T:

@@ -10,7 +10,7 @@ from linkforge_compile.lowering.extra import NO_EXTRAS, Extras, extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_ZERO, Measure
 from linkforge_compile.lowering.scope import FileScope
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 
@@ -82,17 +82,13 @@ def _mesh_file(  # noqa: PLR0917 both forms of a mesh end here
         return None
     return fields.build(
         lambda: Mesh(
-            scope.resource(file, _file_span(node)),
+            scope.resource(file, node.child("file") or node),
             scale,
             is_scale_stated=node.child("scale") is not None,
             source=_ref(fields, node),
             **extras,
         )
     )
-
-
-def _file_span(mesh: YamlNode) -> Span:
-    return (mesh.child("file") or mesh).span
 
 
 def _scale(mesh: Fields) -> Vector3 | None:

@@ -42,7 +42,7 @@ def _material(fields: Fields, name: str, scope: FileScope) -> Material | None:
     rgba, file = _color(fields), fields.text("texture")
     if rgba is None and file is None:
         return None
-    image = scope.resource(file, texture.span) if file is not None and texture is not None else None
+    image = scope.resource(file, texture) if file is not None and texture is not None else None
     return fields.build(lambda: Material(name, rgba, image, source=fields.ref, **extras_of(fields)))
 
 

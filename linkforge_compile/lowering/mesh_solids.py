@@ -27,6 +27,7 @@ from linkforge_compile.modules.file_text import TooLargeError, UnreadableError, 
 from linkforge_compile.modules.mesh_files import FindMesh, misspelt_part
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.paths import as_typed
+from linkforge_compile.modules.uses import written_place
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar
 
@@ -128,7 +129,7 @@ class MeshReader:
 
         """
         written, where = _written(mesh)
-        path = self._find(written, where.span, used_from(sink, where.trail))
+        path = self._find(written, written_place(where.node), used_from(sink, where.trail))
         if path is None:
             return None
         asked = Note("its inertia is needed here", inertial.span)

@@ -10,8 +10,9 @@ from linkforge_compile.diagnostics import Gaps
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.modules.mesh_files import no_mesh
-from linkforge_compile.modules.uses import from_base
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.modules.uses import from_base, written_place
+from linkforge_compile.source import SourceFile
+from linkforge_compile.source.ref import Located
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +27,6 @@ class FileScope:
     lost_materials: Gaps = field(default_factory=Gaps)
     meshes: MeshReader = field(default_factory=lambda: MeshReader(no_mesh, MeshSolids()))
 
-    def resource(self, path: str, where: Span) -> str:
-        """Return a relative path, written at a place, as the compiled file would; any other path as written."""
-        return from_base(path, self.mesh_bases.get(where.file, ""))
+    def resource(self, path: str, node: Located) -> str:
+        """Return a relative path, which stands at a node, as the compiled file would; any other path as written."""
+        return from_base(path, self.mesh_bases.get(written_place(node).file, ""))

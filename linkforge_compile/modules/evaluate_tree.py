@@ -313,8 +313,20 @@ class TreeEvaluator:
         admitted = self.expressions.admit(value, scalar.span, self.sink)
         if not admitted:
             return YamlFault(scalar.span)
-        # Nobody after this knows a path in what is passed on as text.
-        return node_of(passed_on(value) if is_free or shape.is_xml else value, self.place(scalar))
+        return node_of(_passed_on_in(value, shape, is_free), self.place(scalar))
+
+
+def _passed_on_in(value: Value, shape: Shape, is_free: bool) -> Value:
+    """Return a value with the paths in its free parts as they are passed on: nobody after this knows them there."""
+    if is_free or shape.is_free_part or shape.is_xml:
+        return passed_on(value)
+    match value:
+        case Mapping():
+            return {name: _passed_on_in(item, shape.under(name), is_free) for name, item in value.items()}
+        case tuple() if shape.item:
+            item = shape.item
+            return tuple(_passed_on_in(one, item, is_free) for one in value)
+    return value
 
 
 def _looks_like_number(text: Value) -> bool:

@@ -12,13 +12,15 @@ from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, SRDF_BESIDE_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
+from linkforge_compile.expressions import PathText
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
 from linkforge_compile.modules.paths import follow
-from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlMap
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source.ref import Located
+from linkforge_compile.syntax import YamlMap, YamlScalar
 
 SPEC_ENDINGS = (".yaml", ".yml")
 """How the names of spec files end."""
@@ -125,6 +127,25 @@ def mesh_base(module: SpecFile, compiled: SpecFile) -> str:
     if compiled.folder is None:
         return f"{module.folder.absolute().as_posix()}/"
     return _steps(module.folder, compiled.folder)
+
+
+def written_place(path: Located) -> Span:
+    """Return the place in whose file a path starts: where it was written that a name of the same whole file hands on.
+
+    Included files are one with the file that includes them, but a relative path starts where its own file lies. That of
+    a parameter of type `file` starts where it is used already.
+    """
+    where = path.span
+    origin = where.origin
+    is_moved = isinstance(path, YamlScalar) and isinstance(path.value, PathText)
+    if origin is None or origin.is_data or is_moved or _whole(origin.span.file) is not _whole(where.file):
+        return where
+    return origin.span
+
+
+def _whole(file: SourceFile) -> SourceFile:
+    """Return the file that a file was laid into in the end, itself if into none."""
+    return file.includes[-1].file if file.includes else file
 
 
 def from_base(path: str, base: str) -> str:

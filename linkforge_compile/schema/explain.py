@@ -70,7 +70,8 @@ def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
             if inner.schema_path[0] == meant:
                 yield from explain(inner, tree)
     elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
-        yield Judgement(XACRO_EXPRESSION.at(node.span, text=facts["text"], ours=facts["ours"]), path)
+        for one in facts:
+            yield Judgement(XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
     else:
         yield from _EXPLAIN[str(error.validator)](misfit)
 

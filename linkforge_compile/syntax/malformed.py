@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from yaml import MarkedYAMLError
 from yaml.events import ScalarEvent
@@ -17,6 +17,8 @@ from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.xacro import XACRO_EXPRESSION, xacro_facts
 
 _IN_QUOTES = re.compile(r"'[^']*'|\"[^\"]*\"")
+_LINE = re.compile(r"[^\r\n]+")
+_MARK_OF_COMMENT = re.compile(r"(?<!\S)#")
 _COMMENT = re.compile(r"(?:^|\s)#.*")
 _KEY_STUCK_TO_VALUE = re.compile(r"\s*(?:-\s+)?([^\s:'\"]+:(?!//)[^\s:]\S*)")
 _WORD = re.compile(r"\w[\w$().-]*")
@@ -108,6 +110,28 @@ def explain(error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent | Non
     return codes.MALFORMED_YAML.at(trouble.here, problem=trouble.problem)
 
 
+def explain_every(error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent | None) -> Iterator[Diagnostic]:
+    """Yield the diagnostic for a parser's error; where that is a habit of xacro, with every other like it in the file.
+
+    Reading ends at the first, and whoever carries a file over has a hundred of them.
+    """
+    first = explain(error, marks, last_scalar)
+    yield first
+    if first.code is codes.XACRO_EXPRESSION:
+        for line in _LINE.finditer(marks.text):
+            comment = _MARK_OF_COMMENT.search(marks.text, line.start(), line.end())
+            end = comment.start() if comment else line.end()
+            yield from (
+                _xacro_expression(each, marks) for each in XACRO_EXPRESSION.finditer(marks.text, line.start(), end)
+            )
+
+
+def _xacro_expression(found: re.Match[str], marks: Marks) -> Diagnostic:
+    [facts] = xacro_facts(found[0])
+    span = marks.part(found.start(), len(found[0]))
+    return codes.XACRO_EXPRESSION.at(span, text=facts["text"], ours=facts["ours"])
+
+
 def _said(line: str) -> str:
     return _COMMENT.sub("", line).strip()
 
@@ -185,9 +209,8 @@ def _bracket_expected(trouble: _Trouble) -> Diagnostic:
     if last and not last.style and is_cut_expression(last.value):
         return explain_cut(last, trouble.marks)
     xacro = XACRO_EXPRESSION.match(text, max(trouble.at - len("$"), 0))
-    if xacro and (facts := xacro_facts(xacro[0])):
-        span = trouble.marks.part(xacro.start(), len(xacro[0]))
-        return codes.XACRO_EXPRESSION.at(span, text=facts["text"], ours=facts["ours"])
+    if xacro:
+        return _xacro_expression(xacro, trouble.marks)
     opening = trouble.marks.part(trouble.began, 1)
     closing = "]" if "sequence" in trouble.construct else "}"
     return codes.UNCLOSED_BRACKET.at(trouble.here, closing=closing, notes=[Note("opened here", opening)])

@@ -15,7 +15,7 @@ from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
-from linkforge_compile.syntax.malformed import explain, explain_cut, is_cut_expression
+from linkforge_compile.syntax.malformed import explain_cut, explain_every, is_cut_expression
 from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import is_overflow, scalar_value
@@ -82,7 +82,7 @@ def _document(marks: Marks, sink: Diagnostics, budget: Budget, tags: Tags | None
         is_empty_field = parser is not yaml.BaseLoader and error.problem == "found unexpected ':'"
         if is_empty_field and len(marks.text) <= MAX_READ_TWICE:
             return _document(marks, sink, budget, tags, yaml.BaseLoader)
-        sink.report(explain(error, marks, reader.last_scalar))
+        sink.report_all(explain_every(error, marks, reader.last_scalar))
     return None
 
 

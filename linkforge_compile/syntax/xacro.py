@@ -7,7 +7,7 @@ import re
 XACRO_EXPRESSION = re.compile(r"\$\{(?P<within>[^{}\r\n]*)\}")
 
 
-def xacro_facts(text: str) -> dict[str, str] | None:
-    """Return the first `${...}` in a text and what to write for it, as the code XACRO_EXPRESSION says it, or None."""
-    found = XACRO_EXPRESSION.search(text)
-    return {"text": found[0], "ours": f"$({found['within'].strip()})"} if found else None
+def xacro_facts(text: str) -> tuple[dict[str, str], ...]:
+    """Return each `${...}` in a text and what to write for it, as the code XACRO_EXPRESSION says it."""
+    found = XACRO_EXPRESSION.finditer(text)
+    return tuple({"text": each[0], "ours": f"$({each['within'].strip()})"} for each in found)

@@ -84,3 +84,43 @@ def test_text_that_grows_by_the_way_to_a_file_is_bounded(tmp_path):
     write(tmp_path, {f"{far}/arm.robot.yaml": module})
     found = assemble(f"modules: {{arm: {{use: {far}/arm.robot.yaml}}}}", folder=tmp_path)
     assert found.told == ["the text grows beyond 65,536 characters"]
+
+
+def test_it_is_so_in_the_free_parts_of_a_whole_object_that_one_expression_gives(tmp_path):
+    arm = """
+    parameters: {gains: {type: file, default: gains.yaml}}
+    variables:
+      plugin: {filename: lib.so, parameters: {file: "$(gains)", all: ["$(gains)"]}}
+      block: {plugins: {second: $(plugin)}}
+    links: {base: {gazebo: $(block)}}
+    gazebo: {plugins: {first: $(plugin)}}
+    """
+    write(tmp_path, {"arms/arm.robot.yaml": arm, "robot.robot.yaml": "modules: {arm: {use: arms/arm.robot.yaml}}"})
+    robot = compile_file(tmp_path / "robot.robot.yaml").result()
+    plugins = [plugin for block in robot.gazebo_elements for plugin in block.plugins]
+    assert [plugin.name for plugin in plugins] == ["arm_second", "arm_first"]
+    for plugin in plugins:
+        assert plugin.parameters == {"file": "arms/gains.yaml", "all": ("arms/gains.yaml",)}
+
+
+def test_a_mesh_that_a_variable_names_is_where_the_file_that_writes_it_lies(tmp_path):
+    main = """
+    include: [parts/shapes.yaml]
+    parameters: {given: {type: file, default: meshes/b.stl}}
+    variables: {named: meshes/a.stl}
+    links: {base: }
+    """
+    write(tmp_path, {"arms/arm.robot.yaml": main, "robot.robot.yaml": "modules: {arm: {use: arms/arm.robot.yaml}}"})
+    (tmp_path / "arms" / "parts").mkdir()
+    shapes = "[{mesh: $(named)}, {mesh: $(given)}, {mesh: c.stl}, {mesh: {file: $(own)}}]"
+    (tmp_path / "arms" / "parts" / "shapes.yaml").write_text(
+        f"linkforge: 1\nvariables: {{own: d.stl}}\nlinks: {{body: {{visual: {shapes}}}}}\n"
+        "joints: {j: {type: fixed, parent: base, child: body}}\n"
+    )
+    robot = compile_file(tmp_path / "robot.robot.yaml").result()
+    assert [visual.geometry.resource for visual in robot.link("arm_body").visuals] == [
+        "arms/meshes/a.stl",
+        "arms/meshes/b.stl",
+        "arms/parts/c.stl",
+        "arms/parts/d.stl",
+    ]
