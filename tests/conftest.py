@@ -37,3 +37,5 @@ def shared() -> Path:
 # A loaded machine must not fail a law that holds.
 hypothesis.settings.register_profile("steady", deadline=None)
 hypothesis.settings.load_profile("steady")
+# pytest tests/test_any_spec.py --hypothesis-profile long
+hypothesis.settings.register_profile("long", deadline=None, max_examples=5000)
