@@ -35,7 +35,7 @@ def test_a_spec_gives_xml_or_is_refused_at_a_place(spec):
 
 
 @large
-@given(specs(without=RAW))
+@given(specs(without=RAW | {"version"}))  # urdfdom takes three versions, and a warning says so of any other
 def test_what_compiles_is_read_by_the_readers_of_urdf(spec):
     robot = compiled(spec).robot
     if robot is not None:
