@@ -68,7 +68,8 @@ def _reason(error: OSError, target: Path) -> str:
 
 
 def _replace(target: Path, new: bytes) -> None:
-    descriptor, beside = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+    # A name may be as long as names can be, and this one is longer.
+    descriptor, beside = tempfile.mkstemp(prefix=f".{target.name[:40]}.", dir=target.parent)
     try:
         with os.fdopen(descriptor, "wb") as file:
             file.write(new)

@@ -18,12 +18,14 @@ from linkforge_compile.diagnostics.codes.importing import (
     NO_CHARACTER_OF_A_SPEC,
     TOO_DEEP,
     TOO_MANY_ELEMENTS,
+    TOO_MUCH_INSIDE,
 )
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 
-MOST_ELEMENTS = 1_000_000
+MOST_ELEMENTS = 250_000
+MOST_INSIDE = 100_000
 
 _LINE_START = re.compile("\r\n|\r|\n")
 _TAG = re.compile(r"<[^\s/>]+")
@@ -170,6 +172,9 @@ class _Parse:
             raise _RefusedError(TOO_DEEP.at(self._span(start, len(tag) + 1), limit=MAX_NESTED_ELEMENTS))
         if self._elements > MOST_ELEMENTS:
             raise _RefusedError(TOO_MANY_ELEMENTS.at(self._span(start, len(tag) + 1), limit=MOST_ELEMENTS))
+        around = self._open[-1]
+        if len(around.content) > MOST_INSIDE:
+            raise _RefusedError(TOO_MUCH_INSIDE.at(self._span(start, len(tag) + 1), tag=around.tag, limit=MOST_INSIDE))
         read, place = self._attributes(start, attributes)
         closing = _CLOSING.match(self._text, place)
         self._open.append(_Open(tag, read, start, closing.end() if closing else None))

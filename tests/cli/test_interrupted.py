@@ -1,12 +1,15 @@
 """Output that is interrupted: the old file or the new one, whole, and nothing beside it."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from linkforge_compile.cli.main import main
 
 resource = pytest.importorskip("resource", reason="the limits are those of POSIX")
 
@@ -42,6 +45,36 @@ def test_a_disk_that_is_full_leaves_the_old_file_and_nothing_else(tmp_path: Path
     assert run.returncode == 2
     assert "cannot write 'out.urdf'" in told
     assert {path.name: path.read_text() for path in tmp_path.glob("*out*")} == {"out.urdf": "old"}
+
+
+def test_a_folder_that_is_gone_before_the_file_is_in_it_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """What the spec was read from may be gone as well by then."""
+    spec = tmp_path / "a.robot.yaml"
+    spec.write_text(SPEC + JOINTS)
+
+    def remove_all(_: int) -> None:
+        shutil.rmtree(tmp_path)
+
+    monkeypatch.setattr(os, "fsync", remove_all)
+    assert main(["compile", str(spec), "-o", str(tmp_path / "build") + "/"]) == 2
+    assert not tmp_path.exists()
+
+
+def test_a_spec_that_is_gone_once_it_is_read_is_written_all_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    spec = tmp_path / "a.robot.yaml"
+    spec.write_text(SPEC + JOINTS)
+    monkeypatch.setattr(os, "fsync", lambda _: spec.unlink())
+    assert main(["compile", str(spec), "-o", str(tmp_path / "out.urdf")]) == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["out.urdf"]
+    assert (tmp_path / "out.urdf").read_text().endswith("</robot>\n")
+
+
+@pytest.mark.parametrize("letter", ["a", "链"])
+def test_a_name_may_be_as_long_as_names_can_be(letter: str, tmp_path: Path):
+    (tmp_path / "a.robot.yaml").write_text(SPEC)
+    name = letter * ((255 - len(".urdf")) // len(letter.encode())) + ".urdf"
+    assert main(["compile", str(tmp_path / "a.robot.yaml"), "-p", "n=0", "-o", str(tmp_path / name)]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == {"a.robot.yaml", name}
 
 
 @pytest.mark.skipif(hasattr(os, "geteuid") and os.geteuid() == 0, reason="root writes everywhere")

@@ -128,6 +128,12 @@ def test_the_number_of_elements_is_bounded(monkeypatch: pytest.MonkeyPatch):
     assert codes("<a><b/><b/><b/></a>") == ["LF8004"]
 
 
+def test_what_one_element_holds_is_bounded(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(reader, "MOST_INSIDE", 3)
+    assert document("<a><b/> <b/><b><b/><b/></b></a>")
+    assert codes("<a><b/><!-- c --> <b/><b/></a>") == ["LF8098"]
+
+
 @pytest.mark.parametrize(
     "text",
     [

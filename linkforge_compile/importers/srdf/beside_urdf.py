@@ -17,6 +17,8 @@ from linkforge_compile.syntax import YamlMap, YamlNode
 _MOST_ROUNDS = 20
 """So often is an SRDF read anew without what the language refuses of it: a group that goes takes others with it."""
 
+_MOST_JUDGED = 20_000
+"""How many elements of both are read anew in all rounds together: twice are read as many as there are."""
 
 class Judged(Protocol):
     """What is known of a spec, its errors among it."""
@@ -36,7 +38,9 @@ def with_srdf(
     if document is None:
         return None
     refused: dict[Span, DeclinedError] = {}
-    for _ in range(_MOST_ROUNDS):
+    sections = sum(len(entry.value) for entry in urdf.tree if isinstance(entry.value, YamlMap))
+    elements = 1 + sections + sum(1 for _ in _inside(document.root))
+    for _ in range(max(2, min(_MOST_ROUNDS, _MOST_JUDGED // elements))):
         told = Diagnostics()
         whole = _with_semantic(urdf, read_srdf(document, urdf.tree, told, refused))
         judged = judge(whole.tree)
