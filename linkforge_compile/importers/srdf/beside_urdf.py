@@ -20,6 +20,7 @@ _MOST_ROUNDS = 20
 _MOST_JUDGED = 20_000
 """How many elements of both are read anew in all rounds together: twice are read as many as there are."""
 
+
 class Judged(Protocol):
     """What is known of a spec, its errors among it."""
 
