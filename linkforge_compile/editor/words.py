@@ -90,7 +90,7 @@ class Words:
         """Return the names of some kinds, as a value or as the items of a list."""
         described = {kind: "a spec" if kind == FILE else f"a {kind} of this robot" for kind in kinds}
         snippets: list[Json] = [
-            {"label": name, "description": description, "body": _plain(name)}
+            {"label": name, "description": description, "body": _body(name)}
             for kind, description in described.items()
             for name in self._names.get(kind, ())
         ]
@@ -117,7 +117,8 @@ class Words:
     def _shared(self, name: str, offer: Schema) -> Schema:
         """Return a reference to an offer, which is written once however often it is made."""
         made = f"{self._prefix}{name.replace(' ', '_')}"
-        self.made[made] = offer
+        while self.made.setdefault(made, offer) != offer:
+            made += "_"
         return {"$ref": f"#/definitions/{made}"}
 
 
@@ -126,6 +127,8 @@ def _listed(schema: Schema, key: str) -> list[Schema]:
     return [mapping(part) for part in listed] if isinstance(listed, list) else []
 
 
-def _plain(name: str) -> str:
-    """Return a name as YAML has it: in quotes where it would be read as another kind."""
-    return name if _BARE.fullmatch(name) and scalar_value(name) is name else json.dumps(name, ensure_ascii=False)
+def _body(name: str) -> str:
+    """Return a name as a snippet writes it: in quotes where YAML would read it as another kind."""
+    is_plain = _BARE.fullmatch(name) and scalar_value(name) is name
+    written = name if is_plain else json.dumps(name, ensure_ascii=False)
+    return re.sub(r"[$}\\]", r"\\\g<0>", written)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
@@ -21,10 +21,7 @@ SPEC = "arm.robot.yaml"
 _PATIENCE = 60.0
 """[s]; far more than the server takes, so that a loaded machine fails no test."""
 
-_SETTINGS = {
-    # An editor's own, but that nothing is fetched from the network.
-    "yaml": {"schemaStore": {"enable": False}, "kubernetesCRDStore": {"enable": False}},
-}
+_OFFLINE = {"schemaStore": {"enable": False}, "kubernetesCRDStore": {"enable": False}}
 
 _CAPABILITIES = {
     "textDocument": {
@@ -53,8 +50,10 @@ class Fault(NamedTuple):
 class LanguageServer:
     """One server process, and the folder in which its documents lie, beside the schema that their modeline names."""
 
-    def __init__(self, command: list[str], folder: Path) -> None:
+    def __init__(self, command: list[str], folder: Path, settings: Mapping[str, object] | None = None) -> None:
+        """`settings` are further ones of "yaml"."""
         self._folder = folder
+        self._settings = {"yaml": {**_OFFLINE, **(settings or {})}}
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self._numbers = count(1)
         self._received: Queue[dict[str, Any]] = Queue()
@@ -62,7 +61,7 @@ class LanguageServer:
         self._reader.start()
         self._request("initialize", processId=None, rootUri=folder.as_uri(), capabilities=_CAPABILITIES)
         self._notify("initialized")
-        self._notify("workspace/didChangeConfiguration", settings=_SETTINGS)
+        self._notify("workspace/didChangeConfiguration", settings=self._settings)
 
     def close(self) -> None:
         self._request("shutdown")
@@ -135,7 +134,9 @@ class LanguageServer:
             message = self._received.get(timeout=_PATIENCE)
             if "method" in message and "id" in message:
                 sections = [item.get("section") for item in message["params"].get("items", [])]
-                self._send({"id": message["id"], "result": [_SETTINGS.get(section) for section in sections] or None})
+                self._send(
+                    {"id": message["id"], "result": [self._settings.get(str(section)) for section in sections] or None}
+                )
             elif is_wanted(message):
                 return message
 

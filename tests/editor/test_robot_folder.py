@@ -1,9 +1,10 @@
 """A folder that `linkforge init` wrote, in an editor."""
 
+import json
 from pathlib import Path
 
 from tests.cli.test_compile import linkforge
-from tests.editor.language_server import LanguageServer
+from tests.editor.language_server import Fault, LanguageServer
 
 
 def test_editors_have_its_names_at_once(server: LanguageServer, folder: Path):
@@ -13,3 +14,14 @@ def test_editors_have_its_names_at_once(server: LanguageServer, folder: Path):
     document = spec.replace("frames:\n  tool0: {parent: arm,", "frames:\n  tool0: {parent: |,")
     offered = [found.label for found in server.completions(document, "fresh/fresh.robot.yaml")]
     assert offered == ["arm", "base", "base_link", "tool0"]
+
+
+def test_the_settings_alone_give_a_second_spec_the_schema(server_command: list[str], tmp_path: Path):
+    linkforge("init", "arm", "--dir", ".", cwd=tmp_path)
+    settings = json.loads((tmp_path / ".vscode/settings.json").read_text())
+    server = LanguageServer(server_command, tmp_path, {"schemas": settings["yaml.schemas"]})
+    try:
+        text = "linkforge: 1\nname: other\nlinks:\n  base: {visuals: {}}\n"
+        assert server.faults(text, "other.robot.yaml") == [Fault("visuals", "Property visuals is not allowed.")]
+    finally:
+        server.close()

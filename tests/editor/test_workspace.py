@@ -219,6 +219,21 @@ def test_names_are_final_and_of_whatever_can_be_read(tmp_path: Path):
     assert vocabulary_of(root / "faulty.robot.yaml", root).names == {}
 
 
+def test_a_name_is_put_in_as_yaml_reads_it(server: LanguageServer, folder: Path):
+    names = "linkforge: 1\nname: odd\nlinks: {'007': , 'true': , a.b/c: }\n"
+    root = written(folder / "odd shop", {"odd.robot.yaml": names, "$(x) {y}.robot.yaml": ARM})
+    (root / "robot.schema.json").write_text(schema_text(root), "utf-8")
+    head = "# yaml-language-server: $schema=robot.schema.json\nlinkforge: 1\nname: odd\n"
+    links = server.completions(f"{head}joints: {{a: {{parent: |}}}}", "odd shop/odd.robot.yaml")
+    assert {found.label: found.inserted for found in links} == {
+        "007": '"007"',
+        "a.b/c": "a.b/c",
+        "true": '"true"',
+    }
+    (file,) = server.completions(f"{head}modules: {{a: {{use: |}}}}", "odd shop/odd.robot.yaml")
+    assert (file.label, file.inserted) == ("$(x) {y}.robot.yaml", '"\\$(x) {y\\}.robot.yaml"')
+
+
 def test_the_command_tells_of_specs_with_errors_and_writes_once(tmp_path: Path):
     root = written(tmp_path)
     run = linkforge("schema", "--workspace", cwd=root)
