@@ -2,6 +2,7 @@
 #   [PARAMS NAME:=VALUE ...]      # its parameters; a relative file among them starts in the build folder
 #   [VARIANT NAME]                # one of its variants
 #   [PACKAGES NAME=FOLDER ...]    # where package://NAME/ is, before any other place
+#   [ALLOW_OUTSIDE]               # lets it read files outside its package, as --allow-outside does
 #   [GAZEBO gz|classic]           # the simulator that reads the sensors
 #   [FORMATS urdf srdf]           # what to write; urdf unless said
 #   [NAME NAME]                   # NAME.urdf and NAME.srdf in the build folder; the spec's name unless said
@@ -13,7 +14,7 @@
 # values, xacro files and meshes that give an inertia, as the compile itself says, and linkforge.
 function(linkforge_add_robot spec)
   cmake_parse_arguments(PARSE_ARGV 1 ROBOT
-    "INSTALL" "VARIANT;GAZEBO;NAME;TARGET;OUTPUT;DESTINATION" "PARAMS;PACKAGES;FORMATS")
+    "INSTALL;ALLOW_OUTSIDE" "VARIANT;GAZEBO;NAME;TARGET;OUTPUT;DESTINATION" "PARAMS;PACKAGES;FORMATS")
   if(ROBOT_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "linkforge_add_robot(${spec}): it has no argument '${ROBOT_UNPARSED_ARGUMENTS}'")
   endif()
@@ -27,7 +28,7 @@ function(linkforge_add_robot spec)
   get_filename_component(path "${spec}" ABSOLUTE)
   if(NOT DEFINED ROBOT_NAME)
     get_filename_component(ROBOT_NAME "${path}" NAME)
-    string(REGEX REPLACE "(\\.robot)?\\.ya?ml$" "" ROBOT_NAME "${ROBOT_NAME}")
+    string(REGEX REPLACE "(\\.robot)?\\.ya?ml$|(\\.urdf)?\\.xacro$|\\.urdf$" "" ROBOT_NAME "${ROBOT_NAME}")
   endif()
   if(NOT DEFINED ROBOT_TARGET)
     string(REGEX REPLACE "[^A-Za-z0-9_.+-]" "_" ROBOT_TARGET "robot_${ROBOT_NAME}")
@@ -76,6 +77,9 @@ function(_linkforge_options result)
     get_filename_component(folder "${CMAKE_MATCH_2}" ABSOLUTE)
     list(APPEND options --package "${name}=${folder}")
   endforeach()
+  if(ROBOT_ALLOW_OUTSIDE)
+    list(APPEND options --allow-outside)
+  endif()
   if(DEFINED ROBOT_VARIANT)
     list(APPEND options --variant "${ROBOT_VARIANT}")
   endif()

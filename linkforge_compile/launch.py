@@ -70,9 +70,10 @@ class RobotDescription:
         variant: str | None = None,
         packages: Packages | None = None,
         gazebo: Gazebo = "gz",
+        allow_outside: bool = False,
         argument_prefix: str = "",
     ) -> None:
-        """`parameters` are values or substitutions; `variant`, `packages` and `gazebo` are those of `compile_file`.
+        """`parameters` are values or substitutions; the other words are those of `compile_file`.
 
         `argument_prefix` stands before the names of the launch arguments, for two robots in one launch file.
 
@@ -83,7 +84,8 @@ class RobotDescription:
         self.spec, self.gazebo = Path(spec), gazebo
         self._given = {name: _substitutions(value) for name, value in (parameters or {}).items()}
         self._variant, self._packages, self._prefix = variant, packages, argument_prefix
-        listing, diagnostics = parameters_of(self.spec)
+        self._allow_outside = allow_outside
+        listing, diagnostics = parameters_of(self.spec, allow_outside=allow_outside)
         if listing is None:
             raise CompileError(diagnostics)
         sets = listing.variants.get(variant, {}) if variant is not None else {}
@@ -102,7 +104,7 @@ class RobotDescription:
             texts = list(map(str, parameter.choices))
             choices = texts if default is None or default in texts else None
         about = ", ".join(filter(None, (parameter.type, "" if choices else parameter.limits)))
-        description = f"{' '.join(parameter.description.split())} ({about})".strip()
+        description = f"{' '.join(parameter.description.split())} {f'({about})' if about else ''}".strip()
         return DeclareLaunchArgument(
             self._prefix + parameter.name, default_value=default, description=description, choices=choices
         )
@@ -120,6 +122,7 @@ class RobotDescription:
             packages=self._packages,
             variant=self._variant,
             gazebo=self.gazebo,
+            allow_outside=self._allow_outside,
         )
         from linkforge_compile.diagnostics.render import render_text
 

@@ -22,7 +22,8 @@ def templates_folder() -> Path:
 
 def compiler_files() -> tuple[Path, ...]:
     """Return what of linkforge itself its output depends on: the templates, and the version, which an update renews."""
-    return (*sorted(templates_folder().rglob("*.j2")), Path(__file__).with_name("_version.py"))
+    templates = (path for format_ in ("srdf", "urdf") for path in sorted((templates_folder() / format_).rglob("*.j2")))
+    return (*templates, Path(__file__).with_name("_version.py"))
 
 
 def manual_folder() -> Path:

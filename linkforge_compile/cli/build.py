@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import compile_spec
 from linkforge_compile.cli.telling import say, tell
 
@@ -49,6 +49,8 @@ def build(order: Order, arguments: argparse.Namespace) -> Build:
 
 def _build(order: Order, compilation: Compilation, arguments: argparse.Namespace) -> int:
     outputs = None if compilation.robot is None else _outputs(compilation.robot, order, arguments)
+    if outputs is not None:
+        _refuse_to_replace(compilation.files, outputs, arguments.depfile)
     stale = _stale(outputs, order.spec) if arguments.check and outputs else ()
     if tell((*_report(compilation, outputs), *stale), arguments) or outputs is None:
         return FAULTY_SPEC
@@ -59,6 +61,15 @@ def _build(order: Order, compilation: Compilation, arguments: argparse.Namespace
 
         write_depfile(arguments.depfile, [output.path for output in outputs if output.path], compilation)
     return OK
+
+
+def _refuse_to_replace(files: Sequence[Path], outputs: Sequence[Output], depfile: str | None) -> None:
+    """Refuse to write over what the robot is made from, as the URDF of a vendor beside a spec of the same name."""
+    made_from = {file.resolve() for file in files}
+    written = [output.path for output in outputs if output.path] + ([Path(depfile)] if depfile else [])
+    for path in written:
+        if path.resolve() in made_from:
+            raise UsageError(f"'{path}' would be replaced, and the robot is made from it; write to another place")
 
 
 def _report(compilation: Compilation, outputs: Sequence[Output] | None) -> tuple[Diagnostic, ...]:

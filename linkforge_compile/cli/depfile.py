@@ -40,7 +40,7 @@ def make_rule(outputs: Iterable[Path], inputs: Iterable[Path]) -> str:
 
 
 def _escaped(path: Path) -> str:
-    name = str(path)
+    name = path.as_posix()
     if found := _UNWRITABLE.search(name):
         raise UsageError(f"a depfile cannot hold '{name}', for it has {found[0]!r} in it; rename it")
     name = name.replace("$", "$$").replace("#", r"\#")

@@ -66,11 +66,11 @@ def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets
 
 
 def name_of(spec: str) -> str:
-    """Return what the files of a spec are named after: arm for arm.robot.yaml."""
+    """Return what the files of a spec are named after: arm for arm.robot.yaml, and for arm.urdf.xacro."""
     if spec == "-":
         return "robot"
     name = Path(spec).name
-    for ending in (".yaml", ".yml", ".robot"):
+    for ending in (".yaml", ".yml", ".robot", ".xacro", ".urdf"):
         name = name.removesuffix(ending)
     return name
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile.cli.main import main
+from linkforge_compile.cli.targets import targets_of
 from tests.meshes import block, save
 from tests.programs import program
 
@@ -60,6 +61,7 @@ def test_every_file_that_a_robot_is_made_from_is_listed_and_no_other(cell: Path,
     assert found["unread"] == []
     names = {Path(path).name for path in found["linkforge"]}
     assert {"robot.xml.j2", "link.xml.j2", "_version.py"} <= names
+    assert "CMakeLists.txt.j2" not in names, "that is of init"
     assert all(Path(path).is_file() for path in found["linkforge"])
 
 
@@ -163,3 +165,29 @@ def test_a_depfile_of_nothing_is_wrong_usage(
     assert main(["compile", "cell.robot.yaml", *words]) == 2
     assert said in capfd.readouterr().err
     assert not (cell / "robot.d").exists()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("cell.robot.yaml", "-o", "tool.urdf"),
+        ("cell.robot.yaml", "-o", "robot.urdf", "-o", "tool.srdf"),
+        ("cell.robot.yaml", "-o", "robot.urdf", "--depfile", "table.yaml"),
+        ("tool.urdf", "-o", "."),
+    ],
+)
+def test_what_a_robot_is_made_from_is_not_written_over(
+    cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...]
+):
+    before = {path: path.read_bytes() for path in cell.iterdir()}
+    assert main(["compile", *words]) == 2
+    assert "would be replaced, and the robot is made from it; write to another place" in capfd.readouterr().err
+    assert {path: path.read_bytes() for path in cell.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    "name", ["cell.robot.yaml", "cell.yaml", "cell.yml", "cell.urdf", "cell.urdf.xacro", "cell.xacro"]
+)
+def test_files_are_named_after_the_spec(name: str):
+    paths = targets_of(f"robots/{name}", ["out/"], "urdf").paths
+    assert paths == {"urdf": Path("out/cell.urdf")}
