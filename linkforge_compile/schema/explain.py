@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes.schema import (
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
+from linkforge_compile.schema.repetition import has_names
 from linkforge_compile.schema.words import (
     COMMON_KEYS,
     alternatives,
@@ -30,7 +31,7 @@ from linkforge_compile.schema.words import (
     shortened,
     words_of,
 )
-from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
+from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.xacro import xacro_facts
 
 if TYPE_CHECKING:
@@ -82,11 +83,12 @@ def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:
     for entry in node if isinstance(node, YamlMap) else ():
         if entry.name in known or any(re.search(pattern, entry.name) for pattern in patterns):
             continue
-        yield Judgement(_unknown_key(entry.key, schema), (*path, entry.name))
+        yield Judgement(_unknown_key(entry, schema), (*path, entry.name))
 
 
-def _unknown_key(key: YamlScalar, schema: Schema) -> Diagnostic:
+def _unknown_key(entry: YamlEntry, schema: Schema) -> Diagnostic:
     """Say where the key belongs, else which was meant, else which there are."""
+    key = entry.key
     owner, known = str(schema["title"]), mapping(schema.get("properties", {}))
     own = [name for name in known if name not in COMMON_KEYS]
     near = [*known]
@@ -94,6 +96,11 @@ def _unknown_key(key: YamlScalar, schema: Schema) -> Diagnostic:
     parts = {name: part for name, part in known.items() if name not in _NOT_HOMES}
     if not hint and (homes := [f"'{name}'" for name, part in parts.items() if key.text in _keys_within(part)]):
         hint = f"it belongs under {alternatives(homes)}"
+    if not hint and (sections := [name for name, part in parts.items() if _is_entry_of(entry.value, part)]):
+        written = [f"'{name}: {{{key.text}: …}}'" for name in sections]
+        hint = f"write {alternatives(written)}"
+    if not hint and owner == "an override" and nearest(key.text, near) is None and _says_nothing(entry.value):
+        hint = f"write it in its section, such as 'links: {{{key.text}: …}}'"
     if not hint and nearest(key.text, near) is None and 0 < len(own) <= _SHOWN_KEYS:
         hint = f"its keys are {alternatives(own, 'and')}"
     hinted = f"; {hint}" if hint else ""
@@ -147,6 +154,18 @@ _NOT_HOMES = {"defaults", "override"}
 def _keys_within(schema: Json) -> set[str]:
     keys = {key for branch in branches(mapping(schema)) for key in mapping(branch.get("properties", {}))}
     return keys - COMMON_KEYS - {"name"}
+
+
+def _says_nothing(node: YamlNode) -> bool:
+    return is_null(node) or (isinstance(node, YamlMap) and not node.entries)
+
+
+def _is_entry_of(said: YamlNode, section: Json) -> bool:
+    """Whether a section keyed by names has entries that may say all of what is said."""
+    keys = {entry.name for entry in said} if isinstance(said, YamlMap) else set()
+    entries = [mapping(part["additionalProperties"]) for part in branches(mapping(section)) if has_names(part)]
+    known = {key for part in entries for branch in branches(part) for key in mapping(branch.get("properties", {}))}
+    return bool(keys) and keys <= known
 
 
 def _missing_keys(misfit: Misfit) -> Iterator[Judgement]:
