@@ -148,6 +148,44 @@ def test_what_is_offered(server: LanguageServer, document: str, labels: list[str
     assert [label for label in offered if label not in EVERYWHERE] == labels
 
 
+IN_EXAMPLES = {
+    # The same where a person is in the midst of a robot: a text of an example, and what stands there half-typed.
+    "a joint's type": ("01_two_link_arm/two_link_arm", "    type: revolute", "    type: |", JOINT_TYPES),
+    "a key of limits": (
+        "01_two_link_arm/two_link_arm",
+        "limits: {lower: -120 deg, upper: 120 deg,",
+        "limits: {lower: -120 deg, up|,",
+        ["limits", "upper"],
+    ),
+    "a key of a link": (
+        "01_two_link_arm/two_link_arm",
+        "    inertial: {mass: 4 kg} ",
+        "    i| ",
+        ["gazebo", "inertial", "link", "physics"],
+    ),
+    "a key of a module": (
+        "09_mobile_manipulator/mobile_manipulator",
+        "    parent: torso\n",
+        "    |\n",
+        ["joint", "module", "override", "parent", "srdf", "with"],
+    ),
+    "a key of the semantic part": (
+        "02_ur5e/ur5e_arm",
+        "semantic:\n",
+        "semantic:\n  |\n",
+        [key for key in SEMANTIC_KEYS if key not in {"groups", "group_states", "disabled_collisions"}],
+    ),
+}
+
+
+@pytest.mark.parametrize(("spec", "text", "typed", "labels"), IN_EXAMPLES.values(), ids=IN_EXAMPLES)
+def test_what_is_offered_in_an_example(server: LanguageServer, spec: str, text: str, typed: str, labels: list[str]):
+    written = (ROOT / "examples" / f"{spec}.robot.yaml").read_text("utf-8")
+    assert text in written
+    offered = server.completions(MODELINE + written.replace(text, typed, 1))
+    assert [completion.label for completion in offered if completion.label not in EVERYWHERE] == labels
+
+
 INSERTED = {
     # What is written where one of the offered is taken.
     "links": ("l|", "links:\n  ${1:link_name}:\n    visual:\n      box: [${2:0.1}, ${3:0.1}, ${4:0.1}]"),
