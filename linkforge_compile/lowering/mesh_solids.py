@@ -98,16 +98,15 @@ class MeshSolids:
         return known
 
     def _content(self, path: Path) -> bytes | None:
-        content = None
+        """Return what is in a file, None where there is none; one that cannot be had is noted."""
         try:
             content = file_bytes(path, MAX_BYTES, only_regular=True)
-        except TooLargeError as error:
-            raise MeshError(MeshFault.TOO_LARGE, str(error)) from error
         except UnreadableError as error:
-            raise MeshError(MeshFault.UNREADABLE, str(error)) from error
-        finally:
-            if content is None:
-                self._unread.append(as_typed(path))
+            self._unread.append(as_typed(path))
+            fault = MeshFault.TOO_LARGE if isinstance(error, TooLargeError) else MeshFault.UNREADABLE
+            raise MeshError(fault, str(error)) from error
+        if content is None:
+            self._unread.append(as_typed(path))
         return content
 
 
