@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import model
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.lowering.fields import Fields
-from linkforge_compile.lowering.gazebo import lower_gazebo_elements
+from linkforge_compile.lowering.file import gazebo_elements_of, sensors_of
 from linkforge_compile.lowering.joint import read_joint_of_any_type
 from linkforge_compile.lowering.link import lower_links
 from linkforge_compile.lowering.scope import FileScope
-from linkforge_compile.lowering.sensor import lower_sensors
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode, YamlScalar
@@ -51,30 +50,32 @@ def _places(diagnostic: Diagnostic) -> Iterator[Span]:
 
 def _faults(defaults: YamlMap, instance: Instance) -> Iterator[Diagnostic]:
     """Yield what is wrong with values, read as the fields of entries that have nothing else."""
+    entries = _as_entries(defaults)
+    if entries is None:
+        return
     sink = Diagnostics()
-    file = Fields(_as_entries(defaults), "defaults", sink, instance.trail)
-    readers: tuple[Iterator[object], ...] = (
-        lower_links(file, FileScope()),
-        file.each("joints", "joint", read_joint_of_any_type),
-        lower_sensors(file),
-        lower_gazebo_elements(file),
+    file = Fields(entries, "defaults", sink, instance.trail)
+    deque(lower_links(file, FileScope()), maxlen=0)
+    deque(file.each("joints", "joint", read_joint_of_any_type), maxlen=0)
+    sensors_of(file)
+    gazebo_elements_of(file)
+    yield from (fault for fault in sink if fault.code in _OF_A_VALUE)
+
+
+def _as_entries(defaults: YamlMap) -> YamlMap | None:
+    """Return the sections of a file that has one entry for each default, None for none."""
+
+    def said(**nodes: YamlNode | None) -> YamlMap | None:
+        entries = {name: _entry(name, node) for name, node in nodes.items() if node is not None}
+        return YamlMap(entries, defaults.span) if entries else None
+
+    shapes = said(visual=defaults.get("visual"), collision=defaults.get("collision"))
+    return said(
+        links=said(link=defaults.get("link"), shapes=shapes),
+        joints=said(joint=defaults.get("joint")),
+        sensors=said(sensor=defaults.get("sensor")),
     )
-    for entries in readers:
-        deque(entries, maxlen=0)
-    return (fault for fault in sink if fault.code in _OF_A_VALUE)
 
 
-def _as_entries(defaults: YamlMap) -> YamlMap:
-    """Return the sections of a file that has one entry for each default."""
-    shapes = {key: entry for key, entry in defaults.entries.items() if key in {"visual", "collision"}}
-    sections = {
-        "links": {"link": defaults.get("link"), "shapes": YamlMap(shapes, defaults.span)},
-        "joints": {"joint": defaults.get("joint")},
-        "sensors": {"sensor": defaults.get("sensor")},
-    }
-    return _map({name: _map(entries, defaults.span) for name, entries in sections.items()}, defaults.span)
-
-
-def _map(nodes: Mapping[str, YamlNode | None], span: Span) -> YamlMap:
-    keys = {name: YamlScalar(name, name, span) for name in nodes}
-    return YamlMap({name: YamlEntry(keys[name], node) for name, node in nodes.items() if node is not None}, span)
+def _entry(name: str, node: YamlNode) -> YamlEntry:
+    return YamlEntry(YamlScalar(name, name, node.span), node)

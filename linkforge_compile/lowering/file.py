@@ -77,10 +77,10 @@ def lower_file(
         metadata=_metadata(tree),
         links=[link for link in links.values() if link],
         joints=[joint for joint in joints.values() if joint],
-        sensors=_sensors(file),
+        sensors=sensors_of(file),
         transmissions=_transmissions(file),
         ros2_controls=_ros2_controls(file),
-        gazebo_elements=_gazebo_elements(file),
+        gazebo_elements=gazebo_elements_of(file),
         semantic=semantic.description if semantic else None,
         source=SourceRef(tree, said.span if said else None, trail),
         **outer_extras_of(file),
@@ -139,7 +139,7 @@ def _mounts(file: Fields) -> Iterable[ModuleJoint]:
     return lower_mounts(file)
 
 
-def _sensors(file: Fields) -> tuple[Sensor, ...]:
+def sensors_of(file: Fields) -> tuple[Sensor, ...]:
     if file.node.get("sensors") is None:
         return ()
     from linkforge_compile.lowering.sensor import lower_sensors
@@ -163,7 +163,7 @@ def _ros2_controls(file: Fields) -> tuple[Ros2Control, ...]:
     return tuple(lower_ros2_controls(file))
 
 
-def _gazebo_elements(file: Fields) -> tuple[GazeboElement, ...]:
+def gazebo_elements_of(file: Fields) -> tuple[GazeboElement, ...]:
     sections = (file.node.get("links"), file.node.get("joints"))
     entries = (entry.value for section in sections if isinstance(section, YamlMap) for entry in section)
     if not any(isinstance(node, YamlMap) and "gazebo" in node.entries for node in (file.node, *entries)):
