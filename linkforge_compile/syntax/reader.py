@@ -126,7 +126,7 @@ class _Reader:
         self._tags = tags
         self._parser = parser(marks.text)
         self._anchors: dict[str, _Anchor | None] = {}  # None while the anchored node is still being read
-        self._deepest = 0
+        self._deepest, self._is_any_cut = 0, False
         self._latest = marks.file.whole  # what was read last: with it end the block lists and maps around it
 
     def document(self) -> YamlNode:
@@ -239,6 +239,7 @@ class _Reader:
             return YamlFault(span)
         if flow and not event.style and is_cut_expression(text):
             self._sink.report(explain_cut(event, self._marks))
+            self._is_any_cut = True
             return _CutExpression(span)
         return YamlScalar(text, text, span)
 
@@ -249,7 +250,7 @@ class _Reader:
         while not isinstance(event := self._next(), events.SequenceEndEvent):
             items.append(self._node(event, depth + 1, flow))
         span = self._until(event, begin, flow)
-        if any(isinstance(item, _CutExpression) for item in items):
+        if self._is_any_cut and any(isinstance(item, _CutExpression) for item in items):
             return YamlFault(span)
         return YamlList(tuple(items), span)
 
@@ -261,7 +262,7 @@ class _Reader:
             key = self._key(event, depth + 1, flow)
             entries.append((key, self._node(self._next(), depth + 1, flow)))
         span = self._until(event, begin, flow)
-        if any(isinstance(node, _CutExpression) for entry in entries for node in entry):
+        if self._is_any_cut and any(isinstance(node, _CutExpression) for entry in entries for node in entry):
             return YamlFault(span)
         named = [entry for key, value in entries for entry in self._entry(key, value, flow)]
         return YamlMap(self._merged(self._unique(named, is_top=depth == 1)), span)
