@@ -238,6 +238,42 @@ def test_a_hostile_folder_is_refused_in_time(code: str, make: Make, tmp_path: Pa
     refused(make, code, tmp_path)
 
 
+URDF = "<robot name='r'>"
+URDFS: dict[str, tuple[str, str]] = {
+    "entities": ("LF8002", '<!DOCTYPE x [<!ENTITY a "lol"><!ENTITY b "&a;&a;&a;">]><robot name="&b;"/>'),
+    "an entity of another file": (
+        "LF8002",
+        '<!DOCTYPE x [<!ENTITY a SYSTEM "file:///etc/passwd">]><robot name="&a;"/>',
+    ),
+    "tags in tags": ("LF8003", URDF + "<a>" * 1_000_000),
+    "millions of links": ("LF8098", URDF + "".join(f"<link name='l{i}'/>" for i in range(300_000)) + "</robot>"),
+    "more links than there may be": (
+        "LF3301",
+        URDF + "".join(f"<link name='l{i}'/>" for i in range(31_000)) + "</robot>",
+    ),
+    "tags without end": ("LF8004", URDF + f"<gazebo>{'<a>' + '<b/>' * 90_000 + '</a>'}</gazebo>" * 3 + "</robot>"),
+    "attributes without end": ("LF3301", URDF[:-1] + "".join(f" a{i}='1'" for i in range(100_000)) + "/>"),
+    "the name of a codec that unpacks": ("LF3002", "<?xml version='1.0' encoding='zlib'?><robot/>"),
+}
+
+
+@pytest.mark.parametrize("name", URDFS)
+def test_a_hostile_urdf_is_refused_in_time(name: str, tmp_path: Path):
+    code, text = URDFS[name]
+    write(tmp_path, "v.urdf", text)
+    refused(lambda _: HEAD + "modules: {v: {use: v.urdf, parent: base}}\n", code, tmp_path)
+
+
+def test_an_srdf_whose_groups_take_each_other_along_is_imported_in_time(tmp_path: Path):
+    """The last of the groups is missing, so that none has a member: each reading of it finds one more."""
+    write(tmp_path, "a.urdf", URDF + "<link name='a'/></robot>")
+    groups = "".join(f"<group name='g{i}'><group name='g{i + 1}'/></group>" for i in range(2_000))
+    write(tmp_path, "a.srdf", URDF + groups + "</robot>")
+    done = run("import", "a.urdf", "--srdf", "a.srdf", folder=tmp_path)
+    assert "Traceback" not in done.stderr
+    assert done.returncode in (0, 1), (done.returncode, done.stderr[-500:])
+
+
 MESHES: dict[str, tuple[str, str, bytes]] = {
     "a header of four billion triangles": ("f.stl", "LF6012", b"\0" * 80 + b"\xff" * 4),
     "a face of no corner": ("f.obj", "LF6012", b"v 0 0 0\nf 1 2 99999999999\n"),

@@ -1,13 +1,16 @@
-"""What is fuzzed: each target takes any bytes, and raises only where linkforge breaks a promise."""
+"""What is fuzzed: each target takes any bytes, and raises only where linkforge breaks a promise.
+
+The whole compiler is imported by the targets that need it: what is imported is instrumented first, for many seconds.
+"""
 
 from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.parsers import expat
 
-from linkforge_compile import Compilation, compile_text, import_urdf, render_srdf, render_urdf
 from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics
 from linkforge_compile.expressions import RESERVED_NAMES, Scope, evaluate, parse_template
@@ -16,6 +19,9 @@ from linkforge_compile.schema.registry import definitions
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import read
 from linkforge_compile.units import Dimension, Quantity
+
+if TYPE_CHECKING:
+    from linkforge_compile import Compilation
 
 ROOT = Path(__file__).parents[2]
 
@@ -63,6 +69,8 @@ def import_xml(content: bytes) -> None:
 
     Behind a zero byte, which no XML has, stands the SRDF of the URDF.
     """
+    from linkforge_compile import compile_text, import_urdf
+
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder, name) for name in ("a.urdf", "a.srdf")]
         parts = content.split(b"\0", maxsplit=1)
@@ -80,6 +88,8 @@ def import_xml(content: bytes) -> None:
 
 def compile_spec(content: bytes) -> None:
     """A spec is XML, or is refused at a place."""
+    from linkforge_compile import compile_text
+
     text = _text(content)
     compilation = compile_text(text)
     _lie_inside(text, compilation.diagnostics)
@@ -145,6 +155,8 @@ def _is_whole(compilation: Compilation) -> None:
     if compilation.robot is None:
         assert compilation.has_errors
         return
+    from linkforge_compile import render_srdf, render_urdf
+
     for document in (render_urdf(compilation.robot), render_srdf(compilation.robot)):
         # A parser that knows no namespaces: a prefix that nothing declares comes out as it stands, with a warning.
         expat.ParserCreate().Parse(document.encode(), True)

@@ -1,4 +1,4 @@
-"""What fuzzing kept breaks no promise any more, and no new promise breaks within seconds; CI takes half a minute."""
+"""What fuzzing kept breaks no promise any more, and none breaks within half a minute of it in CI."""
 
 import os
 from pathlib import Path
@@ -8,7 +8,7 @@ import pytest
 from tests.fuzz.__main__ import MOST_KEPT, fuzz, write_seeds
 from tests.fuzz.targets import CORPUS, TARGETS
 
-SECONDS = int(os.environ.get("LINKFORGE_FUZZ_SECONDS", "2"))
+SECONDS = int(os.environ.get("LINKFORGE_FUZZ_SECONDS", "0"))
 
 
 @pytest.mark.parametrize("path", sorted(CORPUS.glob("*/*")), ids=lambda path: path.relative_to(CORPUS).as_posix())
@@ -22,6 +22,7 @@ def test_what_is_kept_stays_small():
     assert sum(path.stat().st_size for path in files) < 1024**2
 
 
+@pytest.mark.skipif(not SECONDS, reason="it takes a while: LINKFORGE_FUZZ_SECONDS, which CI sets, says how long")
 @pytest.mark.parametrize("target", TARGETS)
 def test_fuzzing_finds_nothing(target: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     pytest.importorskip("atheris", reason="it is for Linux, and not for every version of Python")
