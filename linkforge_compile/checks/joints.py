@@ -32,8 +32,8 @@ BOUNDED_JOINTS = (JointType.REVOLUTE, JointType.PRISMATIC)
 FASTEST: dict[str, float] = {JointType.REVOLUTE: 20 * math.pi, JointType.PRISMATIC: 20.0}
 """Beyond this the speed of a joint was meant in other units [rad/s] or [m/s]: fast legs have 40 rad/s."""
 
-UNBOUNDED = 1000.0
-"""From here on a speed says that there is no limit [rad/s] or [m/s]."""
+NO_SPEED, UNBOUNDED = 100.0, 1000.0
+"""What exporters write for a speed that nobody gave, and from where on it says that there is no limit [SI]."""
 
 ROUNDING = 1e-4
 """How far a soft limit may pass a limit [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
@@ -145,7 +145,7 @@ def check_joint_speed(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     for joint in robot.joints:
         fastest = FASTEST.get(joint.type)
         velocity = joint.limits.velocity if joint.limits else None
-        if fastest is None or velocity is None or not fastest < velocity < UNBOUNDED:
+        if fastest is None or velocity is None or velocity == NO_SPEED or not fastest < velocity < UNBOUNDED:
             continue
         found, is_turning = f"{velocity:.6g}", joint.type == JointType.REVOLUTE
         also = f", {velocity / math.tau:.3g} turns a second" if is_turning else ""

@@ -7,6 +7,7 @@ from urllib.parse import unquote
 
 import jsonschema
 import pytest
+from jsonschema import Draft7Validator
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Note, Severity
 from linkforge_compile.diagnostics.render import render_text
@@ -132,6 +133,64 @@ def test_sarif_relates_the_places_of_notes():
     assert related["message"]["text"] == "used here"
     assert related["physicalLocation"]["artifactLocation"]["uri"] == "%3Cstdin%3E"
     assert unknown["message"]["text"] == "no link named 'hnad'\nwith variant 'sim' only"
+
+
+TEXT = {"type": "object", "required": ["text"], "properties": {"text": {"type": "string", "minLength": 1}}}
+URI = {"type": "string", "pattern": r"^[^\s\\\\]+$", "format": "uri-reference"}
+COUNT = {"type": "integer", "minimum": 1}
+LEVEL = {"enum": ["none", "note", "warning", "error"]}
+
+
+def closed(required: tuple[str, ...] = (), **properties: object) -> dict[str, object]:
+    """Return the schema of an object with these keys and no others."""
+    return {"type": "object", "additionalProperties": False, "required": list(required), "properties": properties}
+
+
+def some(items: object) -> dict[str, object]:
+    return {"type": "array", "minItems": 1, "uniqueItems": True, "items": items}
+
+
+REGION = closed(("startLine",), startLine=COUNT, startColumn=COUNT, endLine=COUNT, endColumn=COUNT)
+PLACE = closed(
+    ("artifactLocation",), artifactLocation=closed(("uri",), uri=URI, uriBaseId={"const": "%SRCROOT%"}), region=REGION
+)
+RULE = closed(
+    ("id",),
+    id={"pattern": r"^LF\d{4}$"},
+    shortDescription=TEXT,
+    help={**TEXT, "properties": {**TEXT["properties"], "markdown": {"type": "string"}}},
+    defaultConfiguration=closed(level=LEVEL),
+)
+RESULT = closed(
+    ("message", "ruleId"),
+    ruleId={"type": "string"},
+    ruleIndex={"type": "integer", "minimum": 0},
+    level=LEVEL,
+    message=TEXT,
+    locations=some(closed(("physicalLocation",), physicalLocation=PLACE)),
+    relatedLocations=some(closed(("physicalLocation",), physicalLocation=PLACE, message=TEXT)),
+)
+RUN = closed(
+    ("tool", "results"),
+    tool=closed(
+        ("driver",),
+        driver=closed(("name",), name={"const": "linkforge"}, version={"type": "string"}, rules=some(RULE)),
+    ),
+    columnKind={"const": "unicodeCodePoints"},
+    originalUriBaseIds={
+        "type": "object",
+        "additionalProperties": closed(("uri",), uri={"type": "string", "pattern": "/$"}),
+    },
+    results={"type": "array", "items": RESULT},
+)
+SARIF = closed(("version", "runs"), version={"const": "2.1.0"}, runs=some(RUN), **{"$schema": {"type": "string"}})
+"""What SARIF 2.1.0 says of the objects and keys that are written here, each with its kind; no others."""
+
+
+def test_sarif_is_as_the_standard_has_it():
+    Draft7Validator.check_schema(SARIF)
+    log = json.loads(render_sarif(EVERY, root=CHECKOUT, version="1.2.3", manual=lambda code: f"# {code.id}"))
+    assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
 
 
 @pytest.mark.parametrize(
