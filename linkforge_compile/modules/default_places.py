@@ -1,4 +1,7 @@
-"""Which places are in the `defaults` of their file: no entry that took them over knows it any more."""
+"""Which places are in the `defaults` of their file: no entry that took them over knows it any more.
+
+Only `explain` asks, of a few places, so the file is read again rather than a mark carried through every stage.
+"""
 
 from __future__ import annotations
 
