@@ -58,12 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(words: list[str]) -> int:
     if not words or words[0] not in _COMMANDS:
         return _no_command(words)
-    import gc
     from importlib import import_module
-
-    # A command makes hundreds of thousands of values that live to its end. Unless told otherwise, Python looks for
-    # circles among them after every 700, which takes a sixth of the time and finds none.
-    gc.set_threshold(100_000, 20, 100)
 
     name, *rest = words
     # `import` is a word of Python, and no name of a module.
