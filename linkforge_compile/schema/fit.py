@@ -1,6 +1,6 @@
 """Says yes to a tree that is shaped as its schema says; whoever wants the reasons for a no asks jsonschema.
 
-Most files are right, and to say so takes a fiftieth of the time of looking for all that is wrong.
+Most files are right, and to say so takes a seventh of the time of looking for all that is wrong.
 """
 
 from __future__ import annotations
