@@ -16,12 +16,11 @@ few = settings(max_examples=25, deadline=None)
 
 
 def said_by_urdf(robot: Robot) -> Robot:
-    """Return a robot without what an import says in another place: Gazebo's sensors, and materials of one visual."""
+    """Return a robot without what an import says in another place: the materials of visuals."""
     robot = robot.clone()
     robot.links = [
         replace(link, visuals=[replace(visual, material=None) for visual in link.visuals]) for link in robot.links
     ]
-    robot.sensors, robot.gazebo_elements = (), ()
     return robot
 
 
@@ -63,7 +62,7 @@ def test_an_imported_robot_has_all_its_elements(robot: Robot):
 
 
 @few
-@given(robots.map(said_by_urdf).filter(is_writable))
+@given(robots.filter(is_writable))
 def test_what_came_in_once_stays_as_it_is(robot: Robot):
     first = compiled(imported(robot))
     spec = imported(first)
