@@ -112,6 +112,21 @@ _HINTS_FOR_OWNER = {
     ("an override", "parameters"): "parameters are set by 'with'",
     ("a module", "parameters"): "parameters are set by 'with'",
     ("a module", "args"): "parameters are set by 'with'",
+    ("a module", "file"): "write 'use'",
+    ("a joint", "parent_link"): "write 'parent'",
+    ("a joint", "child_link"): "write 'child'",
+    ("a joint's limits", "min"): "write 'lower'",
+    ("a joint's limits", "max"): "write 'upper'",
+    ("a joint's limits", "torque"): "write 'effort'",
+    ("a joint's limits", "force"): "write 'effort'",
+    ("a joint's limits", "speed"): "write 'velocity'",
+    ("a virtual joint", "parent"): "write 'parent_frame'",
+    ("a virtual joint", "child"): "write 'child_link'",
+    ("a frame", "link"): "write 'parent'",
+    ("a sensor", "parent"): "write 'link'",
+    ("a mesh", "filename"): "write 'file'",
+    **{("an origin", axis): "write 'xyz: [x, y, z]'" for axis in "xyz"},
+    **{("an origin", angle): "write 'rpy: [roll, pitch, yaw]'" for angle in ("roll", "pitch", "yaw")},
     ("a gazebo block", "mu"): "write 'mu1', and 'mu2' for the second direction",
     ("a ros2_control block", "plugin"): "write 'hardware_plugin'",
     ("a ros2_control block", "hardware"): "write its plugin as 'hardware_plugin', its params as 'parameters'",
@@ -189,16 +204,30 @@ def _wrong_word(misfit: Misfit) -> Iterator[Judgement]:
     """Say which words there are, of text; of anything else, `type` has told already."""
     node, path, schema = misfit
     if isinstance(node, YamlScalar) and isinstance(node.value, str):
-        yield Judgement(
-            UNKNOWN_WORD.at(
-                node.span,
-                field=field(path),
-                expected=expected(schema),
-                name=shortened(node.text),
-                near=words_of(schema),
-            ),
-            path,
-        )
+        words, meant = words_of(schema), _WORDS_MEANT.get(node.text.lower())
+        hint = f"; write '{meant}'" if meant in words else ""
+        facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint}
+        yield Judgement(UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
+
+
+_WORDS_MEANT = {
+    "float": "number",
+    "double": "number",
+    "int": "integer",
+    "str": "string",
+    "bool": "boolean",
+    "path": "file",
+    "array": "list",
+    "dict": "map",
+    "hinge": "revolute",
+    "slider": "prismatic",
+    "linear": "prismatic",
+    "rigid": "fixed",
+    "depth": "depth_camera",
+    "gpu_ray": "gpu_lidar",
+    "laser": "lidar",
+}
+"""Words of other languages and formats for those of this one."""
 
 
 def _wrong_kind(misfit: Misfit) -> Iterator[Judgement]:
@@ -220,6 +249,10 @@ def _as_urdf(node: YamlNode, path: Path, schema: Schema) -> str:
         return f"; write '[{', '.join(node.text.split())}]'"
     if isinstance(node, YamlScalar) and isinstance(node.value, str) and _is_item(node.text, schema):
         return f"; write '[{node.text}]'"
+    if isinstance(node, YamlScalar) and _is_row(node) and path and isinstance(path[-1], int):
+        return f"; write '{', '.join(node.text.split())}'"
+    if isinstance(node, YamlScalar) and isinstance(node.value, str) and path and path[-1] == "mimic":
+        return f"; write '{{joint: {node.text}}}'"
     entries = tuple(node) if isinstance(node, YamlMap) else ()
     if entries and len(path) > 1 and path[-2] in _INTERFACES:
         return f"; write a map in place of the list: '{path[-2]}: {{{entries[0].name}: …}}'"
@@ -263,7 +296,8 @@ def _no_branch(misfit: Misfit) -> Iterator[Judgement]:
 
 def _wrong_length(misfit: Misfit) -> Iterator[Judgement]:
     node, path, schema = misfit
-    if isinstance(node, YamlList):
+    # A row of numbers without commas is told as that.
+    if isinstance(node, YamlList) and not any(map(_is_row, node)):
         yield Judgement(
             WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=len(node)),
             path,

@@ -146,7 +146,8 @@ def test_all_faults_are_told_at_once_each_at_its_place():
     """)
     assert told == [
         "3:1 'link' is not a key of a robot; did you mean 'links'?",
-        "5:17 'type' takes 'revolute', 'continuous', 'prismatic', 'fixed', 'floating' or 'planar', found 'hinge'",
+        "5:17 'type' takes 'revolute', 'continuous', 'prismatic', 'fixed', 'floating' or 'planar', "
+        "found 'hinge'; write 'revolute'",
         "5:40 'upper' takes a number [rad or m] or a quantity such as '90 deg' or '40 mm', found 'far'",
         "5:45 'efort' is not a key of a joint's limits; did you mean 'effort'?",
     ]

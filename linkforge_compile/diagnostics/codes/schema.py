@@ -15,5 +15,5 @@ MISSING_NAME = Code(
 )
 UNKNOWN_KEY = Code("LF2101", Severity.ERROR, "'{name}' is not a key of {owner}{hint}", _WRITER)
 WRONG_KIND = Code("LF2201", Severity.ERROR, "{field} takes {expected}, found {found}", _KIND)
-UNKNOWN_WORD = Code("LF2202", Severity.ERROR, "{field} takes {expected}, found '{name}'", _WRITER)
+UNKNOWN_WORD = Code("LF2202", Severity.ERROR, "{field} takes {expected}, found '{name}'{hint}", _WRITER)
 WRONG_LENGTH = Code("LF2203", Severity.ERROR, "{field} takes {expected}, found {found}", _KIND)
