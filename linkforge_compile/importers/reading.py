@@ -94,8 +94,10 @@ class Reading:
             return None
         attribute = self._attributes.pop(name)
         nodes = [self.draft.number(text, attribute.span, unit) for text in attribute.value.split()]
-        if len(nodes) != count or None in nodes:
+        if len(nodes) != count:
             raise DeclinedError(f"{name} takes {count} numbers, found '{attribute.value}'", attribute.span)
+        if None in nodes:
+            raise DeclinedError(f"{name} takes finite numbers, found '{attribute.value}'", attribute.span)
         return YamlList(tuple(node for node in nodes if node is not None), attribute.span)
 
     # Children

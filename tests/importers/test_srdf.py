@@ -115,6 +115,38 @@ def test_a_state_is_in_the_units_of_its_joints(read):
     )
 
 
+def test_a_position_with_more_to_say_stays_raw_and_is_said_once(tmp_path: Path):
+    whole = imported(
+        tmp_path,
+        """<robot name="r"><group name="g"><joint name="turn"/></group>
+           <group_state name="up" group="g"><joint name="turn" value="1" unit="rad"/></group_state></robot>""",
+    )
+    assert whole.text is not None
+    assert render_srdf(compile_text(whole.text).result()).count('<joint name="turn" value=') == 1
+
+
+def test_a_group_that_goes_takes_along_those_that_hold_nothing_else(tmp_path: Path):
+    chain = "".join(f'<group name="g{n}"><group name="g{n + 1}"/></group>' for n in range(60))
+    tip = '<group name="hand"><link name="tip"/><group name="g0"/></group>'
+    whole = imported(tmp_path, f'<robot name="r">{tip}{chain}</robot>')
+    assert not whole.has_errors, whole.diagnostics
+    assert whole.text is not None
+    assert [group.name for group in compile_text(whole.text).result().semantic.groups] == ["hand"]
+
+
+def test_groups_in_a_circle_come_apart_where_it_closes(tmp_path: Path):
+    one, other = (
+        f'<group name="{name}"><link name="tip"/><group name="{inner}"/></group>' for name, inner in ("ab", "ba")
+    )
+    whole = imported(tmp_path, f'<robot name="r">{one}{other}</robot>')
+    assert [fault.message for fault in whole.diagnostics] == [
+        "<group> is kept as raw XML in 'extra': planning group 'a' contains the one that it stands in"
+    ]
+    assert whole.text is not None
+    semantic = compile_text(whole.text).result().semantic
+    assert [(group.name, group.subgroups) for group in semantic.groups] == [("a", ("b",)), ("b", ())]
+
+
 def test_comments_stand_where_they_stood(read):
     assert read("""
       <!-- who moves -->

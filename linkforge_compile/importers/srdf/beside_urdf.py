@@ -15,7 +15,10 @@ from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlMap, YamlNode
 
 _MOST_ROUNDS = 20
-"""So often is an SRDF read anew without what the language refuses of it: a group that goes takes others with it."""
+"""So often is an SRDF read anew without what the language refuses of it, which may have hidden another of its name.
+
+What it still refuses then is told as errors of the SRDF.
+"""
 
 _MOST_JUDGED = 20_000
 """How many elements of both are read anew in all rounds together: twice are read as many as there are."""

@@ -2,15 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from linkforge_compile.importers.draft import DeclinedError
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.srdf.known import Known
+from linkforge_compile.importers.xml import XmlElement
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode
 
 _NO_JOINTS = frozenset(("extra", "extra_attributes", "extra_inside", "for", "when"))
 """Keys of a state that no joint in it can be named."""
+
+
+def subgroups_first(groups: Iterable[XmlElement]) -> list[XmlElement]:
+    """Return groups so that each comes after those in it, as far as they are no circle; of one name, as in the file.
+
+    Without recursion, since a chain of groups may be 10,000 long.
+    """
+    named: dict[str, list[XmlElement]] = {}
+    for group in groups:
+        named.setdefault(group.get("name") or "", []).append(group)
+    reached: set[str] = set()
+    ordered: dict[str, None] = {}
+    waiting = list(reversed(named))
+    while waiting:
+        name = waiting[-1]
+        if name in reached:
+            ordered.setdefault(waiting.pop())
+            continue
+        reached.add(name)
+        inner = (part.get("name") for group in named[name] for part in group.children if part.tag == "group")
+        waiting += [part for part in inner if part in named and part not in reached]
+    return [group for name in ordered for group in named[name]]
 
 
 def read_group(group: Reading, known: Known) -> YamlMap:
@@ -18,7 +41,7 @@ def read_group(group: Reading, known: Known) -> YamlMap:
     chains = group.each("chain", lambda chain: _chain(chain, known))
     links = _members(group, "link", known.link)
     joints = _members(group, "joint", known.joint)
-    subgroups = _members(group, "group", Reading.name)
+    subgroups = _members(group, "group", known.subgroup)
     if not (chains or links or joints or subgroups):
         raise group.declined("nothing in it is a member that the robot has")
     return group.map(
@@ -53,8 +76,9 @@ def read_state(state: Reading, known: Known) -> YamlMap:
             raise DeclinedError(f"joint '{name.text}' has a value already", name.span)
         if name.text in _NO_JOINTS:
             raise DeclinedError(f"'{name.text}' is a key of the language", name.span)
-        positions[name.text] = node = _position(joint, known, name.text)
+        node = _position(joint, known, name.text)
         joint.spent()
+        positions[name.text] = node
         return node
 
     state.each("joint", read)
@@ -64,10 +88,14 @@ def read_state(state: Reading, known: Known) -> YamlMap:
 def _position(joint: Reading, known: Known, name: str) -> YamlNode:
     """Read a position: one number, or a list of them for several degrees of freedom."""
     count = len((joint.element.get("value") or "").split())
-    numbers = joint.numbers("value", count, known.measure(name) if count == 1 else None)
-    if not numbers:
+    if count == 1:
+        return joint.required_number("value", known.measure(name))
+    numbers = joint.numbers("value", count)
+    if numbers is None:
         raise joint.declined("it has no 'value'")
-    return numbers.items[0] if count == 1 else numbers
+    if not len(numbers):
+        raise DeclinedError("value is empty", numbers.span)
+    return numbers
 
 
 def read_end_effector(effector: Reading, known: Known) -> YamlMap:

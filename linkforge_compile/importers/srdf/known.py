@@ -21,6 +21,8 @@ class Known:
     turning: frozenset[str]
     """The joints whose position is an angle."""
     groups: set[str] = field(default_factory=set)
+    unread: set[str] = field(default_factory=set)
+    """The groups that are still to be read."""
 
     @classmethod
     def of(cls, tree: YamlMap) -> Known:
@@ -41,6 +43,12 @@ class Known:
 
     def group(self, owner: Reading, name: str) -> YamlScalar:
         return _known(owner, name, "planning group", self.groups)
+
+    def subgroup(self, owner: Reading, name: str) -> YamlScalar:
+        """Take the name of a group inside another: it has been read by now, unless the two are a circle."""
+        if (said := owner.element.attributes.get(name)) and said.value in self.unread:
+            raise DeclinedError(f"planning group '{said.value}' contains the one that it stands in", said.span)
+        return self.group(owner, name)
 
     def measure(self, joint: str) -> Dimension | None:
         return Dimension.ANGLE if joint in self.turning else None

@@ -11,7 +11,7 @@ from linkforge_compile.importers.comments import placed_comments
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.importers.draft import DeclinedError, Draft
 from linkforge_compile.importers.reading import Reading
-from linkforge_compile.importers.srdf.group import read_end_effector, read_group, read_state
+from linkforge_compile.importers.srdf.group import read_end_effector, read_group, read_state, subgroups_first
 from linkforge_compile.importers.srdf.known import Known
 from linkforge_compile.importers.srdf.nested import read_nested, read_pair, read_property
 from linkforge_compile.importers.xml import XmlAttribute, XmlDocument
@@ -44,8 +44,7 @@ def _semantic(robot: Reading, known: Known) -> YamlMap:
     draft, span = robot.draft, robot.span
     virtual_joints = _section(robot, "virtual_joint", lambda joint: _virtual_joint(joint, known))
     known.joints.update(draft.text(name, span).text for name in virtual_joints)
-    groups = _section(robot, "group", lambda group: read_group(group, known))
-    known.groups.update(draft.text(name, span).text for name in groups)
+    groups = _groups(robot, known)
     return robot.map(
         virtual_joints=draft.named(virtual_joints, span),
         groups=draft.named(groups, span),
@@ -70,6 +69,24 @@ def _section(robot: Reading, tag: str, read: Callable[[Reading], YamlNode], key:
     for child in [child for child in robot.children() if child.tag == tag]:
         robot.take(child, partial(_named, section, read, key))
     return section
+
+
+def _groups(robot: Reading, known: Known) -> Named:
+    """Read the groups, each after those in it: one that goes takes along those that have nothing else."""
+    elements = subgroups_first(child for child in robot.children() if child.tag == "group")
+    known.unread.update(name for element in elements if (name := element.get("name")))
+    section: Named = {}
+
+    def read(group: Reading) -> YamlMap:
+        name = group.element.attributes["name"]
+        node = read_group(group, known)
+        known.groups.add(group.draft.text(name.value, name.span).text)
+        return node
+
+    for element in elements:
+        robot.take(element, partial(_named, section, read, "name"))
+        known.unread.discard(element.get("name") or "")
+    return dict(sorted(section.items(), key=lambda named: named[1][0].span))
 
 
 def _named(section: Named, read: Callable[[Reading], YamlNode], key: str, part: Reading) -> YamlNode:
