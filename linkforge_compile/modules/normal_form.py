@@ -67,7 +67,8 @@ def long_object(node: YamlMap, shape: Shape) -> YamlMap:
 def with_frames_as_joints(tree: YamlMap) -> YamlMap:
     """Return a file's tree with each frame turned into its link and its fixed joint, behind the file's own.
 
-    A frame that is at fault, or has the name of something else, stays: it is told of as a frame.
+    A frame that is at fault, or has the name of something else, stays: it is told of as a frame. So does a section
+    that is at fault, and is lost as a whole: what is missing for that is told once.
     """
     frames = tree.get("frames")
     if not isinstance(frames, YamlMap):
@@ -82,7 +83,11 @@ def with_frames_as_joints(tree: YamlMap) -> YamlMap:
             joints[joint.name] = joint
     sections = {"links": links, "joints": joints, "frames": left}
     spans = {name: section.span if (section := tree.get(name)) else frames.span for name in sections}
-    made = {name: _entry(name, YamlMap(entries, spans[name])) for name, entries in sections.items() if entries}
+    made = {
+        name: _entry(name, YamlMap(entries, spans[name]))
+        for name, entries in sections.items()
+        if entries and not isinstance(tree.get(name), YamlFault)
+    }
     return YamlMap({**{name: entry for name, entry in tree.entries.items() if name != "frames"}, **made}, tree.span)
 
 

@@ -245,3 +245,13 @@ def test_what_is_there_already_is_told_in_whatever_form(change, patch: str, is_s
     found = change(f"joints: {{wrist: {{{patch}}}}}")
     assert [one for one in found.told if one.endswith("is so already: this overrides nothing")] == found.told
     assert bool(found.told) is is_same
+
+
+def test_a_section_that_is_lost_stays_so_beside_frames(tmp_path: Path):
+    text = "links: {hip: , knee: }\njoints: $(nope)\nframes: {tool: {parent: knee}}\n"
+    write(tmp_path, {"leg.robot.yaml": text})
+    use = "modules: {leg: {use: leg.robot.yaml, override: {links: {knee: {inertial: {mass: 1}}}}}}"
+    made = Changed(*assemble(use, folder=tmp_path))
+    assert made.at("joints") == "FAULT"
+    assert made.at("links") == {"hip": None, "knee": {"inertial": {"mass": 1}}, "tool": {}}
+    assert len(made.told) == 1
