@@ -1,5 +1,9 @@
 """What no prefix reaches is told where a file is used under one, and nowhere else."""
 
+import time
+
+import pytest
+
 from tests.lowering.specs import Spec, robot_of
 
 GRIPPER = """
@@ -63,3 +67,20 @@ def test_names_of_the_files_around_are_no_names_of_the_file():
     """)
     arm = Spec("name: arm\nlinks: {flange: }\nmodules: {eye: {parent: flange}}\n", {"eye": eye})
     robot_of(used(arm))
+
+
+def test_names_in_raw_xml_are_told_wherever_they_stand():
+    unnamed = "name: lamp\nlinks: {bulb: , stand: }\njoints: {j: {type: fixed, parent: stand, child: bulb}}\nextra: "
+    said = "  # W[LF5704]:8 'bulb' is a link of this file and takes the prefix, but not here; write '$(link('bulb'))'"
+    for raw in ("<a b = 'bulb'/>", '<a x="1"y="bulb"/>', "<a> bulb </a>", "<a.b:c-d>bulb"):
+        robot_of(used(Spec(f"{unnamed}{raw}{said}\n")))
+    for raw in ("bulb>", "a b='bulb'>", '<visual name="bulb"/>', "<!-- bulb -->", "<a b='bulb'", "</bulb>"):
+        robot_of(used(Spec(f"{unnamed}{raw}\n")))
+
+
+@pytest.mark.parametrize("raw", ["<" + "a" * 100_000, "<a " + "b" * 100_000 + ">", "<a b" + " " * 100_000 + ">"])
+def test_what_is_no_xml_is_read_in_time_that_grows_with_its_length(raw: str):
+    spec = used(Spec(f'name: lamp\nlinks: {{bulb: }}\nextra: "{raw}"\n'))
+    started = time.process_time()
+    robot_of(spec)
+    assert time.process_time() - started < 2
