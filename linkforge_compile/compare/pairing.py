@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from linkforge_compile.compare.likeness import likeness
 from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.link import Collision, Visual
@@ -69,10 +71,11 @@ def _by_key(items: Iterable[object]) -> dict[str, dict[int, object]]:
 
 def _pairs(key: str, before: Mapping[int, object], after: Mapping[int, object]) -> Iterator[Pair]:
     partners = _partners(before, after)
+    taken = set(partners.values())
     for place, item in after.items():
         yield Pair(_shown(key, place), before.get(partners.get(place, -1)), item)
     for place, item in before.items():
-        if place not in partners.values():
+        if place not in taken:
             yield Pair(_shown(key, place), item, None)
 
 
@@ -85,19 +88,23 @@ def _partners(before: Mapping[int, object], after: Mapping[int, object]) -> dict
     if len(before) == len(after) == 1:
         return {0: 0}
     partners: dict[int, int] = {}
-    free = list(before)
-    for belong in _BELONG:
-        for place in [place for place in after if place not in partners]:
-            other = next((one for one in free if belong(before[one], after[place])), None)
-            if other is not None:
-                partners[place] = other
-                free.remove(other)
+    for trait_of in _TRAITS:
+        taken = set(partners.values())
+        free: dict[Hashable, deque[int]] = {}
+        for place, item in before.items():
+            if place not in taken:
+                free.setdefault(trait_of(item), deque()).append(place)
+        for place, item in after.items():
+            if place not in partners and (places := free.get(trait_of(item))):
+                partners[place] = places.popleft()
     return partners
 
 
-def _one_name(before: object, after: object) -> bool:
-    name = getattr(before, "name", None)
-    return name is not None and name == getattr(after, "name", None)
+def _name_of(item: object) -> Hashable:
+    name: str | None = getattr(item, "name", None)
+    # What has no name shares it with nobody.
+    return id(item) if name is None else name
 
 
-_BELONG: Sequence[Callable[[object, object], bool]] = (lambda one, other: one == other, _one_name, lambda *_: True)
+_TRAITS: Sequence[Callable[[object], Hashable]] = (likeness, _name_of, lambda _: None)
+"""What members that belong together have in common, the closest tie first."""

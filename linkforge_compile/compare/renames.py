@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
 from enum import Enum, auto
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
+from linkforge_compile.compare.likeness import likeness
 from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
 from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.joint import Joint, JointMimic
-from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.planning import (
     Chain,
     EndEffector,
@@ -47,9 +48,13 @@ def find_renames(before: Robot, after: Robot) -> Renames:
     joints = {}
     for joint in before.joints:
         other = ends.get((links.get(joint.parent, joint.parent), links.get(joint.child, joint.child)))
-        if joint.name not in after.joints and other and _nameless(joint) == _nameless(other):
+        if joint.name not in after.joints and other and likeness(joint, _NAMES) == likeness(other, _NAMES):
             joints[joint.name] = other.name
     return Renames(links, joints)
+
+
+_Alike: TypeAlias = dict[Hashable, list[str]]
+"""The names of links by how they hang and what their bodies are, all names in it left aside."""
 
 
 def _renamed_links(before: Robot, after: Robot) -> dict[str, str]:
@@ -57,23 +62,27 @@ def _renamed_links(before: Robot, after: Robot) -> dict[str, str]:
     new = _by_parent(after, without=before)
     gone = _by_parent(before, without=after)
     for parent in (None, *_parents_first(before)):
-        for link in gone.get(parent, ()):
-            under = renamed.get(parent, parent) if parent is not None else None
-            heirs = [other for other in new.get(under, ()) if _same(before, link, after, other)]
-            rivals = [other for other in gone[parent] if _same(before, other, before, link)]
+        under = renamed.get(parent, parent) if parent is not None else None
+        for alike, rivals in gone.get(parent, {}).items():
+            heirs = new.get(under, {}).get(alike, ())
             if len(heirs) == len(rivals) == 1:
-                renamed[link.name] = heirs[0].name
+                renamed[rivals[0]] = heirs[0]
     return renamed
 
 
-def _by_parent(robot: Robot, *, without: Robot) -> dict[str | None, list[Link]]:
+def _by_parent(robot: Robot, *, without: Robot) -> dict[str | None, _Alike]:
     """Return the links that the other robot does not have, by the names of their parents; None for roots."""
-    found: dict[str | None, list[Link]] = {}
+    found: dict[str | None, _Alike] = {}
     for link in robot.links:
         if link.name not in without.links:
             joint = robot.get_parent_joint(link.name)
-            found.setdefault(joint.parent if joint else None, []).append(link)
+            alike = likeness((joint or _hanging(robot, link), link), _NAMES)
+            found.setdefault(joint.parent if joint else None, {}).setdefault(alike, []).append(link.name)
     return found
+
+
+def _hanging(robot: Robot, root: Link) -> Sequence[Joint]:
+    return tuple(robot.get_child_joints(root.name))
 
 
 def _parents_first(robot: Robot) -> Iterator[str]:
@@ -87,30 +96,14 @@ def _parents_first(robot: Robot) -> Iterator[str]:
         seen.update(level)
 
 
-def _same(robot: Robot, link: Link, other_robot: Robot, other: Link) -> bool:
-    joint, other_joint = robot.get_parent_joint(link.name), other_robot.get_parent_joint(other.name)
-    if joint is None or other_joint is None:
-        hang_alike = joint is other_joint and _hanging(robot, link) == _hanging(other_robot, other)
-    else:
-        hang_alike = _nameless(joint) == _nameless(other_joint)
-    return hang_alike and _body(link) == _body(other)
-
-
-def _hanging(robot: Robot, link: Link) -> list[Joint]:
-    return [_nameless(joint) for joint in robot.get_child_joints(link.name)]
-
-
-def _nameless(joint: Joint) -> Joint:
-    """Return a joint with the names blotted out, so that only what it does is compared."""
-    mimic = replace(joint.mimic, joint="joint") if joint.mimic else None
-    return replace(joint, name="joint", parent="parent", child="child", mimic=mimic)
-
-
-def _body(link: Link) -> Link:
-    visuals = [replace(visual, name=None, material=None) for visual in link.visuals]
-    return replace(
-        link, name="link", visuals=visuals, collisions=[replace(collision, name=None) for collision in link.collisions]
-    )
+_NAMES: Mapping[type, Collection[str]] = {
+    Joint: ("name", "parent", "child"),
+    JointMimic: ("joint",),
+    Link: ("name",),
+    Visual: ("name", "material"),
+    Collision: ("name",),
+}
+"""The fields of links and joints that say not what these do, but what they and others are called."""
 
 
 class _Names(Enum):

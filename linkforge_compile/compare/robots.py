@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.renames import Renames, find_renames, under_new_names
-from linkforge_compile.compare.walk import TOLERANCE, How, walk
+from linkforge_compile.compare.walk import TOLERANCE, How, stated_differences, walk
 from linkforge_compile.compare.words import key_of_field, said_fields
 from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.joint import JointType
@@ -23,8 +23,11 @@ def compare(
     numbers as a share. Without `semantic`, that part is left out.
     """
     renames = find_renames(before, after)
-    sliding = {joint.name for robot in (before, after) for joint in robot.joints if joint.type is JointType.PRISMATIC}
-    how = How(tolerance, frozenset(sliding), (before.materials, after.materials))
+    slid, slides = (
+        {joint.name for joint in robot.joints if joint.type is JointType.PRISMATIC} for robot in (before, after)
+    )
+    slid = {renames.joints.get(name, name) for name in slid}
+    how = How(tolerance, (slid, slides), (before.materials, after.materials))
     return tuple(_sections(before, after, renames, how, semantic=semantic))
 
 
@@ -38,6 +41,12 @@ def _sections(before: Robot, after: Robot, renames: Renames, how: How, *, semant
             yield from _moved_links(before, after, renames)
         old, new = _section(before, field, renames), _section(after, field, Renames({}, {}))
         yield from walk((key_of_field(field),), old, new, how)
+        if field == "version":
+            yield from stated_differences((), before, after, (_stated(before), _stated(after)), how)
+
+
+def _stated(robot: Robot) -> tuple[str, ...]:
+    return ("version",) if robot.version_stated else ()
 
 
 def _section(robot: Robot, field: str, renames: Renames) -> object:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.compare.difference import Difference, Kind
@@ -15,10 +15,11 @@ from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.core.models.link import InertiaTensor
+from linkforge_compile.core.models.link import InertiaTensor, LinkPhysics
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.models.planning import GroupState
-from linkforge_compile.core.models.transmission import Transmission, TransmissionJoint
+from linkforge_compile.core.models.sensor import SensorNoise
+from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 
 TOLERANCE = 1e-6
 """Below which a difference is not told, unless said: of poses in metres and radians, of other numbers as a share."""
@@ -32,15 +33,29 @@ Path: TypeAlias = tuple[str, ...]
 class How(NamedTuple):
     """What a place inherits from those around it.
 
-    `sliding` are the names of the prismatic joints, `slides` whether the values at hand are about one of them,
-    `palettes` the materials that the robots declare, whose differences are told at their declaration.
+    Of each pair, one is of the robot before and one of that after: `sliding` are the names of the prismatic joints,
+    `slides` whether the values at hand are about one of them, `measures` what these measure, `palettes` the materials
+    that the robots declare, whose differences are told at their declaration.
     """
 
     tolerance: float = TOLERANCE
-    sliding: frozenset[str] = frozenset()
+    sliding: tuple[Collection[str], Collection[str]] = ((), ())
     palettes: tuple[Mapping[str, Material], Mapping[str, Material]] = ({}, {})
-    slides: bool = False
-    measure: Measure = BARE
+    slides: tuple[bool, bool] = (False, False)
+    measures: tuple[Measure, Measure] = (BARE, BARE)
+
+    def told(self, before: object, after: object) -> tuple[str, str]:
+        """Return two values at hand in a few words each."""
+        one, other = (
+            told(value, measure, slides=slides)
+            for value, measure, slides in zip((before, after), self.measures, self.slides, strict=True)
+        )
+        return one, other
+
+    def about_joint(self, name: str) -> How:
+        """Return the same for values about the joint of a name."""
+        before, after = (name in sliding for sliding in self.sliding)
+        return self._replace(slides=(before, after))
 
 
 def walk(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
@@ -50,7 +65,7 @@ def walk(path: Path, before: object, after: object, how: How) -> Iterator[Differ
             yield from _leaf(path, before, after, how)
         case (int() | float(), int() | float()):
             if not is_near(before, after, how.tolerance):
-                yield Difference(Kind.CHANGED, path, before, after, change_told(before, after, how.measure))
+                yield Difference(Kind.CHANGED, path, before, after, _number_told(before, after, how))
         case (Transform(), Transform()):
             yield from pose_differences(path, before, after, how.tolerance)
             yield from _fields(path, before, after, how, ("xyz", "rpy"))
@@ -81,12 +96,12 @@ def is_near(before: float, after: float, tolerance: float) -> bool:
 def _leaf(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
     if before == after and type(before) is type(after):
         return
-    text = f"{told(before, how.measure, slides=how.slides)} → {told(after, how.measure, slides=how.slides)}"
-    kind = Kind.CHANGED
+    was, now = how.told(before, after)
+    kind, text = Kind.CHANGED, f"{was} → {now}"
     if before is None:
-        kind, text = Kind.ADDED, told(after, how.measure, slides=how.slides)
+        kind, text = Kind.ADDED, now
     elif after is None:
-        kind, text = Kind.REMOVED, told(before, how.measure, slides=how.slides)
+        kind, text = Kind.REMOVED, was
     elif path[0] == "joints" and path[2:] == ("parent",):
         kind = Kind.MOVED
     yield Difference(kind, path, plain(before), plain(after), text)
@@ -95,9 +110,9 @@ def _leaf(path: Path, before: object, after: object, how: How) -> Iterator[Diffe
 def _part(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
     match before, after:
         case (Joint(), Joint()):
-            how = how._replace(slides=after.type is JointType.PRISMATIC)
+            how = how._replace(slides=(before.type is JointType.PRISMATIC, after.type is JointType.PRISMATIC))
         case (TransmissionJoint(), TransmissionJoint()):
-            how = how._replace(slides=after.name in how.sliding)
+            how = how.about_joint(after.name)
         case (Material(), Material()) if path[0] != "materials" and _is_declared(before, after, how):
             return
         case (Transmission(), Transmission()):
@@ -118,10 +133,38 @@ def _fields(path: Path, before: object, after: object, how: How, without: tuple[
     for name in said_fields(before):
         if name in without:
             continue
-        here = how._replace(measure=measure_of(type(before), name, slides=how.slides))
+        here = _about_field(how, before, name)
         read_as = _READ_AS.get(name, _as_it_is)
         old, new = read_as(getattr(before, name)), read_as(getattr(after, name))
         yield from walk((*path, _key(name, old, new)), old, new, here)
+    if isinstance(before, LinkPhysics | SensorNoise | TransmissionJoint | TransmissionActuator):
+        assert isinstance(after, type(before)), "two of a kind"
+        yield from stated_differences(path, before, after, (before.stated, after.stated), how)
+
+
+def stated_differences(
+    path: Path, before: object, after: object, stated: tuple[Collection[str], Collection[str]], how: How
+) -> Iterator[Difference]:
+    """Yield the fields that one of two parts states while the other leaves it at that, their default."""
+    were, are = stated
+    for name in dict.fromkeys((*are, *were)):
+        old, new = getattr(before, name, None), getattr(after, name, None)
+        if (name in were) != (name in are) and old == new:
+            here = (*path, key_of_field(name))
+            yield from walk(
+                here, old if name in were else None, new if name in are else None, _about_field(how, before, name)
+            )
+
+
+def _about_field(how: How, part: object, field: str) -> How:
+    before, after = (measure_of(type(part), field, slides=slides) for slides in how.slides)
+    return how._replace(measures=(before, after))
+
+
+def _number_told(before: float, after: float, how: How) -> str:
+    was, now = how.measures
+    # What turned and slides now has no share of itself left.
+    return change_told(before, after, now) if was == now else " → ".join(how.told(before, after))
 
 
 def _key(field: str, before: object, after: object) -> str:
@@ -165,27 +208,39 @@ def _members(path: Path, before: Sequence[object], after: Sequence[object], how:
 
 def _mappings(path: Path, before: Mapping[str, object], after: Mapping[str, object], how: How) -> Iterator[Difference]:
     for name in dict.fromkeys((*after, *before)):
-        one, other, here = before.get(name), after.get(name), (*path, str(name))
-        if isinstance(one, Mapping) and isinstance(other, Mapping):
-            yield from _mappings(here, one, other, how)
-        elif is_part(one) and is_part(other):
-            yield from walk(here, one, other, how)
-        elif name not in before or name not in after or one != other:
-            yield from _leaf(here, one, other, how)
+        here = (*path, str(name))
+        if name not in before:
+            yield Difference(Kind.ADDED, here, None, plain(after[name]), told(after[name]))
+        elif name not in after:
+            yield Difference(Kind.REMOVED, here, plain(before[name]), None, told(before[name]))
+        else:
+            yield from _held(here, before[name], after[name], how)
+
+
+def _held(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
+    """Yield what differs between two values of a mapping; the order of a list in one means something."""
+    match before, after:
+        case (list() | tuple(), list() | tuple()) if len(before) == len(after):
+            for place, (one, other) in enumerate(zip(before, after, strict=True)):
+                yield from _held((*path, str(place)), one, other, how)
+        case (list() | tuple(), _) | (_, list() | tuple()):
+            yield from _leaf(path, before, after, how)
+        case _:
+            yield from walk(path, before, after, how)
 
 
 def _vectors(path: Path, before: Vector3 | Color, after: Vector3 | Color, how: How) -> Iterator[Difference]:
     pairs = zip(before.to_tuple(), after.to_tuple(), strict=True)
     if not all(is_near(one, other, how.tolerance) for one, other in pairs):
-        text = f"{told(before, how.measure)} → {told(after, how.measure)}"
-        yield Difference(Kind.CHANGED, path, plain(before), plain(after), text)
+        yield Difference(Kind.CHANGED, path, plain(before), plain(after), " → ".join(how.told(before, after)))
     yield from _fields(path, before, after, how, tuple("xyzrgba"))
 
 
 def _positions(path: Path, before: GroupState, after: GroupState, how: How) -> Iterator[Difference]:
     """Yield what differs in a pose of a group: the positions of its joints."""
     for joint in dict.fromkeys((*after.joint_values, *before.joint_values)):
-        here = how._replace(measure=position_measure(slides=joint in how.sliding))
+        before_, after_ = (position_measure(slides=slides) for slides in how.about_joint(joint).slides)
+        here = how._replace(measures=(before_, after_))
         one, other = before.joint_values.get(joint), after.joint_values.get(joint)
         if one is None or other is None or len(one) != len(other):
             yield from _leaf((*path, joint), one, other, here)

@@ -26,7 +26,9 @@ _KEYS = {
     "gazebo_elements": "gazebo",
     "extra_elements": "extra",
 }
-NO_PART_OF_IT = frozenset({"source", "resource_resolver", "axis_as_written", "collisions_first"})
+NO_PART_OF_IT = frozenset(
+    {"source", "resource_resolver", "axis_as_written", "collisions_first", "stated", "version_stated"}
+)
 """Fields that say nothing of the robot itself: where it was written, and how."""
 
 

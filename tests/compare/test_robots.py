@@ -3,12 +3,13 @@
 # ruff: noqa: E501 a robot and a change take a line each
 
 import re
+import time
 
 import pytest
 
 from linkforge_compile import compile_text
 from linkforge_compile.compare import Kind, compare, vanished
-from linkforge_compile.core import Robot
+from linkforge_compile.core import Joint, JointType, Link, Robot, Sphere, Transform, Vector3, Visual
 from linkforge_compile.writers import write_spec
 from tests.backends.everything import everything
 
@@ -83,6 +84,81 @@ def told(old: str, new: str) -> list[str]:
 )  # fmt: skip
 def test_a_change_is_told_with_its_units_and_by_how_much(old: str, new: str, text: str):
     assert text in told(old, new)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "text"),
+    [
+        ("stddev: 1", "stddev: 1, bias_mean: 0", "added sensors/imu/imu/angular_velocity_noise/bias_mean: 0"),
+        ("name: arm", "name: arm\nversion: 1.1", "added version: 1.1"),
+        ("name: arm", "name: arm\nversion: 2.0", "changed version: 1.1 → 2.0"),
+        ("inertial: {mass: 2}", "inertial: {mass: 2}, physics: {mu: 1}", "added links/base/physics/mu: 1"),
+        ("reduction: 50", "reduction: 50, offset: 0", "added transmissions/drive/joints/elbow/offset: 0 deg"),
+    ],
+)  # fmt: skip
+def test_what_a_part_states_although_it_is_so_by_default_is_told_as_that_field(old: str, new: str, text: str):
+    was = SPEC.replace("imu: {}", "imu: {angular_velocity_noise: {stddev: 1}}")
+    now = was.replace(old, new)
+    there, back = (compare(*map(robot_of, pair)) for pair in ((was, now), (now, was)))
+    assert [f"{one.kind} {'/'.join(one.path)}: {one.text}" for one in there] == [text]
+    assert [one.path for one in back] == [one.path for one in there]
+
+
+def test_a_joint_that_turned_and_slides_now_is_told_with_the_units_of_each():
+    spec = (
+        SPEC.replace("type: prismatic", "type: revolute")
+        .replace("rail: 0}", "rail: 0.5}")
+        .replace("upper: 0.5", "upper: 0.25")
+    )
+    before, after = robot_of(spec), robot_of(SPEC.replace("rail: 0}", "rail: 0.25}"))
+    texts = {"/".join(one.path): one.text for one in compare(before, after)}
+    assert texts == {
+        "joints/rail/type": "revolute → prismatic",
+        "joints/rail/limits/upper": "14.3239 deg → 0.5 m",
+        "semantic/group_states/arm/home/rail": "28.6479 deg → 0.25 m",
+    }
+
+
+def test_data_of_the_author_are_compared_one_by_one():
+    before, after = (
+        robot_of(SPEC.replace("name: arm", f"name: arm\nmetadata: {{{said}}}"))
+        for said in (
+            "mass: 1.0, tested: [1, 2, {by: me}], order: [1, 2], gone: null, kept: null",
+            "mass: 1.0000000001, tested: [1, 3, {by: you}], order: [2, 1, 0], new: null, kept: null",
+        )
+    )
+    assert [(str(one.kind), "/".join(one.path), one.text) for one in compare(before, after)] == [
+        ("changed", "metadata/tested/1", "2 → 3 (+50 %)"),
+        ("changed", "metadata/tested/2/by", "me → you"),
+        ("changed", "metadata/order", "1 2 → 2 1 0"),
+        ("added", "metadata/new", "none"),
+        ("removed", "metadata/gone", "none"),
+    ]
+
+
+def test_many_links_of_one_parent_are_sorted_out_in_time_that_grows_with_them():
+    before, after = (
+        Robot(
+            "star",
+            links=[Link("hub"), *(Link(f"{tip}{number}") for number in range(400))],
+            joints=[
+                Joint(f"{tip}j{number}", JointType.FIXED, "hub", f"{tip}{number}", Transform(Vector3(number // 2, 0, 0)))
+                for number in range(400)
+            ],
+        )
+        for tip in "ab"
+    )  # fmt: skip
+    started = time.process_time()
+    assert {one.kind for one in compare(before, after)} == {Kind.ADDED, Kind.REMOVED}
+    assert time.process_time() - started < 5
+
+
+def test_many_shapes_of_one_link_find_their_own_in_time_that_grows_with_them():
+    shapes = [Visual(Sphere(1 + number)) for number in range(2000)]
+    before, after = (Robot("r", links=[Link("hub", visuals=visuals)]) for visuals in (shapes, shapes[::-1]))
+    started = time.process_time()
+    assert compare(before, after) == ()
+    assert time.process_time() - started < 5
 
 
 def test_a_change_is_told_once():
