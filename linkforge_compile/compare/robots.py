@@ -42,11 +42,7 @@ def _sections(before: Robot, after: Robot, renames: Renames, how: How, *, semant
         old, new = _section(before, field, renames), _section(after, field, Renames({}, {}))
         yield from walk((key_of_field(field),), old, new, how)
         if field == "version":
-            yield from stated_differences((), before, after, (_stated(before), _stated(after)), how)
-
-
-def _stated(robot: Robot) -> tuple[str, ...]:
-    return ("version",) if robot.version_stated else ()
+            yield from stated_differences((), before, after, how)
 
 
 def _section(robot: Robot, field: str, renames: Renames) -> object:

@@ -18,6 +18,7 @@ from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.link import InertiaTensor, LinkPhysics
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.models.planning import GroupState
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.sensor import SensorNoise
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 
@@ -137,16 +138,12 @@ def _fields(path: Path, before: object, after: object, how: How, without: tuple[
         read_as = _READ_AS.get(name, _as_it_is)
         old, new = read_as(getattr(before, name)), read_as(getattr(after, name))
         yield from walk((*path, _key(name, old, new)), old, new, here)
-    if isinstance(before, LinkPhysics | SensorNoise | TransmissionJoint | TransmissionActuator):
-        assert isinstance(after, type(before)), "two of a kind"
-        yield from stated_differences(path, before, after, (before.stated, after.stated), how)
+    yield from stated_differences(path, before, after, how)
 
 
-def stated_differences(
-    path: Path, before: object, after: object, stated: tuple[Collection[str], Collection[str]], how: How
-) -> Iterator[Difference]:
+def stated_differences(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
     """Yield the fields that one of two parts states while the other leaves it at that, their default."""
-    were, are = stated
+    were, are = _stated(before), _stated(after)
     for name in dict.fromkeys((*are, *were)):
         old, new = getattr(before, name, None), getattr(after, name, None)
         if (name in were) != (name in are) and old == new:
@@ -154,6 +151,18 @@ def stated_differences(
             yield from walk(
                 here, old if name in were else None, new if name in are else None, _about_field(how, before, name)
             )
+
+
+def _stated(part: object) -> tuple[str, ...]:
+    """Return the fields that are written although they have their default, and may be others that are written."""
+    match part:
+        case LinkPhysics() | SensorNoise():
+            return tuple(part.stated)
+        case TransmissionJoint() | TransmissionActuator():
+            return (*part.stated, "hardware_interfaces") if part.interfaces_stated else tuple(part.stated)
+        case Robot():
+            return ("version",) if part.version_stated else ()
+    return ()
 
 
 def _about_field(how: How, part: object, field: str) -> How:

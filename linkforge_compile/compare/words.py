@@ -26,10 +26,8 @@ _KEYS = {
     "gazebo_elements": "gazebo",
     "extra_elements": "extra",
 }
-NO_PART_OF_IT = frozenset(
-    {"source", "resource_resolver", "axis_as_written", "collisions_first", "stated", "version_stated"}
-)
-"""Fields that say nothing of the robot itself: where it was written, and how."""
+NO_PART_OF_IT = frozenset({"stated", "interfaces_stated", "version_stated"})
+"""Fields that say which others are written with their default, and are told as those."""
 
 
 def key_of_field(field: str) -> str:

@@ -44,6 +44,11 @@ _AXES = {
 }
 
 
+def position_dimension(joint: Joint) -> Dimension | None:
+    """Return what a position of a joint is, None where it is a bare number or several of them."""
+    return _MOTIONS.get(joint.type, _Motion()).position
+
+
 def written_joint(pen: Pen, joint: Joint, gazebo: YamlNode | None) -> YamlMap:
     """Return a joint; `gazebo` is what a simulator is told about it."""
     motion = _MOTIONS.get(joint.type, _Motion())

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
+from linkforge_compile.core.models.index import Index
+from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.srdf import (
     Chain,
     CollisionPair,
@@ -19,13 +21,14 @@ from linkforge_compile.core.models.srdf import (
     VirtualJoint,
 )
 from linkforge_compile.core.part import Element
-from linkforge_compile.syntax import YamlMap, YamlNode
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension
+from linkforge_compile.writers.joint import position_dimension
 from linkforge_compile.writers.pen import Pen
 
 
-def written_semantic(pen: Pen, semantic: SemanticRobotDescription) -> YamlMap | None:
-    """Return the semantic part, None where it says nothing.
+def written_semantic(pen: Pen, semantic: SemanticRobotDescription, joints: Index[Joint]) -> YamlMap | None:
+    """Return the semantic part of a robot with these joints, None where it says nothing.
 
     States of one group stand together, as pairs do of one first link and properties of one joint: where others
     came between them, that order is lost.
@@ -35,7 +38,7 @@ def written_semantic(pen: Pen, semantic: SemanticRobotDescription) -> YamlMap | 
         virtual_joints=pen.named("virtual joint", ((one.name, _virtual(pen, one)) for one in semantic.virtual_joints)),
         groups=pen.named("planning group", ((group.name, _group(pen, group)) for group in semantic.groups)),
         group_states=pen.nested(
-            "state", ((state.group, state.name, _state(pen, state)) for state in semantic.group_states)
+            "state", ((state.group, state.name, _state(pen, state, joints)) for state in semantic.group_states)
         ),
         end_effectors=pen.named("end effector", ((one.name, _effector(pen, one)) for one in semantic.end_effectors)),
         passive_joints=_passive(pen, semantic.passive_joints),
@@ -82,21 +85,21 @@ def _chain(pen: Pen, chain: Chain) -> YamlMap:
     return pen.element(chain, base_link=pen.text(chain.base_link), tip_link=pen.text(chain.tip_link))
 
 
-def _state(pen: Pen, state: GroupState) -> YamlMap:
+def _state(pen: Pen, state: GroupState, joints: Index[Joint]) -> YamlMap:
     """Return the positions by joint: a number, or a list of them for several degrees of freedom."""
-    positions = {}
-    for joint, values in state.joint_values.items():
-        node: YamlNode = pen.quantity(values[0]) if len(values) == 1 else pen.numbers(values)
-        positions[joint] = pen.located(node, state.source, _name_in_its_file(state, joint))
+    prefix, positions = _prefix_of(state), {}
+    for name, values in state.joint_values.items():
+        joint = joints.get(name)
+        unit = position_dimension(joint) if joint else None
+        node: YamlNode = pen.quantity(values[0], unit) if len(values) == 1 else pen.numbers(values, unit)
+        positions[name] = pen.located(node, state.source, name.removeprefix(prefix))
     return pen.element(state, **positions)
 
 
-def _name_in_its_file(state: GroupState, joint: str) -> str:
-    """Return how the file that wrote a state calls a joint: without the prefixes that it has by now."""
-    if state.source is None:
-        return joint
-    endings = (joint[start:] for start in range(len(joint)))
-    return next((name for name in endings if state.source.node.child(name)), joint)
+def _prefix_of(state: GroupState) -> str:
+    """Return the prefixes that the names of a state got since its file wrote them, which the group's has as well."""
+    group = state.source.node.child("group") if state.source else None
+    return state.group.removesuffix(group.text) if isinstance(group, YamlScalar) else ""
 
 
 def _effector(pen: Pen, effector: EndEffector) -> YamlMap:

@@ -109,6 +109,20 @@ def test_a_state_of_a_module_is_found_under_the_name_that_its_file_gives_to_the_
     assert line(position) == 18
 
 
+def test_positions_of_joints_of_which_one_has_the_other_one_s_name_under_the_prefix_are_told_apart(tmp_path: Path):
+    joints = "  left_elbow: {type: continuous, parent: upper, child: hand, axis: z}\n"
+    arm = ARM.replace("joints:\n", f"joints:\n{joints}", 1).replace("  upper: {", "  hand:\n  upper: {")
+    arm = arm.replace("arm: {joints: [elbow]}", "arm: {joints: [elbow, left_elbow]}")
+    (tmp_path / "arm.robot.yaml").write_text(arm.replace("{elbow: 0.5}", "{left_elbow: 2, elbow: 1}"))
+    (tmp_path / "cell.robot.yaml").write_text(CELL)
+    robot = compile_file(tmp_path / "cell.robot.yaml").result()
+    for joint, written in (("left_elbow", "1"), ("left_left_elbow", "2")):
+        position = explain(robot, f"semantic/group_states/left_arm/left_home/{joint}")
+        assert position.text.endswith(f"/{joint}: {written} rad")
+        assert position.place is not None
+        assert position.place.span.text == written
+
+
 def test_an_object_is_told_with_all_that_it_says_and_leaves_unsaid(arm: Robot):
     assert explain(arm, "joints/elbow/limits").text == (
         "joints/elbow/limits:\n  lower: 0\n  upper: 1.5707963267948966\n  effort: 20\n  velocity: 1"
