@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Protocol
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Protocol
 
 from linkforge_compile.backends.marks import is_recording, mark, mark_of_attribute
 from linkforge_compile.backends.markup import NOTHING, Spellable, Xml, escaped, is_xml_name, spelled
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.part import Element, Inside, attribute_pairs
+from linkforge_compile.core.raw_xml import RawXml
 from linkforge_compile.source import SourceRef
+
+if TYPE_CHECKING:
+    from linkforge_compile.backends.raw import Path
 
 
 class Extended(Protocol):
@@ -123,8 +127,16 @@ def raw(part: Extended) -> Xml:
         return NOTHING
     from linkforge_compile.backends.raw import raw_elements
 
-    raws = enumerate(part.extra_elements)
-    return Xml("\n".join(raw_elements(text, part.source, "extra", number) for number, text in raws))
+    return Xml("\n".join(raw_elements(text, source, *path) for text, source, path in raw_texts(part, part.source)))
+
+
+def raw_texts(part: Extended, where: SourceRef | None) -> Iterator[tuple[str, SourceRef | None, Path]]:
+    """Yield what a part, which was written at `where`, says raw; each with the path of an object that it stands under.
+
+    A robot's may come from the files of its modules, so what knows its own place stands there.
+    """
+    for number, text in enumerate(part.extra_elements):
+        yield (text, text.source, ()) if isinstance(text, RawXml) else (text, where, ("extra", number))
 
 
 def leaf_at(tag: str, source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from linkforge_compile.backends.element import Extended
+from linkforge_compile.backends.element import Extended, raw_texts
 from linkforge_compile.backends.parts import Held
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.part import attribute_pairs
@@ -28,9 +28,9 @@ def undeclared_prefixes(root: Extended, parts: Iterable[Held]) -> Iterator[Diagn
 
 def _in_extras(part: Extended, known: frozenset[str], where: SourceRef | None) -> Iterator[Diagnostic]:
     yield from _told(_unknown(_names(part), known), where, "extra_attributes")
-    for text in part.extra_elements:
+    for text, source, path in raw_texts(part, where):
         # Only what holds a colon is read once more.
-        yield from _told(_in_xml(text, known) if ":" in text else (), where, "extra")
+        yield from _told(_in_xml(text, known) if ":" in text else (), source, *path)
 
 
 def _names(part: Extended) -> list[str]:
@@ -68,6 +68,6 @@ def _unknown(names: Iterable[str], known: frozenset[str]) -> Iterator[str]:
             yield prefix
 
 
-def _told(prefixes: Iterable[str], where: SourceRef | None, key: str) -> Iterator[Diagnostic]:
+def _told(prefixes: Iterable[str], where: SourceRef | None, *path: str | int) -> Iterator[Diagnostic]:
     for prefix in dict.fromkeys(prefixes):
-        yield UNDECLARED_PREFIX.at(where, key, prefix=prefix)
+        yield UNDECLARED_PREFIX.at(where, *path, prefix=prefix)

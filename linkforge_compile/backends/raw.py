@@ -19,6 +19,9 @@ from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.source import SourceRef
 
+_MOST_SHOWN = 80
+"""Characters of raw XML that a message quotes."""
+
 Content: TypeAlias = "str | Node"
 """What stands in an element: text, an element, or a comment, which is Xml."""
 
@@ -57,7 +60,7 @@ def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -
     require_writable(text)
     content = _parse(text, source, path)
     if any(map(_is_text, content)):
-        raise RobotGeneratorError(f"raw XML must be elements, found text in {text!r}")
+        raise RobotGeneratorError(f"raw XML must be elements, found text in {_shown(text)}")
     return Xml("\n".join(_lines(content)))
 
 
@@ -134,6 +137,10 @@ def _inline(item: Content) -> str:
     return f"{item.start}>{''.join(map(_inline, item.content))}</{item.tag}>" if item.content else f"{item.start}/>"
 
 
+def _shown(text: str) -> str:
+    return repr(text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}…")
+
+
 def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     # expat knows nothing of namespaces unless told, so an undeclared `drake:` stays what it is; lxml refuses it.
     from xml.parsers import expat
@@ -154,7 +161,7 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     except expat.ExpatError as error:
         # Its column counts the wrapper.
         reason = f"{expat.ErrorString(error.code)} in line {error.lineno}"
-        raise RobotGeneratorError(f"raw XML is not well-formed: {reason}: {text!r}") from None
+        raise RobotGeneratorError(f"raw XML is not well-formed: {reason}: {_shown(text)}") from None
     [wrapper] = reader.document.content
     assert isinstance(wrapper, Node)
     return wrapper.content

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
-from linkforge_compile.backends.element import attributes, raw
+from linkforge_compile.backends.element import Extended, attributes, raw_texts
 from linkforge_compile.backends.markup import escaped
 from linkforge_compile.backends.parts import Held, Part, content
 from linkforge_compile.core.exceptions import RobotGeneratorError
@@ -19,10 +19,18 @@ def unwritable_texts(parts: Iterable[Held]) -> Iterator[Diagnostic]:
     for part, where, _ in parts:
         if part.extra_attributes:
             yield from refused(partial(attributes, part), where, "extra_attributes")
-        if part.extra_elements:
-            yield from refused(partial(raw, part), where, "extra")
+        yield from unwritable_raw(part, where)
         for name, value in content(part):
             yield from _in_field(part, name, value, where)
+
+
+def unwritable_raw(part: Extended, where: SourceRef | None) -> Iterator[Diagnostic]:
+    """Yield an error for each raw text of a part that is no XML; the part was written at `where`."""
+    if part.extra_elements:
+        from linkforge_compile.backends.raw import raw_elements
+
+        for text, source, path in raw_texts(part, where):
+            yield from refused(partial(raw_elements, text), source, *path)
 
 
 def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> Iterator[Diagnostic]:
@@ -60,7 +68,7 @@ def _keys_are_tags(part: Part) -> bool:
     return isinstance(part, GazeboElement | GazeboPlugin | Transmission)
 
 
-def refused(write: Callable[[], object], where: SourceRef | None, *path: str) -> Iterator[Diagnostic]:
+def refused(write: Callable[[], object], where: SourceRef | None, *path: str | int) -> Iterator[Diagnostic]:
     """Yield an error where writing is refused."""
     try:
         write()

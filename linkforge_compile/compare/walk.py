@@ -95,7 +95,7 @@ def is_near(before: float, after: float, tolerance: float) -> bool:
 
 
 def _leaf(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
-    if before == after and type(before) is type(after):
+    if before == after and isinstance(before, bool) == isinstance(after, bool):
         return
     was, now = how.told(before, after)
     kind, text = Kind.CHANGED, f"{was} → {now}"

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, TypedDict
 
 from linkforge_compile.core.part import Inside
+from linkforge_compile.core.raw_xml import RawXml
+from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
     from linkforge_compile.lowering.fields import Fields
@@ -45,9 +47,9 @@ def outer_extras_of(fields: Fields) -> OuterExtras:
     """Read what a link or a robot says raw."""
     from linkforge_compile.lowering.free_part import free_texts
 
-    texts = (fields.text_at(node, "extra") for node in fields.items("extra"))
+    texts = ((fields.text_at(node, "extra"), SourceRef(node, None, fields.trail)) for node in fields.items("extra"))
     return OuterExtras(
-        extra_elements=tuple(text for text in texts if text and text.strip()),
+        extra_elements=tuple(RawXml(text, source) for text, source in texts if text and text.strip()),
         extra_attributes=tuple(free_texts(fields, "extra_attributes").items()),
     )
 

@@ -1,0 +1,28 @@
+"""Raw XML that knows where it was written."""
+
+from __future__ import annotations
+
+from linkforge_compile.source import SourceRef
+
+
+class RawXml(str):
+    """A text of `extra_elements`; `source` says where it was written, None if nowhere.
+
+    It is that text to whoever compares, hashes or prints it. Where robots are joined, texts of several files stand in
+    one list, so that its owner cannot say where each was written.
+    """
+
+    __slots__ = ("source",)
+
+    source: SourceRef | None
+
+    def __new__(cls, text: str, source: SourceRef | None = None) -> RawXml:
+        raw = super().__new__(cls, text)
+        raw.source = source
+        return raw
+
+    def __deepcopy__(self, memo: object) -> RawXml:
+        return self
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return RawXml, (str(self), self.source)
