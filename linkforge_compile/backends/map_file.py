@@ -65,6 +65,7 @@ class _Tables:
 
     def place(self, place: Place) -> list[int]:
         steps = (
+            *(("overridden", change.span) for change in place.span.changes),
             *(("included", span) for span in place.span.file.includes),
             *(("used", span) for span in place.trail),
         )

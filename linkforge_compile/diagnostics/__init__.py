@@ -1,6 +1,6 @@
 """What went wrong, as values: a code, a sentence, a place, and the way out."""
 
-from linkforge_compile.diagnostics.diagnostic import Blame, Code, Diagnostic, Note, Severity, Where
+from linkforge_compile.diagnostics.diagnostic import Blame, Code, Diagnostic, Note, Severity, Where, notes_of_changes
 from linkforge_compile.diagnostics.gaps import Gaps, Removed
 from linkforge_compile.diagnostics.sink import MAX_TOLD, BeyondLimitError, Diagnostics, too_many_errors
 
@@ -16,5 +16,6 @@ __all__ = [
     "Removed",
     "Severity",
     "Where",
+    "notes_of_changes",
     "too_many_errors",
 ]

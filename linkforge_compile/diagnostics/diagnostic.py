@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from linkforge_compile.diagnostics.suggest import did_you_mean
 from linkforge_compile.frozen import dataclass
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source import Change, SourceRef, Span
 
 Where: TypeAlias = Span | SourceRef | None
 """A place: a span of text, an object's reference, or None for a value that was never written (built in Python)."""
@@ -105,10 +105,11 @@ class Code:
         message = on_one_line(self.message.format(**facts) + did_you_mean(str(facts.get("name", "")), near))
         span = where.at(*path) if isinstance(where, SourceRef) else where
         trail = where.trail if isinstance(where, SourceRef) else ()
+        changed = notes_of_changes(where.changes(*path), span) if isinstance(where, SourceRef) else ()
         span, moved = self._blamed(span) if span else (None, ())
         includes = [Note("included here", include) for include in (span.file.includes if span else ())]
         uses = [Note("used here", use) for use in trail]
-        return Diagnostic(self, message, span, (*notes, *moved, *includes, *uses))
+        return Diagnostic(self, message, span, (*notes, *moved, *changed, *includes, *uses))
 
     def _blamed(self, used: Span) -> tuple[Span, tuple[Note, ...]]:
         """Return the place to blame for a value that stands at one, and the other of its two places as a note."""
@@ -118,6 +119,14 @@ class Code:
         if self.blame is Blame.WRITER or (self.blame is Blame.KIND and origin.is_data):
             return origin.span, (Note("the value is used here", used),)
         return used, (Note("the value is written here", origin.span),)
+
+
+def notes_of_changes(changes: Iterable[Change], told: Span | None) -> tuple[Note, ...]:
+    """Return what overrides changed in an object of which something is told, () where that is what they say."""
+    known = tuple(changes)
+    if told is not None and any(told.lies_in(change.span) for change in known):
+        return ()
+    return tuple(Note(f"'{change.key}' is changed by this override", change.span) for change in known)
 
 
 def on_one_line(text: str) -> str:

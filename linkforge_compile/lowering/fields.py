@@ -10,7 +10,7 @@ from typing import TypeVar
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.naming import is_valid_name
-from linkforge_compile.diagnostics import Code, Diagnostics, Severity
+from linkforge_compile.diagnostics import Code, Diagnostics, Severity, notes_of_changes
 from linkforge_compile.diagnostics.codes.model import (
     MISSING_FIELD,
     REFUSED,
@@ -256,8 +256,11 @@ class Fields:
 
     def tell(self, code: Code, where: YamlNode | SourceRef, *, near: Iterable[str] = (), **facts: object) -> None:
         """Report a fault at a node of this object, or at what a reference points to."""
-        ref = where if isinstance(where, SourceRef) else SourceRef(where, None, self.trail)
-        self.sink.report(code.at(ref, near=near, notes=(), **facts))
+        if isinstance(where, SourceRef):
+            self.sink.report(code.at(where, near=near, notes=(), **facts))
+            return
+        changed = notes_of_changes(self.node.span.changes, where.span) if where is not self.node else ()
+        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=changed, **facts))
 
     @property
     def is_faulty(self) -> bool:

@@ -25,7 +25,7 @@ from linkforge_compile.modules.normal_form import (
 )
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import Shape, shapes
-from linkforge_compile.source import Span
+from linkforge_compile.source import Change, PatchedSpan, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, parse_quantity
 
@@ -82,23 +82,29 @@ class _Patch:
         """Return an object or a map of names as its patch leaves it."""
         base, patch = long_object(base, shape), long_object(patch, shape)
         entries = dict(base.entries)
+        changes: list[Change] = []
         for change in patch:
             name, value = change.name, change.value
             if shape.has_names and name not in base.entries and not shape.is_raw(name):
                 self._tell_missing(change, base, shape)
             elif _is_written_null(value):
                 self._delete(entries, change)
+                changes.append(Change(name, value.span))
             elif is_said(value) and not isinstance(entries.get(name, change).value, YamlFault):
                 old = entries.get(name)
                 new = self._node(old.value if old else None, value, shape.under(name), name)
                 is_merged = old is not None and isinstance(old.value, YamlMap) and isinstance(new, YamlMap)
                 replaced = None if old is None or is_merged or not is_said(old.value) else old
                 entries[name] = YamlEntry(old.key if old else change.key, new, replaced)
+                # What was patched by its keys or by position keeps in itself what changed.
+                is_whole = not isinstance(new, YamlList) or isinstance(value, YamlList)
+                if is_whole and not is_merged and not new.span.changes:
+                    changes.append(Change(name, value.span))
         chosen = [name for name in CHOICES.get(shape.title, ()) if is_said(patch.get(name))]
         for rival in CHOICES.get(shape.title, ()) if chosen else ():
             if rival not in chosen:
                 entries.pop(rival, None)
-        return YamlMap(entries, base.span)
+        return YamlMap(entries, PatchedSpan.of(base.span, tuple(changes)))
 
     def _node(self, base: YamlNode | None, patch: YamlNode, shape: Shape, field: str) -> YamlNode:
         """Return what stands under a key as its patch leaves it; None for a key that says nothing so far."""
@@ -132,6 +138,7 @@ class _Patch:
         """Return a list with the items patched that a map names by position, counted before any is deleted."""
         assert shape.item, "asked of lists only"
         items: list[YamlNode | None] = list(_items(base, shape))
+        changes: list[Change] = []
         length = f"{len(items)} item" if len(items) == 1 else f"{len(items)} items"
         for change in patch:
             if not change.name.isdecimal():
@@ -140,10 +147,12 @@ class _Patch:
                 self._report(NO_SUCH_POSITION, change, field=field, length=length)
             elif _is_written_null(change.value):
                 items[int(change.name)] = None
+                changes.append(Change(change.name, change.value.span))
             elif is_said(change.value):
                 place = int(change.name)
                 items[place] = self._node(items[place], change.value, shape.item, field)
-        return YamlList(tuple(item for item in items if item is not None), base.span if base else patch.span)
+        span = PatchedSpan.of(base.span if base else patch.span, tuple(changes))
+        return YamlList(tuple(item for item in items if item is not None), span)
 
     def _delete(self, entries: dict[str, YamlEntry], change: YamlEntry) -> None:
         if change.name in entries:

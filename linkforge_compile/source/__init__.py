@@ -2,13 +2,15 @@
 
 from linkforge_compile.source.file import SourceFile
 from linkforge_compile.source.ref import Key, Located, Sourced, SourceRef
-from linkforge_compile.source.span import ComputedSpan, Origin, Position, Span, Trace
+from linkforge_compile.source.span import Change, ComputedSpan, Origin, PatchedSpan, Position, Span, Trace
 
 __all__ = [
+    "Change",
     "ComputedSpan",
     "Key",
     "Located",
     "Origin",
+    "PatchedSpan",
     "Position",
     "SourceFile",
     "SourceRef",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 from linkforge_compile.frozen import dataclass
 
 if TYPE_CHECKING:
-    from linkforge_compile.source.span import Span
+    from linkforge_compile.source.span import Change, Span
 
 
 class Key(str):
@@ -61,6 +61,15 @@ class SourceRef:
                 break
             node, span = inner, inner.span
         return span
+
+    def changes(self, *path: str | int) -> tuple[Change, ...]:
+        """Return what overrides changed in this object, and in those that the path leads through."""
+        node: Located | None = self.node
+        found = node.span.changes if node else ()
+        for key in path:
+            node = node.child(key) if node else None
+            found = (*found, *(node.span.changes if node else ()))
+        return found
 
     def trail_to(self, place: Span) -> tuple[Span, ...]:
         """Return the uses that led to a place: to the object's own file or, from an override, to one that uses it."""

@@ -65,8 +65,20 @@ class Span(NamedTuple):
         """Where the value was written that an expression here hands on; None where it was written or made here."""
         return None
 
+    @property
+    def changes(self) -> tuple[Change, ...]:
+        """What overrides changed right in the object or list that stands here, in their order."""
+        return ()
+
     def __str__(self) -> str:
         return f"{self.file.name}:{self.line}:{self.column}"
+
+
+class Change(NamedTuple):
+    """What an override says of one key of an object, or of one item of a list, and where."""
+
+    key: str
+    span: Span
 
 
 class Origin(NamedTuple):
@@ -102,6 +114,36 @@ class ComputedSpan(Span):
     @property
     def origin(self) -> Origin | None:
         return self.trace.origin(self.path)
+
+    def __reduce__(self) -> tuple[type[Span], tuple[object, ...]]:
+        return Span, tuple(self)
+
+
+class PatchedSpan(Span):
+    """The place of an object or a list whose file wrote it here, and in which overrides changed something."""
+
+    _written: Span
+    _changes: tuple[Change, ...]
+
+    @classmethod
+    def of(cls, place: Span, changes: tuple[Change, ...]) -> Span:
+        """Return a place with what was changed there behind what it knows already; the place itself for nothing."""
+        if not changes:
+            return place
+        made = cls(*place)
+        made._written, made._changes = place, (*place.changes, *changes)
+        return made
+
+    def inside(self, key: str | int) -> Span:
+        return self._written.inside(key)
+
+    @property
+    def origin(self) -> Origin | None:
+        return self._written.origin
+
+    @property
+    def changes(self) -> tuple[Change, ...]:
+        return self._changes
 
     def __reduce__(self) -> tuple[type[Span], tuple[object, ...]]:
         return Span, tuple(self)

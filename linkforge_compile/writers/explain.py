@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.frozen import dataclass
-from linkforge_compile.source import Span
+from linkforge_compile.source import Change, Span
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, write
 from linkforge_compile.writers.computed_inertia import ComputedFrom, computed_from
@@ -46,6 +46,7 @@ class Explanation:
     one that it makes itself, or where `names` say so.
     `trail` lists the `use` that brought the file in, and so on outwards. `replaced` is where that was written which
     this value took the place of, as an override or as an entry's own word before a default; the last one first.
+    `overridden` is what overrides changed in it, by the path from it.
     `computed_from` is what a link's inertial was computed from, None for all else.
     """
 
@@ -57,6 +58,7 @@ class Explanation:
     names: tuple[NameStory, ...] = ()
     trail: tuple[Span, ...] = ()
     replaced: tuple[Place, ...] = ()
+    overridden: tuple[Change, ...] = ()
     computed_from: ComputedFrom | None = None
 
 
@@ -95,7 +97,8 @@ def explain(robot: Robot, path: str) -> Explanation:
     expression = _expression(place)
     names, origin = ((), None) if expression is None or not isinstance(node, YamlNode) else stories(node)
     replaced = _replaced(source.node, steps[last].key, keys)
-    return Explanation(text, True, place_of(place), expression, origin, names, trail, replaced, computed)
+    overridden = tuple(_overridden(node, ""))
+    return Explanation(text, True, place_of(place), expression, origin, names, trail, replaced, overridden, computed)
 
 
 def _steps(node: YamlNode, path: str, before: str) -> tuple[_Step, ...]:
@@ -173,6 +176,16 @@ def _replaced(node: Located, name: str, keys: Sequence[str]) -> tuple[Place, ...
         places.append(place_of(entry.value.span))
         entry = entry.replaced
     return tuple(places)
+
+
+def _overridden(node: Located, path: str) -> Iterator[Change]:
+    """Yield what overrides changed in what is written at a node, and deeper in it, each with its path."""
+    for change in node.span.changes:
+        yield Change(f"{path}{change.key}", change.span)
+    for entry in node if isinstance(node, YamlMap) else ():
+        yield from _overridden(entry.value, f"{path}{entry.name}/")
+    for position, item in enumerate(node) if isinstance(node, YamlList) else ():
+        yield from _overridden(item, f"{path}{position}/")
 
 
 def _written_child(node: Located, name: str, key: str) -> Located | None:

@@ -104,6 +104,27 @@ def test_what_an_override_and_a_default_gave_way_to_is_told(tmp_path: Path):
     assert "cell.robot.yaml:5:15" not in run.stdout
 
 
+def test_what_an_override_changed_inside_of_a_value_is_told(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(ARM)
+    patch = "override: {joints: {elbow: {limits: {effort: 30 N*m}}}}"
+    cell = CELL.replace("parent: table", f"parent: table, {patch}")
+    (tmp_path / "cell.robot.yaml").write_text(cell)
+    place = cell.splitlines()[4].index("30 N*m") + 1
+    for path, changed in (("joints/left_elbow/limits", "effort"), ("joints/left_elbow", "limits/effort")):
+        run = linkforge("explain", "cell.robot.yaml", path, cwd=tmp_path)
+        assert f"\n'{changed}' is overridden at cell.robot.yaml:5:{place}\n" in run.stdout
+    (tmp_path / "build").mkdir()
+    linkforge("compile", "cell.robot.yaml", "-o", "build/", "--source-map", cwd=tmp_path)
+    lines = (tmp_path / "build" / "cell.urdf").read_text().split("\n")
+    number = next(number for number, line in enumerate(lines, start=1) if "<limit " in line)
+    run = linkforge("where", f"build/cell.urdf:{number}", cwd=tmp_path)
+    assert [line.split(" at ") for line in run.stdout.splitlines() if " at " in line] == [
+        ["written", "arm.robot.yaml:7:13"],
+        ["overridden", f"cell.robot.yaml:5:{place}"],
+        ["used", "cell.robot.yaml:5:15"],
+    ]
+
+
 BLOCKS = """\
 linkforge: 1
 name: blocks

@@ -5,6 +5,7 @@ from textwrap import indent
 
 import pytest
 
+from linkforge_compile import compile_file
 from tests.modules.assembling import Assembled, assemble, plain, write
 
 ARM = """
@@ -255,3 +256,41 @@ def test_a_section_that_is_lost_stays_so_beside_frames(tmp_path: Path):
     assert made.at("joints") == "FAULT"
     assert made.at("links") == {"hip": None, "knee": {"inertial": {"mass": 1}}, "tool": {}}
     assert len(made.told) == 1
+
+
+ELBOW = """\
+linkforge: 1
+name: arm
+links: {base: {}, upper: {}, hand: {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}}
+joints:
+  elbow: {type: revolute, parent: base, child: upper, axis: z, limits: {lower: 0, upper: 2, effort: 3, velocity: 1}}
+  wrist: {type: fixed, parent: upper, child: hand}
+"""
+
+
+@pytest.mark.parametrize(
+    ("patch", "told", "changed"),
+    [
+        ("joints: {elbow: {limits: {effort: null}}}", "joint 'elbow' has no 'limits.effort'", ["effort"]),
+        ("joints: {elbow: {limits: {upper: -1}}}", "lower must not be above upper, found 0 and -1", ["upper"]),
+        (
+            "joints: {elbow: {type: fixed, limits: null}}",
+            "joint 'elbow' is fixed and may not have 'axis'",
+            ["type", "limits"],
+        ),
+        ("links: {hand: {inertial: {inertia: {ixx: 9}}}}", "no principal moment of inertia", ["ixx"]),
+        # What is wrong with the override's own words stands there already.
+        ("joints: {elbow: {limits: {effort: 2 kg, velocity: 2}}}", "effort takes a torque", []),
+        ("joints: {wrist: {origin: [0, 0, 1]}, elbow: {limits: {lower: 3}}}", "lower must not be above upper", []),
+    ],
+)
+def test_what_goes_wrong_because_of_an_override_names_it(tmp_path: Path, patch: str, told: str, changed: list[str]):
+    (tmp_path / "arm.robot.yaml").write_text(ELBOW)
+    cell = (
+        "linkforge: 1\nname: cell\nlinks: {table: {}}\nmodules:\n  left:\n    use: arm.robot.yaml\n    parent: table\n"
+    )
+    (tmp_path / "cell.robot.yaml").write_text(f"{cell}    override: {{{patch}}}\n")
+    (found,) = (each for each in compile_file(tmp_path / "cell.robot.yaml").diagnostics if told in each.message)
+    notes = [note for note in found.notes if "override" in note.message]
+    assert [note.message for note in notes] == [f"'{key}' is changed by this override" for key in changed]
+    assert all(note.span and Path(note.span.file.name).name == "cell.robot.yaml" for note in notes)

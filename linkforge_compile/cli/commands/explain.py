@@ -108,6 +108,8 @@ def _lines(explanation: Explanation) -> Iterator[str]:
         yield from told(
             "instead of the default" if replaced.is_default else "instead of what is written", replaced.span
         )
+    for change in explanation.overridden:
+        yield from told(f"'{change.key}' is overridden", change.span)
     for included in explanation.place.span.file.includes:
         yield from told("included", included)
     for use in explanation.trail:
