@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -99,11 +100,14 @@ def _has_lost(node: YamlNode | None, sections: tuple[str, ...]) -> bool:
 
 
 def gaps_of(names: Iterable[str]) -> Gaps:
-    """Return the gaps that faulty entries leave; where an expression in a name failed, all that begins so is one."""
+    """Return the gaps that faulty entries leave; where an expression in a name failed, all that begins so is one.
+
+    One of xacro's, `${...}`, is such an expression as well.
+    """
     whole, begun = set(), []
     for name in names:
-        start, expression, _ = name.partition("$(")
-        if expression:
+        start, *expressions = re.split(r"\$[({]", name, maxsplit=1)
+        if expressions:
             begun.append(start)
         else:
             whole.add(name)

@@ -1,4 +1,4 @@
-"""Judges where `prefix`, `link()`, `joint()` and `path()` stand: each means something in some places only."""
+"""Judges where `prefix`, `link()`, `joint()`, `path()` and xacro's `${...}` may stand, which not every place takes."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.files import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
+from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
 from linkforge_compile.expressions import Expression, has_expression, parse_template
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.schema.words import field
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.xacro import xacro_facts
 
-_TELLTALE = re.compile(r"\bprefix\b(?!['\"]?\s*:)|\b(?:path|link|joint)[\s)]*\(")
+_TELLTALE = re.compile(r"\bprefix\b(?!['\"]?\s*:)|\b(?:path|link|joint)[\s)]*\(|\$\{")
 """Is in every text that has something to judge; hardly a spec needs the walk through its tree."""
 
 _NAMES = frozenset({"a name", "a joint's name", "a material's name", "a joint value or a state's name"})
@@ -30,6 +32,9 @@ _WITHOUT_PREFIX = frozenset({"interfaces by name", "folders by package name"})
 """The titles of maps whose keys take no prefix."""
 
 _READ_BY_PLUGINS = frozenset({"extra", "extra_attributes", "extra_inside"})
+
+_FOR_PEOPLE = frozenset({"description", "metadata"})
+"""Keys whose text no reader takes for anything but text."""
 
 _COMPUTED = frozenset({"parameters", "variables", "data", "variants"})
 _COMPUTED_WITHIN = frozenset({"with", "for", "when"})
@@ -111,13 +116,24 @@ class _Judge:
         return entry if value is entry.value else YamlEntry(entry.key, value)
 
     def _is_sound(self, scalar: YamlScalar, place: _Place) -> bool:
-        """Whether all that a scalar's expressions use may stand there; reports what may not."""
-        if not has_expression(scalar.text) or not _TELLTALE.search(scalar.text):
+        """Whether all that a scalar says may stand there; reports what may not."""
+        if not _TELLTALE.search(scalar.text):
             return True
-        template = parse_template(scalar.text, scalar.span, Diagnostics())
-        found = [part for part in template.parts if isinstance(part, Expression)] if template else []
+        template = parse_template(scalar.text, scalar.span, Diagnostics()) if has_expression(scalar.text) else None
+        parts = template.parts if template else (scalar.text,)
+        found = [part for part in parts if isinstance(part, Expression)]
         judged = [self._may_stand(name, expression, place) for expression in found for name in _used(expression)]
-        return all(judged)
+        # A text within an expression is the way out for who wants these characters: $('${HOME}').
+        texts = [self._is_ours(part, scalar, place) for part in parts if isinstance(part, str)]
+        return all(judged) and all(texts)
+
+    def _is_ours(self, text: str, scalar: YamlScalar, place: _Place) -> bool:
+        """Whether a text without expressions of ours may go on as it is; reports xacro's."""
+        facts = () if _FOR_PEOPLE.intersection(place.path) else xacro_facts(text)
+        code = XACRO_IN_FREE_TEXT if place.is_free else XACRO_EXPRESSION
+        for each in facts:
+            self._sink.report(code.at(scalar.span, text=each["text"], ours=each["ours"]))
+        return place.is_free or not facts
 
     def _may_stand(self, name: ast.Name, expression: Expression, place: _Place) -> bool:
         span = expression.span(name)

@@ -26,6 +26,9 @@ MISSING_VALUE = Code("LF1017", Severity.ERROR, "expected a value, found {found}"
 UNKNOWN_ESCAPE = Code("LF1018", Severity.ERROR, "'{text}' means nothing in double quotes; use single quotes")
 FORBIDDEN_CHARACTER = Code("LF1019", Severity.ERROR, "a spec cannot hold the character {character}")
 XACRO_EXPRESSION = Code("LF1020", Severity.ERROR, "'{text}' is xacro's; write '{ours}'")
+XACRO_IN_FREE_TEXT = Code(
+    "LF1075", Severity.WARNING, "'{text}' is xacro's and goes on as it stands; write '{ours}' if its value is meant"
+)
 
 DUPLICATE_KEY = Code("LF1101", Severity.ERROR, "the key '{key}' is written twice")
 KEY_NOT_SCALAR = Code("LF1102", Severity.ERROR, "a key must be text, found {found}")
