@@ -47,6 +47,7 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     joints.check_mimic_circles,
     joints.check_mimic_freedom,
     joints.check_mimic_motion,
+    joints.check_mimic_range,
     joints.check_endless_joints,
     joints.check_joint_power,
     joints.check_joint_speed,

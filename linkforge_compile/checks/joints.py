@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from linkforge_compile.checks.circles import told_circles
+from linkforge_compile.checks.ranges import passed_range
 from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointMimic, JointSafetyController, JointType
 from linkforge_compile.core.models.robot import Robot
@@ -16,6 +17,7 @@ from linkforge_compile.diagnostics.codes.model import (
     IDLE_SOFT_LIMIT,
     MIMIC_CIRCLE,
     MIMIC_FREEDOM,
+    MIMIC_OUTSIDE_LIMITS,
     MIMIC_STANDS_STILL,
     NO_RANGE,
     POWERLESS_JOINT,
@@ -82,6 +84,32 @@ def check_mimic_motion(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         if joint.mimic and joint.mimic.multiplier == 0:
             leader = joint.mimic.joint
             yield MIMIC_STANDS_STILL.at(joint.source, "mimic", "multiplier", joint=joint.name, leader=leader)
+
+
+def check_mimic_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+    """A joint that mimics another can follow it as far as it goes.
+
+    Where the leader's range, times `multiplier` plus `offset`, passes a limit of the follower, simulators stop one of
+    the two, or let the follower pass its limit, and planners find states that no robot takes. Correct the sign of the
+    `multiplier` or of the `axis`, or the limits of one of the two.
+    """
+    for joint in robot.joints:
+        leader = robot.joints.get(joint.mimic.joint) if joint.mimic else None
+        if joint.mimic and leader and {joint.type, leader.type}.issubset(BOUNDED_JOINTS):
+            driven = _driven_range(joint.mimic, leader)
+            if driven and (own := passed_range(joint, *driven)):
+                own_range, found = own
+                yield MIMIC_OUTSIDE_LIMITS.at(
+                    joint.source, "mimic", joint=joint.name, range=own_range, leader=leader.name, found=found
+                )
+
+
+def _driven_range(mimic: JointMimic, leader: Joint) -> tuple[float, float] | None:
+    """Return how far a leader drives its follower [rad] or [m]; None where its own range is not said."""
+    if leader.limits is None or leader.limits.lower is None or leader.limits.upper is None:
+        return None
+    ends = [mimic.multiplier * end + mimic.offset for end in (leader.limits.lower, leader.limits.upper)]
+    return min(ends) + 0.0, max(ends) + 0.0  # no -0, which a person would not write
 
 
 def check_joint_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

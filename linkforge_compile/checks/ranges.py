@@ -42,7 +42,26 @@ def missed_range(joint: Joint, lowest: float, highest: float, unit: str | None =
     lower, upper = limits.lower, limits.upper
     below = lower is not None and highest < lower - ROUNDING
     above = upper is not None and lowest > upper + ROUNDING
+    return _range(joint, lower, upper, unit) if below or above else None
+
+
+def passed_range(joint: Joint, lowest: float, highest: float) -> tuple[str, str] | None:
+    """Return the range of a joint and the one in which it is driven [rad] or [m], in words, if that is not within.
+
+    Both are in the unit in which the joint's limits are written.
+    """
+    limits = joint.limits
+    if limits is None or joint.type not in WITHIN_LIMITS:
+        return None
+    below = limits.lower is not None and lowest < limits.lower - ROUNDING
+    above = limits.upper is not None and highest > limits.upper + ROUNDING
     if not (below or above):
         return None
+    ends = (joint.source.at("limits", side) for side in ("lower", "upper")) if joint.source else ()
+    unit = next((unit for end in ends if (unit := unit_in(end.text))), None)
+    return _range(joint, limits.lower, limits.upper, unit), _range(joint, lowest, highest, unit)
+
+
+def _range(joint: Joint, lower: float | None, upper: float | None, unit: str | None) -> str:
     bounds = [f"{way} {in_unit(bound, unit)}" for way, bound in (("from", lower), ("to", upper)) if bound is not None]
     return " ".join((*bounds, *(() if unit else (WITHIN_LIMITS[joint.type],))))

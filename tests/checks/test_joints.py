@@ -5,7 +5,7 @@ from tests.checks.robots import X, fixed, robot, told, turning
 
 
 def sliding(name: str, parent: str, child: str, mimic: str) -> Joint:
-    limits = JointLimits(0.0, 0.1)
+    limits = JointLimits(-1.0, 1.0)
     return Joint(name, JointType.PRISMATIC, parent, child, axis=X, limits=limits, mimic=JointMimic(mimic))
 
 

@@ -5,6 +5,7 @@ import pytest
 
 from linkforge_compile.core import (
     GroupState,
+    JointLimits,
     JointMimic,
     PassiveJoint,
     PlanningGroup,
@@ -94,7 +95,8 @@ def test_a_joint_that_is_misspelt_is_not_missed_as_well():
 def gripper(**fingers: float) -> Robot:
     """Return two fingers, the right at minus twice the left and 0.1, in a state `s` with these positions."""
     left = turning("left", "palm", "left_tip")
-    right = replace(turning("right", "palm", "right_tip"), mimic=JointMimic("left", -2.0, 0.1))
+    limits = JointLimits(-2.0, 2.2)
+    right = replace(turning("right", "palm", "right_tip", limits=limits), mimic=JointMimic("left", -2.0, 0.1))
     group = PlanningGroup("g", joints=("left", "right"))
     semantic = SemanticRobotDescription(groups=(group,), group_states=(GroupState("s", "g", fingers),))
     return robot("palm left_tip right_tip", left, right, semantic=semantic)

@@ -93,6 +93,7 @@ FAST_JOINT = Code(
     "LF5585", _N, "joint '{joint}' is as fast as {found} {si}{also}; write '{found} {unit}' if {units} are meant"
 )
 MIMIC_STANDS_STILL = Code("LF5509", _W, "joint '{joint}' mimics '{leader}' with a multiplier of 0, so it stands still")
+MIMIC_OUTSIDE_LIMITS = Code("LF5575", _W, "joint '{joint}' goes {range}, but its leader '{leader}' drives it {found}")
 
 # LF56xx: groups, states and end effectors
 GROUP_CIRCLE = Code("LF5601", _E, "planning groups contain one another in a circle: {path}")
