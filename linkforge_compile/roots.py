@@ -34,7 +34,7 @@ class Roots:
         `named` are folders that the user named himself.
         """
         # A spec that is reached by a link may use what lies beside the link, and beside itself.
-        ways = () if place is None else dict.fromkeys((place.absolute(), _real(place)))
+        ways = () if place is None else dict.fromkeys((as_walked(place), _real(place)))
         folders = (*map(_top_of, ways), *named, *_search_path("ROS_PACKAGE_PATH"))
         installed = tuple(_search_path("AMENT_PREFIX_PATH"))
         return cls(tuple(dict.fromkeys(map(_real, folders))), installed=installed)
@@ -60,6 +60,16 @@ class Roots:
 
 
 ANYWHERE = Roots(is_anywhere=True)
+
+
+def as_walked(path: Path) -> Path:
+    """Return an absolute path whose parents are the folders above it: with links as they were walked, without `..`.
+
+    `here/../there` does not lie in `here`, and `..` behind a link is the folder above where it leads.
+    """
+    steps = path.absolute().parts
+    climbed = len(steps) - steps[::-1].index("..") if ".." in steps else 0
+    return Path(os.path.realpath(Path(*steps[:climbed])), *steps[climbed:]) if climbed else Path(*steps)
 
 
 def _top_of(place: Path) -> Path:

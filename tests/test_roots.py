@@ -46,6 +46,28 @@ def test_a_spec_reads_in_the_nearest_package_or_repository_above_it(marker: str,
     assert codes(compile_file(spec)) == REFUSED
 
 
+def test_a_path_that_climbs_out_of_a_package_does_not_lie_in_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Whoever stands in his own package and compiles a stranger's robot by `../..` opens none of his to it."""
+    written(tmp_path / "mine" / "package.xml", "<package><name>mine</name></package>")
+    mine = written(tmp_path / "mine" / "part.robot.yaml")
+    work = tmp_path / "mine" / "work"
+    work.mkdir()
+    using(tmp_path / "evil" / "cell.robot.yaml", str(mine))
+    monkeypatch.chdir(work)
+    assert codes(compile_file("../../evil/cell.robot.yaml")) == REFUSED
+    using(tmp_path / "evil" / "cell.robot.yaml", "package://mine/part.robot.yaml")
+    assert codes(compile_file("../../evil/cell.robot.yaml")) == ["LF3005"]
+
+
+def test_a_path_that_climbs_out_of_a_link_does_not_lie_above_the_link(tmp_path: Path):
+    written(tmp_path / "mine" / "package.xml", "")
+    mine = written(tmp_path / "mine" / "part.robot.yaml")
+    (tmp_path / "evil" / "deep").mkdir(parents=True)
+    (tmp_path / "mine" / "link").symlink_to(tmp_path / "evil" / "deep")
+    using(tmp_path / "evil" / "cell.robot.yaml", str(mine))
+    assert codes(compile_file(tmp_path / "mine" / "link" / ".." / "cell.robot.yaml")) == REFUSED
+
+
 def test_what_is_refused_says_where_it_leads_and_what_may_be_read(tmp_path: Path):
     spec = using(tmp_path / "cell" / "cell.robot.yaml", "../part.robot.yaml")
     [diagnostic] = compile_file(spec).diagnostics

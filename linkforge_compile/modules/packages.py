@@ -9,6 +9,7 @@ from itertools import chain
 from pathlib import Path
 
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.roots import as_walked
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(r"<name>\s*([^<]*?)\s*</name>")
@@ -35,7 +36,7 @@ def find_package(name: str, declared: Mapping[str, Path], start: Path | None) ->
 
 
 def _in_source_tree(name: str, start: Path | None) -> Iterator[Path]:
-    folder = start.absolute() if start else None
+    folder = as_walked(start) if start else None
     for candidate in (folder, *folder.parents) if folder else ():
         if _manifest_name(candidate) == name:
             yield candidate
