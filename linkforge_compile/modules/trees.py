@@ -6,19 +6,21 @@ Whoever compiles a robot twice in one process, as launch files, editors and watc
 from __future__ import annotations
 
 from pathlib import Path
+from threading import Lock
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.modules.places import judge_places
 from linkforge_compile.schema import validate
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, read
 
 MOST_REMEMBERED = 500_000
 """How many characters of texts are remembered together: their trees take up to 100 MB."""
 
-_Said: TypeAlias = tuple[str, str, Path | None, int, Span | None]
+_Place: TypeAlias = tuple[str, Path | None, int]
+"""The name of a file, its path, and how many were read before it."""
 
 
 class _Read(NamedTuple):
@@ -29,18 +31,69 @@ class _Read(NamedTuple):
     values: int
 
 
-_faultless: dict[_Said, _Read] = {}
+class _Whole:
+    """A file that stands by itself, and what was read of it and of the files that it includes.
+
+    A part knows the very file that included it, so none of them outlives the text of that one.
+    """
+
+    def __init__(self, file: SourceFile) -> None:
+        self.file = file
+        self.characters = len(file.text)
+        self.read: dict[_Place, _Read] = {}
+
+    def put(self, one: _Read) -> None:
+        before = self.read.get(_place(one.source))
+        self.read[_place(one.source)] = one
+        if one.source is not self.file:
+            self.characters += len(one.source.text) - (len(before.source.text) if before else 0)
+
+
+class _Memory:
+    """The trees of faultless texts, one a place, as many as there is room for; threads may share it."""
+
+    def __init__(self) -> None:
+        self._wholes: dict[_Place, _Whole] = {}
+        self._characters = 0
+        self._lock = Lock()
+
+    def find(self, source: SourceFile) -> _Read | None:
+        """Return what was read of a text that says the same at the same place."""
+        with self._lock:
+            whole = self._wholes.get(_place(source.outermost))
+            known = whole.read.get(_place(source)) if whole else None
+        is_same = known and (known.source.text, known.source.included) == (source.text, source.included)
+        return known if is_same else None
+
+    def keep(self, one: _Read) -> None:
+        """Remember one more; what was remembered first makes room for it."""
+        file = one.source.outermost
+        with self._lock:
+            whole = self._wholes.pop(_place(file), None)
+            self._characters -= whole.characters if whole else 0
+            if whole is None or whole.file is not file:
+                whole = _Whole(file)
+            whole.put(one)
+            if whole.characters > MOST_REMEMBERED:
+                return
+            self._wholes[_place(file)] = whole
+            self._characters += whole.characters
+            while self._characters > MOST_REMEMBERED:
+                self._characters -= self._wholes.pop(next(iter(self._wholes))).characters
+
+
+_faultless = _Memory()
 
 
 def known_source(source: SourceFile) -> SourceFile:
     """Return the file of an earlier compile that says the same at the same place, so that its tree still holds."""
-    known = _faultless.get(_said(source))
+    known = _faultless.find(source)
     return known.source if known else source
 
 
 def tree_of(source: SourceFile, sink: Diagnostics, budget: Budget) -> YamlMap | None:
     """Return the tree of a spec, without what is faulty in it, which is reported; None where it cannot be read."""
-    known = _faultless.get(_said(source))
+    known = _faultless.find(source)
     if known and known.source is source and known.values <= budget.left(Limit.VALUES):
         budget.spend(Limit.VALUES, known.values, source.whole)
         return known.tree
@@ -50,18 +103,12 @@ def tree_of(source: SourceFile, sink: Diagnostics, budget: Budget) -> YamlMap | 
         return None
     whole = judge_places(validate(tree, watched, is_included=source.included is not None), watched)
     if watched.is_silent:
-        _remember(_Read(source, whole, before - budget.left(Limit.VALUES)))
+        _faultless.keep(_Read(source, whole, before - budget.left(Limit.VALUES)))
     return whole
 
 
-def _remember(one: _Read) -> None:
-    _faultless[_said(one.source)] = one
-    while _faultless and sum(len(text) for _, text, *_ in tuple(_faultless)) > MOST_REMEMBERED:
-        _faultless.pop(next(iter(_faultless)), None)
-
-
-def _said(source: SourceFile) -> _Said:
-    return source.name, source.text, source.path, source.order, source.included
+def _place(source: SourceFile) -> _Place:
+    return source.name, source.path, source.order
 
 
 class _Watched(Diagnostics):

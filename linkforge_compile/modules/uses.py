@@ -18,7 +18,7 @@ from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
 from linkforge_compile.modules.paths import follow
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source import Span
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlMap, YamlScalar
 
@@ -138,14 +138,9 @@ def written_place(path: Located) -> Span:
     where = path.span
     origin = where.origin
     is_moved = isinstance(path, YamlScalar) and isinstance(path.value, PathText)
-    if origin is None or origin.is_data or is_moved or _whole(origin.span.file) is not _whole(where.file):
+    if origin is None or origin.is_data or is_moved or origin.span.file.outermost is not where.file.outermost:
         return where
     return origin.span
-
-
-def _whole(file: SourceFile) -> SourceFile:
-    """Return the file that a file was laid into in the end, itself if into none."""
-    return file.includes[-1].file if file.includes else file
 
 
 def from_base(path: str, base: str) -> str:

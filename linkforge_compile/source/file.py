@@ -44,6 +44,11 @@ class SourceFile:
         return (self.included, *self.included.file.includes) if self.included else ()
 
     @property
+    def outermost(self) -> SourceFile:
+        """The file that this one was laid into in the end, itself if into none."""
+        return self.includes[-1].file if self.included else self
+
+    @property
     def whole(self) -> Span:
         """The span to blame where a file as a whole is at fault: its first character."""
         return Span(self, 1, 1, 1, 1)

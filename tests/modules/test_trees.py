@@ -1,5 +1,8 @@
 """A text that was read without a fault is not read again; nobody can tell but by the time."""
 
+import gc
+import weakref
+
 import pytest
 
 from linkforge_compile import compile_file, compile_text, render_urdf
@@ -9,11 +12,12 @@ from linkforge_compile.modules import trees
 from linkforge_compile.source import SourceFile
 
 ARM = "linkforge: 1\nname: arm\nlinks: {base: }\n"
+WRIST = "joints: {wrist: {type: fixed, parent: base, child: palm}}"
 
 
 @pytest.fixture(autouse=True)
 def nothing_remembered(monkeypatch):
-    monkeypatch.setattr(trees, "_faultless", {})
+    monkeypatch.setattr(trees, "_faultless", trees._Memory())
 
 
 @pytest.fixture
@@ -83,3 +87,36 @@ def test_old_texts_are_forgotten(monkeypatch, texts_read):
     for name in ("one", "two", "three", "four", "four", "one"):
         compile_text(ARM, name=name)
     assert len(texts_read) == 5
+
+
+def test_a_text_that_is_too_large_to_remember_leaves_the_others(monkeypatch, texts_read):
+    monkeypatch.setattr(trees, "MOST_REMEMBERED", 3 * len(ARM))
+    compile_text(ARM, name="one")
+    compile_text(ARM + "#" * 3 * len(ARM), name="large")
+    compile_text(ARM, name="one")
+    assert len(texts_read) == 2
+
+
+def test_of_an_edited_file_no_old_text_is_kept_even_by_what_it_includes(tmp_path):
+    (tmp_path / "hand.yaml").write_text("linkforge: 1\nlinks: {palm: }\n")
+    spec = tmp_path / "arm.robot.yaml"
+    roots = []
+    for edit in range(3):
+        spec.write_text(
+            f"{ARM}include: [hand.yaml]  # {edit}\njoints: {{w: {{type: fixed, parent: base, child: palm}}}}\n"
+        )
+        roots.append(weakref.ref(compile_file(spec).result().source.span.file))
+    gc.collect()
+    assert [root() is None for root in roots] == [True, True, False]
+
+
+def test_of_a_file_with_a_fault_no_old_text_is_kept_either(tmp_path):
+    """Its parts are remembered, and each of them knows the file that included it."""
+    (tmp_path / "hand.yaml").write_text("linkforge: 1\nlinks: {palm: }\n")
+    spec = tmp_path / "arm.robot.yaml"
+    files = []
+    for edit in range(3):
+        spec.write_text(f"{ARM}include: [hand.yaml]  # {edit}\nlonks: \n")
+        files.append(weakref.ref(compile_file(spec).diagnostics[0].span.file))
+    gc.collect()
+    assert [file() is None for file in files] == [True, True, False]
