@@ -207,7 +207,11 @@ def _is_written_null(node: YamlNode) -> bool:
 
 
 def _plain(node: YamlNode, field: str, shape: Shape) -> YamlNode:
-    """Return a node in the form in which two that mean the same are equal: an axis in numbers, numbers in SI units."""
+    """Return a node in the form in which two that mean the same are equal: an axis in numbers, numbers in SI units.
+
+    A quantity of another dimension than a number without unit has here stays one, and equals no number; so it does
+    where that depends on what is around it, as a joint's velocity does on the joint's type.
+    """
     if shape.is_free_part or (shape.is_text and field != "axis"):
         return node
     match node:
@@ -216,8 +220,8 @@ def _plain(node: YamlNode, field: str, shape: Shape) -> YamlNode:
             numbers = tuple(sign * number for number in _AXES[text.lstrip("-")])
             return YamlList(tuple(YamlScalar(str(number), number, node.span) for number in numbers), node.span)
         case YamlScalar(value=str() as value) if quantity := parse_quantity(value):
-            return YamlScalar(node.text, quantity.value, node.span)
-        case YamlScalar(value=Quantity(value=value)):
+            return _plain(YamlScalar(node.text, quantity, node.span), field, shape)
+        case YamlScalar(value=Quantity(value=value, dimension=dimension)) if dimension.si_unit == shape.unit:
             return YamlScalar(node.text, value, node.span)
         case YamlList():
             return YamlList(tuple(_plain(item, field, shape.item or shape) for item in node), node.span)

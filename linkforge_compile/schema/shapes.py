@@ -68,6 +68,15 @@ class Shape:
         return next((str(part.get("title", "")) for part in scalars if "string" in str(part.get("type"))), "")
 
     @property
+    def unit(self) -> str | None:
+        """The SI unit of a bare number here, or of each in a list of them; None for none, or where that depends."""
+        parts = (self.schema, *branches(self.schema))
+        told = (
+            str(each.get("patternErrorMessage")) for part in parts for each in (part, mapping(part.get("items", {})))
+        )
+        return next((found[1] for message in told if (found := _UNIT.search(message))), None)
+
+    @property
     def item(self) -> Shape | None:
         """The shape of the items where it may be a list of things of their own, None where not."""
         return shape_of(mapping(self._list["items"])) if self._list else None
@@ -94,6 +103,9 @@ class Shape:
                 return shape_of(positions)
         return FREE
 
+
+_UNIT = re.compile(r"number \[(\S+)\]")
+"""Where a schema's message says the unit of a number, if there is but one: "[kg]", not "[rad or m]"."""
 
 _EXPRESSION = r"\$\("
 """The pattern of what is nothing but an expression."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
+from typing import TypeAlias
 
 from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.joint import Joint
@@ -21,6 +22,7 @@ from linkforge_compile.core.models.srdf import (
     VirtualJoint,
 )
 from linkforge_compile.core.part import Element
+from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension
 from linkforge_compile.writers.joint import position_dimension
@@ -33,12 +35,13 @@ def written_semantic(pen: Pen, semantic: SemanticRobotDescription, joints: Index
     States of one group stand together, as pairs do of one first link and properties of one joint: where others
     came between them, that order is lost.
     """
+    states = {(state.group, state.name): state for state in semantic.group_states}
     node = pen.element(
         semantic,
         virtual_joints=pen.named("virtual joint", ((one.name, _virtual(pen, one)) for one in semantic.virtual_joints)),
         groups=pen.named("planning group", ((group.name, _group(pen, group)) for group in semantic.groups)),
         group_states=pen.nested(
-            "state", ((state.group, state.name, _state(pen, state, joints)) for state in semantic.group_states)
+            "state", ((state.group, state.name, _state(pen, state, joints, states)) for state in semantic.group_states)
         ),
         end_effectors=pen.named("end effector", ((one.name, _effector(pen, one)) for one in semantic.end_effectors)),
         passive_joints=_passive(pen, semantic.passive_joints),
@@ -85,15 +88,36 @@ def _chain(pen: Pen, chain: Chain) -> YamlMap:
     return pen.element(chain, base_link=pen.text(chain.base_link), tip_link=pen.text(chain.tip_link))
 
 
-def _state(pen: Pen, state: GroupState, joints: Index[Joint]) -> YamlMap:
+_States: TypeAlias = Mapping[tuple[str, str], GroupState]
+"""The states of a robot, by group and name."""
+
+
+def _state(pen: Pen, state: GroupState, joints: Index[Joint], states: _States) -> YamlMap:
     """Return the positions by joint: a number, or a list of them for several degrees of freedom."""
-    prefix, positions = _prefix_of(state), {}
+    positions = {}
+    written = dict(_written_positions(state, states, set()))
     for name, values in state.joint_values.items():
         joint = joints.get(name)
         unit = position_dimension(joint) if joint else None
         node: YamlNode = pen.quantity(values[0], unit) if len(values) == 1 else pen.numbers(values, unit)
-        positions[name] = pen.located(node, state.source, name.removeprefix(prefix))
+        source, field = written.get(name, (state.source, name.removeprefix(_prefix_of(state))))
+        positions[name] = pen.located(node, source, field)
     return pen.element(state, **positions)
+
+
+def _written_positions(
+    state: GroupState, states: _States, seen: set[tuple[str, str]]
+) -> Iterator[tuple[str, tuple[SourceRef, str]]]:
+    """Yield where each position was written and under which name: in the state, or in those that it takes over."""
+    seen.add((state.group, state.name))
+    prefix = _prefix_of(state)
+    for entry in state.source.node if state.source and isinstance(state.source.node, YamlMap) else ():
+        text = entry.value.text if isinstance(entry.value, YamlScalar) else ""
+        taken = (prefix + entry.name, prefix + text)
+        if state.source and prefix + entry.name in state.joint_values:
+            yield prefix + entry.name, (state.source, entry.name)
+        elif taken in states and taken not in seen:
+            yield from _written_positions(states[taken], states, seen)
 
 
 def _prefix_of(state: GroupState) -> str:

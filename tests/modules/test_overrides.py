@@ -238,7 +238,10 @@ def test_a_position_reaches_lists_of_interfaces(tmp_path: Path):
         ("axis: [1, 0, 0]", True),
         ("axis: [-1, 0, 0]", False),
         ("axis: -x", False),
-        ("limits: {effort: 1 N*m}", True),
+        ("limits: {effort: 1}", True),
+        # Of a joint that slides it would be another: whether it is right, its own check tells.
+        ("limits: {effort: 1 N*m}", False),
+        ("limits: {effort: 1 m/s}", False),
         ("origin: {xyz: [0, 0, 1]}", False),
     ],
 )
@@ -294,3 +297,9 @@ def test_what_goes_wrong_because_of_an_override_names_it(tmp_path: Path, patch: 
     notes = [note for note in found.notes if "override" in note.message]
     assert [note.message for note in notes] == [f"'{key}' is changed by this override" for key in changed]
     assert all(note.span and Path(note.span.file.name).name == "cell.robot.yaml" for note in notes)
+
+
+@pytest.mark.parametrize(("mass", "is_same"), [("1000 g", True), ("1 m", False), ("1", True)])
+def test_a_number_without_a_unit_is_as_much_in_the_unit_of_its_field_only(change, mass: str, is_same: bool):
+    found = change(f"links: {{base: {{inertial: {{mass: {mass}}}}}}}")
+    assert found.told == (["'mass' is so already: this overrides nothing"] if is_same else [])

@@ -109,6 +109,19 @@ def test_a_state_of_a_module_is_found_under_the_name_that_its_file_gives_to_the_
     assert line(position) == 18
 
 
+def test_a_position_that_a_state_takes_over_is_told_where_it_is_written(tmp_path: Path):
+    semantic = (
+        "semantic:\n  groups: {all: {subgroups: [left_arm]}}\n  group_states: {all: {rest: {left_arm: left_home}}}\n"
+    )
+    (tmp_path / "arm.robot.yaml").write_text(ARM)
+    (tmp_path / "cell.robot.yaml").write_text(CELL + semantic)
+    position = explain(compile_file(tmp_path / "cell.robot.yaml").result(), "semantic/group_states/all/rest/left_elbow")
+    assert position.is_written
+    assert position.place is not None
+    assert (Path(position.place.span.file.name).name, position.place.span.text) == ("arm.robot.yaml", "0.5")
+    assert [(Path(use.file.name).name, use.line) for use in position.trail] == [("cell.robot.yaml", 6)]
+
+
 def test_positions_of_joints_of_which_one_has_the_other_one_s_name_under_the_prefix_are_told_apart(tmp_path: Path):
     joints = "  left_elbow: {type: continuous, parent: upper, child: hand, axis: z}\n"
     arm = ARM.replace("joints:\n", f"joints:\n{joints}", 1).replace("  upper: {", "  hand:\n  upper: {")
