@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.checks import check
-from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Gaps, Severity
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.diagnostics.ignores import Ignore, heed
 from linkforge_compile.frozen import dataclass
@@ -301,7 +301,7 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
     resolver = _resolver(instance, loader)
     for alone in lowered.unmerged:
         alone.robot.resource_resolver = resolver
-        sink.report_all(check(alone.robot, Gaps(removed=alone.removed, may_look=loader.roots.hold)))
+        sink.report_all(check(alone.robot, alone.gaps.looking(loader.roots.hold)))
     if lowered.robot is not None:
         lowered.robot.resource_resolver = resolver
         sink.report_all(check(lowered.robot, lowered.gaps.looking(loader.roots.hold)))

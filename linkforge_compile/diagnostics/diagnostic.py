@@ -104,7 +104,7 @@ class Code:
         """
         message = on_one_line(self.message.format(**facts) + did_you_mean(str(facts.get("name", "")), near))
         span = where.at(*path) if isinstance(where, SourceRef) else where
-        trail = where.trail if isinstance(where, SourceRef) else ()
+        trail = where.trail_to(span) if isinstance(where, SourceRef) and span else ()
         changed = notes_of_changes(where.changes(*path), span) if isinstance(where, SourceRef) else ()
         span, moved = self._blamed(span) if span else (None, ())
         includes = [Note("included here", include) for include in (span.file.includes if span else ())]

@@ -45,12 +45,14 @@ class Gaps:
     `prefixes` stand for whole modules that could not be read: every name that begins with one may be theirs,
     and the empty prefix covers all names. True when anything is missing, so a check that judges the whole
     tree can tell that it does not see the whole tree. `removed` are no gaps, but there for whoever misses them.
+    `mounts` are none either: joints by which this robot, or one in it, hangs on a link of whoever uses it.
     `may_look` says whether a check may look at a file, for a spec can name any file of this machine.
     """
 
     names: frozenset[str] = frozenset()
     prefixes: tuple[str, ...] = ()
     removed: Removed = field(default_factory=Removed)
+    mounts: frozenset[str] = frozenset()
     may_look: Callable[[Path], bool] = _everywhere
 
     def looking(self, may_look: Callable[[Path], bool]) -> Gaps:
@@ -58,7 +60,7 @@ class Gaps:
         return replace(self, may_look=may_look)
 
     def __contains__(self, name: object) -> bool:
-        return name in self.names or (isinstance(name, str) and name.startswith(self.prefixes))
+        return name in self.names or name in self.mounts or (isinstance(name, str) and name.startswith(self.prefixes))
 
     def __bool__(self) -> bool:
         return bool(self.names or self.prefixes)
@@ -66,7 +68,10 @@ class Gaps:
     def with_prefix(self, prefix: str) -> Gaps:
         """Return the same gaps as seen from the file that uses this one under `prefix`."""
         names = frozenset(prefix + name for name in self.names)
-        return Gaps(names, tuple(prefix + start for start in self.prefixes), self.removed.with_prefix(prefix))
+        starts = tuple(prefix + start for start in self.prefixes)
+        mounts = frozenset(prefix + name for name in self.mounts)
+        return Gaps(names, starts, self.removed.with_prefix(prefix), mounts)
 
     def __or__(self, other: Gaps) -> Gaps:
-        return Gaps(self.names | other.names, self.prefixes + other.prefixes, self.removed | other.removed)
+        prefixes, mounts = self.prefixes + other.prefixes, self.mounts | other.mounts
+        return Gaps(self.names | other.names, prefixes, self.removed | other.removed, mounts)

@@ -35,10 +35,10 @@ PartKey: TypeAlias = tuple[str, Hashable]
 
 
 class Unmerged(NamedTuple):
-    """The robot of a module that could not be joined, free of gaps, and why it lacks what it was told to leave out."""
+    """The robot of a module that could not be joined, free of gaps: these say only what it lacks on purpose."""
 
     robot: Robot
-    removed: Removed
+    gaps: Gaps
 
     @property
     def name(self) -> str:
@@ -87,8 +87,7 @@ def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids) -> Lower
         fold.add(module, _lowered(module, sink, meshes))
     lowered = fold.finished(hangs_alone=instance.entry is None)
     if instance.references and lowered.robot:
-        known = gaps_of([lowered.mount.name]) if lowered.mount else Gaps()
-        tell_unknown_names(instance.references, lowered.robot, lowered.gaps | known, sink)
+        tell_unknown_names(instance.references, lowered.robot, lowered.gaps, sink)
     return lowered
 
 
@@ -153,8 +152,12 @@ class _Fold:
                 # It may not name one, which is told: whoever names that joint goes by the same mistake.
                 self._gaps |= gaps_of([joint_name_of(module.name, module.entry.node)])
             return hung_by(own, module, root, self._sink)
-        self._mounts.append(handed_on(own, module.prefix))
-        return lower_module_joint(module, root, self._sink)
+        whole = handed_on(own, module.prefix)
+        if lower_module_joint(module, root, self._sink):
+            # What else is said of how it hangs shows that its parent was forgotten, which is told.
+            return whole._replace(joint=None)
+        self._mounts.append(whole)
+        return None
 
     def finished(self, *, hangs_alone: bool) -> Lowered:
         """Return the robot with its group states, which may name those of its modules.
@@ -163,8 +166,9 @@ class _Fold:
         """
         mount = only_mount(self._mounts, self._sink)
         self._gaps |= gaps_of(other.name for other in self._mounts[1:])
-        if mount and hangs_alone and not hang_on_world(self._robot, mount, _root_of(self._robot), self._sink):
-            self._gaps |= gaps_of([mount.name])
+        self._gaps |= Gaps(mounts=frozenset([mount.name] if mount else ()))
+        if mount and hangs_alone:
+            self._gaps |= hang_on_world(self._robot, mount, _root_of(self._robot), self._sink)
         if self._states:
             from linkforge_compile.lowering.srdf_states import Surroundings, resolve_states
 
@@ -283,7 +287,7 @@ class _Fold:
         names = (key for (_, key), _ in _parts(component) if isinstance(key, str))
         self._gaps |= Gaps(frozenset(prefix + name for name in names))
         if not gaps:
-            self._unmerged.append(Unmerged(component, gaps.removed))
+            self._unmerged.append(Unmerged(component, gaps))
         return False
 
 

@@ -10,6 +10,7 @@ from linkforge_compile.diagnostics.codes.model import JOINT_WITHOUT_PARENT
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.joint import Ends, joint_between
 from linkforge_compile.modules.assembly import Instance
+from linkforge_compile.modules.module_entry import joint_name_of
 from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
 
 if TYPE_CHECKING:
@@ -35,16 +36,17 @@ def module_fields(module: Instance, sink: Diagnostics) -> Fields | None:
 def lower_module_joint(module: Instance, root: str | None, sink: Diagnostics) -> ModuleJoint | None:
     """Lower the joint from a module's `parent` to its root link (final name; None where it has no single one).
 
-    Returns None for a module without `parent`, which is the base of the robot that uses it.
+    Returns None for a module without `parent`, which is the base of the robot that uses it; one that says all the
+    same how it hangs lost its joint.
     """
     written = module_fields(module, sink)
     if written is None:
         return None
     if written.node.get("parent") is None:
-        for field in ("joint", "origin"):
-            if (said := written.node.get(field)) is not None:
-                written.tell(JOINT_WITHOUT_PARENT, said, owner=written.owner, field=field)
-        return None
+        said = [(field, node) for field in ("joint", "origin") if (node := written.node.get(field)) is not None]
+        for field, node in said:
+            written.tell(JOINT_WITHOUT_PARENT, node, owner=written.owner, field=field)
+        return ModuleJoint(joint_name_of(module.name, written.node), None) if said else None
     default = f"{module.name}_joint"
     name = _name(written, default)
     joint = _as_joint(written, name or default)

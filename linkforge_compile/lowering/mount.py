@@ -9,7 +9,7 @@ from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics import Diagnostics, Gaps, Note
 from linkforge_compile.diagnostics.codes.model import (
     MOUNT_AND_JOINT,
     MOUNT_NOT_AT_ROOT,
@@ -21,9 +21,13 @@ from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.joint import Ends, joint_between
 from linkforge_compile.lowering.module_joint import ModuleJoint, gazebo_of, module_fields
 from linkforge_compile.modules.assembly import Instance
+from linkforge_compile.source import SourceRef
+from linkforge_compile.syntax.nodes import YamlMap
 
 WORLD = "world"
 """The link on which a file hangs by its mount where nobody uses it."""
+_ENDS = ("parent", "origin")
+"""What is said of a mount by the entry that uses its file."""
 
 
 def lower_mounts(file: Fields) -> list[ModuleJoint]:
@@ -35,7 +39,7 @@ def lower_mounts(file: Fields) -> list[ModuleJoint]:
 
 
 def _lower(fields: Fields, name: str) -> ModuleJoint:
-    for end in ("parent", "origin"):
+    for end in _ENDS:
         if (said := fields.node.get(end)) is not None:
             fields.tell(MOUNT_SAYS_ENDS, said, owner=fields.owner, field=end)
     valid_name = name if fields.name_is_valid(name, "joint", fields.ref) else None
@@ -75,23 +79,36 @@ def hung_by(mount: ModuleJoint, module: Instance, root: str | None, sink: Diagno
     parent, origin = written.text("parent"), written.origin()
     if parent is None or not _holds_root(whole, root, module.prefix, sink):
         return whole._replace(joint=None)
-    joint = whole.joint
+    joint = replace(whole.joint, source=_with_ends_of(written.node, whole.joint.source))
     return whole._replace(joint=written.build(lambda: replace(joint, parent=parent, origin=origin)))
 
 
-def hang_on_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diagnostics) -> bool:
-    """Hang a compiled robot on the link `world`, its first, made unless it is declared; False for a fault."""
+def _with_ends_of(entry: YamlMap, mount: SourceRef | None) -> SourceRef | None:
+    """Return where a mount stands, with the ends that the entry of its module says for it."""
+    if mount is None or not isinstance(mount.node, YamlMap):
+        return mount
+    ends = {key: said for key in _ENDS if (said := entry.entries.get(key))}
+    return replace(mount, node=YamlMap({**mount.node.entries, **ends}, mount.node.span))
+
+
+def hang_on_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diagnostics) -> Gaps:
+    """Hang a compiled robot on the link `world`, its first, made unless it is declared; returns what it lacks now.
+
+    For a robot without a single root none is made, so that what is told of its roots names what its author wrote.
+    """
     if mount.joint is None or not _holds_root(mount, root, "", sink):
-        return False
+        return Gaps(frozenset([mount.name]))
+    if root is None and WORLD not in robot.links:
+        return Gaps(mounts=frozenset([mount.name, WORLD]))
     if (other := robot.joints.get(mount.name)) is not None:
         tell_duplicate(sink, "joint", mount.name, mount.joint.source, other.source)
-        return False
+        return Gaps(frozenset([mount.name]))
     declared = robot.links.get(WORLD) if WORLD in robot.links else None
     world = declared or Link(WORLD, source=mount.joint.source)
     robot.links = (world, *(link for link in robot.links if link.name != WORLD))
     robot.joints = (mount.joint, *robot.joints)
     robot.gazebo_elements = (*mount.gazebo, *robot.gazebo_elements)
-    return True
+    return Gaps()
 
 
 def _holds_root(mount: ModuleJoint, root: str | None, prefix: str, sink: Diagnostics) -> bool:

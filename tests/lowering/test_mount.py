@@ -2,7 +2,9 @@
 
 from pathlib import Path
 
-from linkforge_compile import Robot, compile_file, compile_text
+import pytest
+
+from linkforge_compile import Robot, Severity, compile_file, compile_text
 
 LEG = """\
 linkforge: 1
@@ -63,3 +65,34 @@ def test_an_override_patches_it(tmp_path):
     override = "override: {mount: {hip_joint: {limits: {effort: 20}}}}"
     robot = use(tmp_path, f"links: {{trunk: }}\nmodules: {{left: {{use: leg.robot.yaml, parent: trunk, {override}}}}}")
     assert robot.joints["left_hip_joint"].limits.effort == 20.0
+
+
+def test_its_parent_is_found_where_its_module_is_used(tmp_path):
+    robot = use(tmp_path, "links: {trunk: }\nmodules: {left: {use: leg.robot.yaml, parent: trunk, origin: [0, 2, 0]}}")
+    source = robot.joints["left_hip_joint"].source
+    places = [(Path(place.file.name).name, place.line) for place in map(source.at, ("parent", "origin", "child"))]
+    assert places == [("<text>", 4), ("<text>", 4), ("leg.robot.yaml", 5)]
+
+
+@pytest.mark.parametrize(
+    ("leg", "told"),
+    [
+        ("parent: trunk, override: {joints: {ankle: null}}", ["LF5404"]),
+        ("parent: trunk, prefix: right_", ["LF4106"]),
+        ("origin: [0, 1, 0]", ["LF5301"]),
+        ("joint: hip", ["LF5301"]),
+    ],
+)
+def test_whoever_names_it_is_not_blamed_for_what_is_wrong_with_its_robot(tmp_path, leg, told):
+    (tmp_path / "leg.robot.yaml").write_text(LEG)
+    right = "right: {use: leg.robot.yaml, parent: trunk}"
+    text = f"linkforge: 1\nname: w\nlinks: {{trunk: }}\nmodules: {{{right}, left: {{use: leg.robot.yaml, {leg}}}}}"
+    compiled = compile_text(text, folder=tmp_path)
+    assert [one.code.id for one in compiled.diagnostics if one.severity is Severity.ERROR] == told
+
+
+def test_a_module_that_lacks_only_its_parent_is_told_by_the_links_that_someone_wrote(tmp_path):
+    (tmp_path / "leg.robot.yaml").write_text(LEG)
+    text = "linkforge: 1\nname: w\nlinks: {trunk: }\nmodules: {left: {use: leg.robot.yaml}}"
+    (told,) = [one.message for one in compile_text(text, folder=tmp_path).diagnostics if one.severity is Severity.ERROR]
+    assert told.startswith("2 links are no joint's child: 'trunk' and 'left_hip'")
