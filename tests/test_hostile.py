@@ -66,6 +66,12 @@ SPECS: dict[str, tuple[str, str | bytes]] = {
     "maps in maps": ("LF1107", HEAD + "x-a:\n" + "".join(" " * i + "a:\n" for i in range(1, 2000))),
     "a list of millions": ("LF3301", HEAD + "x-a: [" + "[]," * 5_000_000 + "]\n"),
     "millions of links": ("LF3301", HEAD + "".join(f"  l{i}:\n" for i in range(1_000_000))),
+    "what is refused among many errors": (
+        "LF5006",
+        HEAD
+        + "".join(f"  l{i}: {{inertial: {{mass: -1, density: 2}}}}\n" for i in range(300))
+        + "transmissions:\n  t$(i): {for: {i: 5000}, type: a/B, joints: {j: {mechanical_reduction: 0}}}\n",
+    ),
     "a million unknown keys": ("LF3302", HEAD + "".join(f"    q{i}: 1\n" for i in range(100_000))),
     "the same key for ever": ("LF3302", HEAD + "x-q: 1\n" * 200_000),
     "a huge product": ("LF3301", HEAD + "  l_$(a)_$(b)_$(c): {for: {a: 1000, b: 1000, c: 1000}}\n"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, insort
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
@@ -9,7 +10,7 @@ from typing import TypeAlias
 
 from linkforge_compile.diagnostics.codes.bounds import MORE_WARNINGS, TOO_MANY_ERRORS
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
-from linkforge_compile.source import Span
+from linkforge_compile.source import Position, SourceFile, Span
 
 MAX_TOLD = 1_000
 """How many errors are told of one compile, and how many warnings and notes."""
@@ -49,6 +50,7 @@ class Diagnostics:
         # By their hashes, as a message may be long, and only their number is told.
         self._seen: set[int] = set()
         self._at: defaultdict[_Place, set[int]] = defaultdict(set)
+        self._error_starts: defaultdict[SourceFile, list[Position]] = defaultdict(list)
         self._left_out = 0
 
     def report(self, diagnostic: Diagnostic) -> None:
@@ -61,6 +63,8 @@ class Diagnostics:
         is_error = diagnostic.severity is Severity.ERROR
         if is_error and (self._errors >= MAX_TOLD or len(self._seen) > MAX_REPORTED):
             raise too_many_errors(diagnostic.span)
+        if is_error and diagnostic.span is not None:
+            insort(self._error_starts[diagnostic.span.file], diagnostic.span.start)
         if diagnostic.span is not None:
             at = self._at[diagnostic.code.id, diagnostic.span]
             at.add(number)
@@ -80,6 +84,12 @@ class Diagnostics:
     def report_all(self, diagnostics: Iterable[Diagnostic]) -> None:
         for diagnostic in diagnostics:
             self.report(diagnostic)
+
+    def has_error_in(self, span: Span) -> bool:
+        """Whether an error was told of what begins in a stretch of text; looked up, not searched."""
+        starts = self._error_starts.get(span.file, [])
+        following = bisect_left(starts, span.start)
+        return following < len(starts) and (starts[following] < span.end or starts[following] == span.start)
 
     @property
     def has_errors(self) -> bool:

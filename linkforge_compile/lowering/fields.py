@@ -10,7 +10,7 @@ from typing import TypeVar
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.naming import is_valid_name
-from linkforge_compile.diagnostics import Code, Diagnostics, Severity, notes_of_changes
+from linkforge_compile.diagnostics import Code, Diagnostics, notes_of_changes
 from linkforge_compile.diagnostics.codes.model import (
     MISSING_FIELD,
     REFUSED,
@@ -192,17 +192,22 @@ class Fields:
 
     def names(self, key: str) -> tuple[str, ...]:
         """Read a list of references to names, without those that are faulty."""
-        names: list[str] = []
+        return tuple(name for name, _ in self.named_items(key))
+
+    def named_items(self, key: str) -> Iterator[tuple[str, YamlNode]]:
+        """Yield the names of a list, each with its node, without those that are faulty; one that repeats is told."""
         seen: set[str] = set()
         for node in self.items(key):
             name = self.text_at(node, key)
             if name is None:
                 continue
+            if not name or is_null(node):
+                self.tell(WRONG_KIND, node, field=key, expected="names", found=found(node))
+                continue
             if name in seen:
                 self.tell(NAME_TWICE, node, name=name, field=key, owner=self.title)
             seen.add(name)
-            names.append(name)
-        return tuple(names)
+            yield name, node
 
     # Reading a node that is at hand
 
@@ -288,10 +293,8 @@ class Fields:
     @property
     def _has_told_faults(self) -> bool:
         """Whether something in this object, however deep, is known to be wrong."""
-        told = [one.span for one in self.sink if one.span and one.severity is Severity.ERROR]
         return any(
-            isinstance(node, YamlFault) or any(span.lies_in(node.span) for span in told)
-            for node in _nodes_within(self.node)
+            isinstance(node, YamlFault) or self.sink.has_error_in(node.span) for node in _nodes_within(self.node)
         )
 
     def said(self, key: str, required: str = "") -> YamlNode | None:

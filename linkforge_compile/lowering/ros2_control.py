@@ -19,7 +19,7 @@ from linkforge_compile.lowering.extra import EXTRA_KEYS, extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_texts, texts_in
 from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
+from linkforge_compile.syntax.nodes import YamlMap
 
 Commanded = TypeVar("Commanded", Ros2ControlJoint, Ros2ControlGpio)
 
@@ -65,7 +65,6 @@ def _commanded(kind: type[Commanded], part: Fields, name: str) -> Commanded | No
     commands = tuple(_interfaces(part, "command_interfaces"))
     states = tuple(_interfaces(part, "state_interfaces"))
     parameters = free_texts(part, "parameters")
-    # Interfaces that are faulty are told as that, and not that there are none.
     make = partial(kind, name, commands, states, parameters, source=part.ref, **extras_of(part))
     return part.build(make)
 
@@ -80,8 +79,7 @@ def _interfaces(part: Fields, key: str) -> Iterator[Interface]:
     if isinstance(part.node.get(key), YamlMap):
         yield from (interface for _, interface in part.each(key, "interface", _interface) if interface is not None)
         return
-    items = [node for node in part.items(key) if isinstance(node, YamlScalar)]
-    for name, node in zip(part.names(key), items, strict=True):
+    for name, node in part.named_items(key):
         yield Interface(name, source=SourceRef(node, node.span, part.trail))
 
 
