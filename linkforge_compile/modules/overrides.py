@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 
 from linkforge_compile.diagnostics import Code, Diagnostics, Note, Removed
 from linkforge_compile.diagnostics.codes.repetition import (
     EMPTY_OVERRIDE,
+    MOUNT_IS_NO_JOINT,
     NO_SUCH_POSITION,
     NOTHING_TO_DELETE,
     NOTHING_TO_OVERRIDE,
@@ -46,7 +47,7 @@ class Override:
         collision pairs and its spheres.
         """
         whole = with_frames_as_joints(tree)
-        patched = _Patch(self.sink, missing).map(whole, self.patch, shapes(), "the module")
+        patched = _Patch(self.sink, missing, _names(whole, "mount")).map(whole, self.patch, shapes(), "the module")
         return _without_links(patched, set(_names(whole, "links")) - set(_names(patched, "links")))
 
     def deleted(self, before: YamlMap, after: YamlMap) -> Iterator[tuple[str, Note]]:
@@ -74,9 +75,10 @@ def refuse_empty(node: YamlNode, shape: Shape, sink: Diagnostics, field: str = "
 class _Patch:
     """One patch over one tree; what is wrong with it is reported where it stands, and the tree left as it was there."""
 
-    def __init__(self, sink: Diagnostics, missing: Removed) -> None:
+    def __init__(self, sink: Diagnostics, missing: Removed, mounts: Container[str]) -> None:
         self._sink = sink
         self._missing = missing
+        self._mounts = mounts
 
     def map(self, base: YamlMap, patch: YamlMap, shape: Shape, field: str) -> YamlMap:
         """Return an object or a map of names as its patch leaves it."""
@@ -165,6 +167,9 @@ class _Patch:
         name = change.name
         if "$(" in name or any("$(" in other for other in base.entries):
             return
+        if name in self._mounts and shape is shapes().under("joints"):
+            self._report(MOUNT_IS_NO_JOINT, change)
+            return
         notes = self._missing.why(name)
         self._report(NOTHING_TO_OVERRIDE, change, near=() if notes else base.entries, notes=notes, owner=shape.things)
 
@@ -192,14 +197,26 @@ _SEMANTIC_SECTIONS = ("groups", "virtual_joints", "end_effectors")
 
 
 def _deleted(before: YamlMap, after: YamlMap, patch: YamlMap, sections: tuple[str, ...]) -> Iterator[tuple[str, Note]]:
-    """Yield the names that sections have before and not after, each with its place in the patch, or the patch's own."""
+    """Yield the names that sections have before and not after, each with the place in the patch that deletes it."""
     for section in sections:
-        said, left = patch.get(section), _names(after, section)
-        for name in _names(before, section):
-            if name not in left:
-                entry = said.entries.get(name) if isinstance(said, YamlMap) else None
-                where = entry.key.span if entry else patch.span
-                yield name, Note(f"'{name}' is deleted by this override", where)
+        said, left = before.get(section), _names(after, section)
+        for entry in said if isinstance(said, YamlMap) else ():
+            if entry.name in left:
+                continue
+            child = _text(entry.value, "child") if section in ("joints", "mount") else None
+            if where := _deletion(patch, section, entry.name):
+                yield entry.name, Note(f"'{entry.name}' is deleted by this override", where)
+            elif child and (where := _deletion(patch, "links", child)):
+                yield entry.name, Note(f"to delete link '{child}' deletes '{entry.name}', the joint to it", where)
+            else:
+                yield entry.name, Note(f"'{entry.name}' is deleted by this override", patch.span)
+
+
+def _deletion(patch: YamlMap, section: str, name: str) -> Span | None:
+    """Return where a patch deletes an entry, or the whole section; None where it does neither."""
+    whole = patch.entries.get(section)
+    said = whole.value.entries.get(name) if whole and isinstance(whole.value, YamlMap) else whole
+    return said.key.span if said and _is_written_null(said.value) else None
 
 
 def _is_written_null(node: YamlNode) -> bool:

@@ -61,3 +61,22 @@ def test_a_name_that_was_taken_out_is_told_once_with_the_place(tmp_path: Path, u
     assert note.span
     assert f"{note.message} {note.span.file.path.name}:{note.span.line}:{note.span.column}" == why
     assert "did you mean" not in told.message
+
+
+def test_a_joint_that_goes_with_its_link_is_told_with_what_deletes_the_link(tmp_path: Path):
+    arm = """
+        links: {base: , link1: }
+        joints: {j1: {type: fixed, parent: base, child: link1}}
+    """
+    cell = """
+        links: {table: }
+        modules:
+          arm: {use: arm.robot.yaml, parent: table, override: {
+            joints: {j1: {origin: [0, 0, 1]}},
+            links: {link1: null}}}
+        semantic: {groups: {all: {joints: [arm_j1]}}}
+    """
+    write(tmp_path, {"arm.robot.yaml": arm, "cell.robot.yaml": cell})
+    (told,) = compile_file(tmp_path / "cell.robot.yaml").diagnostics
+    (note,) = told.notes
+    assert (note.message, note.span and note.span.line) == ("to delete link 'link1' deletes 'j1', the joint to it", 7)

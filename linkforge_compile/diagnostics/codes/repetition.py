@@ -31,3 +31,6 @@ POSITIONS_AND_KEYS = Code("LF3224", _E, "'{field}' is patched by positions, so '
 EMPTY_OVERRIDE = Code("LF3225", _E, "'{field}' is overridden with nothing; write what it is to be, or 'null' to delete")
 SAME_AS_BEFORE = Code("LF3226", _W, "'{field}' is so already: this overrides nothing")
 NOTHING_TO_DELETE = Code("LF3227", _W, "'{field}' says nothing that could be deleted")
+MOUNT_IS_NO_JOINT = Code(
+    "LF3265", _E, "'{name}' is the module's mount, not among its joints; write 'mount: {{{name}: …}}' to override it"
+)
