@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import argparse
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import UsageError
 
-if TYPE_CHECKING:
-    import argparse
+
+class Once(argparse.Action):
+    """Takes the value of an option that may be given once: of two, none is forgotten in silence."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: str | Sequence[object] | None,
+        option_string: str | None = None,
+    ) -> None:
+        before = getattr(namespace, self.dest)
+        if before is not None:
+            raise argparse.ArgumentError(self, f"may be given once, found '{before}' and '{values}'")
+        setattr(namespace, self.dest, values)
 
 
 def add_spec_options(parser: argparse.ArgumentParser) -> None:
@@ -23,7 +36,10 @@ def add_spec_options(parser: argparse.ArgumentParser) -> None:
         help="set a parameter of the spec, such as reach=0.7m; ROS's NAME:=VALUE works too, with or without -p",
     )
     parser.add_argument(
-        "--variant", metavar="NAME", help="the variant of the spec that sets what -p does not, before the defaults"
+        "--variant",
+        metavar="NAME",
+        action=Once,
+        help="the variant of the spec that sets what -p does not, before the defaults",
     )
     add_package_option(parser)
     add_outside_option(parser)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import islice
 from types import MappingProxyType
 from typing import NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.files import UNKNOWN_VARIANT
 from linkforge_compile.modules.arguments import COMMAND_LINE
 from linkforge_compile.modules.loader import SpecFile
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode
+
+_MOST_LISTED = 8
 
 
 class Variants(NamedTuple):
@@ -50,4 +53,9 @@ def tell_unknown_variant(name: str, spec: SpecFile, sink: Diagnostics) -> None:
     text = f"--variant {name}"
     file = SourceFile(COMMAND_LINE, text)
     where = Span(file, 1, len(text) - len(name) + 1, 1, len(text) + 1)
-    sink.report(UNKNOWN_VARIANT.at(where, spec=spec.file.name, name=name, near=variants_of(spec)))
+    known = variants_of(spec)
+    listed = ", ".join(f"'{each}'" for each in islice(known, _MOST_LISTED)) + (
+        ", …" if len(known) > _MOST_LISTED else ""
+    )
+    note = Note(f"its variants are {listed}" if known else "it has no variants")
+    sink.report(UNKNOWN_VARIANT.at(where, spec=spec.file.name, name=name, near=known, notes=[note]))

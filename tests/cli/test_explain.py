@@ -71,6 +71,16 @@ def test_parameters_are_set_before(cell: Path):
         (("arm.robot.yaml", "joint/elbow"), "there is no 'joint' in the robot; did you mean 'joints'?"),
         (("arm.robot.yaml", "elbow"), "there is no 'elbow' in the robot; did you mean 'joints/elbow'?"),
         (("cell.robot.yaml", "elbow/limits"), "there is no 'elbow' in the robot; did you mean 'joints/left_elbow'?"),
+        (
+            ("cell.robot.yaml", "parameters/x"),
+            "there is no 'parameters' in the robot, which is finished; `linkforge params`",
+        ),
+        (("cell.robot.yaml", "variables/x"), "which is finished; a value that uses one tells of it"),
+        (
+            ("cell.robot.yaml", "frames/left_upper/origin"),
+            "where a frame is a link and a fixed joint; look at 'joints/left_elbow/origin'",
+        ),
+        (("cell.robot.yaml", "frames/nobody"), "where a frame is a link and a fixed joint\n"),
         (("cell.robot.yaml", "joints/elbow"), "there is no 'elbow' in 'joints'; did you mean 'left_elbow'?"),
     ],
 )

@@ -48,6 +48,23 @@ def test_an_unknown_variant_is_told_as_it_was_typed():
     )
 
 
+@pytest.mark.parametrize(
+    ("variants", "said"),
+    [
+        ("{sim: {}, lab: {}}", "its variants are 'sim', 'lab'"),
+        (
+            "{" + ", ".join(f"v{number}: {{}}" for number in range(9)) + "}",
+            "its variants are 'v0', 'v1', 'v2', 'v3', 'v4', 'v5', 'v6', 'v7', …",
+        ),
+        ("{}", "it has no variants"),
+    ],
+)
+def test_an_unknown_variant_is_told_with_those_that_there_are(variants: str, said: str):
+    spec = f"linkforge: 1\nname: arm\nvariants: {variants}\nlinks: {{base: }}\n"
+    (told,) = compile_text(spec, variant="other").diagnostics
+    assert [note.message for note in told.notes] == [said]
+
+
 def test_an_expression_of_a_variant_is_read_even_where_nobody_chose_it():
     spec = SPEC.replace("$(reach * 3)", "$(reech * 3)")
     assert [one.code.id for one in compile_text(spec).diagnostics] == ["LF3107"]

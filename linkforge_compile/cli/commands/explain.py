@@ -15,6 +15,7 @@ from linkforge_compile.cli.telling import add_telling_options, tell
 if TYPE_CHECKING:
     import argparse
 
+    from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.writers import ComputedFrom, Explanation, NameStory, Place, UnknownPathError
 
 _EXAMPLES = """\
@@ -84,18 +85,41 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     try:
         explanation = explain(compilation.robot, path)
     except UnknownPathError as error:
-        raise UsageError(f"{error}{_hint(error)}") from None
+        raise UsageError(f"{error}{_hint(error, compilation.robot, path)}") from None
     write_to_stdout("".join(f"{line}\n" for line in _lines(explanation)))
     return OK
 
 
-def _hint(error: UnknownPathError) -> str:
+_NOT_OF_A_ROBOT = {
+    "parameters": "`linkforge params` lists those of a spec",
+    "variables": "a value that uses one tells of it",
+    "modules": "what a module brings is among the links and joints, with its prefix",
+    "mount": "the joint is among the `joints`",
+    "defaults": "an entry that took one over tells of it",
+}
+"""Sections of a spec that the finished robot has no more, and where to look instead."""
+
+
+def _hint(error: UnknownPathError, robot: Robot, path: str) -> str:
     from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
 
+    if not error.owner and error.name in _NOT_OF_A_ROBOT:
+        return f", which is finished; {_NOT_OF_A_ROBOT[error.name]}"
+    if not error.owner and error.name == "frames":
+        return f", where a frame is a link and a fixed joint{_frame_hint(robot, path.strip('/').partition('/')[2])}"
     if hint := did_you_mean(error.name, error.names):
         return hint
     meant = nearest(error.name, error.paths)
     return "" if meant is None else f"; did you mean '{error.paths[meant]}'?"
+
+
+def _frame_hint(robot: Robot, path: str) -> str:
+    """Return where what is asked of a frame stands in the robot: its pose and all else is that of the joint."""
+    found = [joint for joint in robot.joints if f"{path}/".startswith(f"{joint.child}/")]
+    if not found:
+        return ""
+    joint = max(found, key=lambda each: len(each.child))
+    return f"; look at 'joints/{joint.name}{path[len(joint.child) :]}'"
 
 
 def _lines(explanation: Explanation) -> Iterator[str]:
