@@ -231,7 +231,7 @@ def test_all_codes_are_listed(tmp_path: Path):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("LF4192",), "no diagnostic has the code 'LF4192'; did you mean 'LF4109'?"),
+        (("LF41099",), "no diagnostic has the code 'LF41099'; did you mean 'LF4109'?"),
         (("--codes", "LF4102"), "--codes lists all codes and takes no words, found 'LF4102'"),
     ],
 )
