@@ -95,7 +95,7 @@ _States: TypeAlias = Mapping[tuple[str, str], GroupState]
 def _state(pen: Pen, state: GroupState, joints: Index[Joint], states: _States) -> YamlMap:
     """Return the positions by joint: a number, or a list of them for several degrees of freedom."""
     positions = {}
-    written = dict(_written_positions(state, states, set()))
+    written = dict(_written_positions(state, states))
     for name, values in state.joint_values.items():
         joint = joints.get(name)
         unit = position_dimension(joint) if joint else None
@@ -105,19 +105,24 @@ def _state(pen: Pen, state: GroupState, joints: Index[Joint], states: _States) -
     return pen.element(state, **positions)
 
 
-def _written_positions(
-    state: GroupState, states: _States, seen: set[tuple[str, str]]
-) -> Iterator[tuple[str, tuple[SourceRef, str]]]:
+_MOST_TAKEN_OVER = 100
+"""How many states are looked into for where the positions of one were written: a chain of them has no end."""
+
+
+def _written_positions(state: GroupState, states: _States) -> Iterator[tuple[str, tuple[SourceRef, str]]]:
     """Yield where each position was written and under which name: in the state, or in those that it takes over."""
-    seen.add((state.group, state.name))
-    prefix = _prefix_of(state)
-    for entry in state.source.node if state.source and isinstance(state.source.node, YamlMap) else ():
-        text = entry.value.text if isinstance(entry.value, YamlScalar) else ""
-        taken = (prefix + entry.name, prefix + text)
-        if state.source and prefix + entry.name in state.joint_values:
-            yield prefix + entry.name, (state.source, entry.name)
-        elif taken in states and taken not in seen:
-            yield from _written_positions(states[taken], states, seen)
+    left, seen = [state], {(state.group, state.name)}
+    while left:
+        writer = left.pop()
+        prefix = _prefix_of(writer)
+        for entry in writer.source.node if writer.source and isinstance(writer.source.node, YamlMap) else ():
+            text = entry.value.text if isinstance(entry.value, YamlScalar) else ""
+            taken = (prefix + entry.name, prefix + text)
+            if writer.source and prefix + entry.name in writer.joint_values:
+                yield prefix + entry.name, (writer.source, entry.name)
+            elif taken in states and taken not in seen and len(seen) < _MOST_TAKEN_OVER:
+                seen.add(taken)
+                left.append(states[taken])
 
 
 def _prefix_of(state: GroupState) -> str:

@@ -170,3 +170,14 @@ def test_what_a_using_file_overrides_is_told_at_that_file(tmp_path: Path):
     for path in ("joints/left_elbow/limits/velocity", "links/left_upper/visual/sphere/radius"):
         found = explain(robot, path)
         assert (found.is_written, line(found), found.trail) == (True, 9, ())
+
+
+def test_a_long_chain_of_states_is_explained_in_bounded_steps():
+    groups = "".join(f"    g{number}: {{joints: [elbow]}}\n" for number in range(300))
+    states = "".join(f"    g{number}: {{home: {{g{number - 1}: home}}}}\n" for number in range(1, 300))
+    semantic = f"semantic:\n  groups:\n{groups}  group_states:\n    g0: {{home: {{elbow: 0.5}}}}\n{states}"
+    robot = compile_text(ARM[: ARM.index("semantic:")] + semantic).result()
+    assert [explain(robot, f"semantic/group_states/g{number}/home/elbow").is_written for number in (99, 299)] == [
+        True,
+        False,
+    ]
