@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict, deque
 from collections.abc import Iterable, Iterator
+from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.importing import BECOMES_OTHER, COMES_IN_ADDITION, DOES_NOT_COME_OUT
@@ -12,6 +13,8 @@ from linkforge_compile.importers.said import Said, said
 from linkforge_compile.importers.xml import XmlDocument
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+
+_Key: TypeAlias = tuple[str | None, ...]
 
 
 def losses(document: XmlDocument, again: XmlDocument) -> Iterator[Diagnostic]:
@@ -43,7 +46,7 @@ def _differences(one: Said, again: Said) -> Iterator[Diagnostic]:
 
 def _attributes(one: Said, again: Said) -> Iterator[Diagnostic]:
     ours, theirs = dict(one.attributes), dict(again.attributes)
-    for name in ours.keys() | theirs.keys():
+    for name in dict.fromkeys((*one.element.attributes, *again.element.attributes)):
         if ours.get(name) == theirs.get(name):
             continue
         what = f"'{name}' of <{one.tag}>"
@@ -70,14 +73,15 @@ def _shown(text: str) -> str:
 
 def _children(one: Said, again: Said) -> Iterator[Diagnostic]:
     lost, added = _without(one.children, again.children), _without(again.children, one.children)
-    for child in lost:
-        partner = _partner(child, added)
-        if partner is None:
-            yield DOES_NOT_COME_OUT.at(child.element.span, what=_called(child))
-        else:
-            added.remove(partner)
-            yield from _differences(child, partner)
+    partners: defaultdict[_Key, deque[Said]] = defaultdict(deque)
     for child in added:
+        partners[_key(child)].append(child)
+    for child in lost:
+        if alike := partners[_key(child)]:
+            yield from _differences(child, alike.popleft())
+        else:
+            yield DOES_NOT_COME_OUT.at(child.element.span, what=_called(child))
+    for child in (child for alike in partners.values() for child in alike):
         yield COMES_IN_ADDITION.at(one.element.span, what=_called(child))
 
 
@@ -93,13 +97,9 @@ def _without(children: Iterable[Said], others: Iterable[Said]) -> list[Said]:
     return alone
 
 
-def _partner(one: Said, others: Iterable[Said]) -> Said | None:
-    """Return the first that has the same tag and the same names."""
-    return next((other for other in others if other.tag == one.tag and _names(other) == _names(one)), None)
-
-
-def _names(one: Said) -> tuple[str | None, ...]:
-    return tuple(one.element.get(name) for name in ("name", "reference", "link1", "link2"))
+def _key(one: Said) -> _Key:
+    """Return the tag and the names, by which an element is found again among others that differ."""
+    return one.tag, *(one.element.get(name) for name in ("name", "reference", "link1", "link2"))
 
 
 def _called(one: Said) -> str:

@@ -46,6 +46,8 @@ _UNSAID: Mapping[str, Mapping[str, Value]] = {
 """What an attribute says where it is not there, by where the element stands."""
 
 _MAY_BE_MISSING = frozenset(path for path in _UNSAID if path.endswith(("/origin", "/axis")))
+_QUATERNION = "quat_xyzw"
+"""How URDF 1.2 turns a pose in the place of `rpy`; urdfdom refuses both at once, be one of them 0."""
 _AXIS = "robot/joint/axis"
 _HAVE_NO_AXIS = ("fixed", "floating")
 _MATERIAL_OF_VISUAL = "robot/link/visual/material"
@@ -88,6 +90,8 @@ class _Reader:
         children = tuple(child for child in inside if not _goes_without_saying(child, f"{path}/{child.tag}", element))
         stated_at = {**known.attributes, **element.attributes}
         unsaid = {} if path == _AXIS and owner.get("type") in _HAVE_NO_AXIS else _UNSAID.get(path, {})
+        if _QUATERNION in stated_at:
+            unsaid = {name: value for name, value in unsaid.items() if name != "rpy"}
         read = self._numbers if path.startswith(_WITH_NUMBERS) else _words
         attributes = {
             name: (attribute.value,) if name in _NAMES else read(attribute.value)

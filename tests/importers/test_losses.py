@@ -5,6 +5,7 @@ import runpy
 from collections.abc import Callable
 from pathlib import Path
 from textwrap import dedent
+from time import process_time
 
 import pytest
 from lxml import etree
@@ -78,6 +79,26 @@ def test_another_spelling_is_no_loss(before: str, after: str):
 )  # fmt: skip
 def test_a_difference_is_told_at_its_place(before: str, after: str, loss: str):
     assert f"r.urdf:{loss}" in told(before, after)
+
+
+def test_a_turn_of_zero_beside_a_quaternion_is_a_loss():
+    """urdfdom refuses an origin that says both."""
+    origin = '<origin xyz="0 0 0.5"/>'
+    turned = ROBOT.replace(origin, '<origin xyz="0 0 0.5" quat_xyzw="0 0 0 1"/>')
+    doubled = ROBOT.replace(origin, '<origin xyz="0 0 0.5" rpy="0 0 0" quat_xyzw="0 0 0 1"/>')
+    (loss,) = losses(document(turned), document(doubled))
+    assert "'rpy' of <origin>" in str(loss)
+
+
+def test_many_that_differ_are_compared_in_time_that_grows_with_them():
+    def seconds(count: int) -> float:
+        links = "".join(f'<link name="l{i}">{{}}</link>' for i in range(count))
+        before, after = (document(f'<robot name="r">{links.replace("{}", text)}</robot>') for text in ("", "stray"))
+        start = process_time()
+        assert sum(1 for _ in losses(before, after)) == count
+        return process_time() - start
+
+    assert seconds(8000) < 24 * seconds(1000), "eight times as many take 64 times as long where each looks for its own"
 
 
 def test_one_of_two_alike_is_missed():
