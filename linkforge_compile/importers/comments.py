@@ -8,6 +8,7 @@ from itertools import accumulate
 from textwrap import dedent
 from typing import NamedTuple
 
+from linkforge_compile.importers.banners import without_banners
 from linkforge_compile.importers.draft import Draft
 from linkforge_compile.importers.xml import XmlComment, XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode
@@ -21,10 +22,10 @@ class Comments(NamedTuple):
 
 
 def placed_comments(document: XmlDocument, draft: Draft, tree: YamlMap) -> Comments:
-    """Return every comment of a document but those in elements that are kept raw, which have theirs in them."""
+    """Return every comment of a document but banners, and those in elements that are kept raw, which have theirs."""
     placing = _Placing(draft, tree)
     above: YamlNode | None = next(iter(tree)).key
-    for item in document.content:
+    for item in without_banners(document.content):
         if isinstance(item, XmlComment):
             placing.put(item, above)
         elif item is document.root:

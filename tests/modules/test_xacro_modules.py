@@ -292,3 +292,52 @@ def test_its_srdf_joins_under_the_prefix_and_what_it_refuses_stays_raw(vendor, t
     assert [joint.name for joint in semantic.passive_joints] == ["a_cover_joint"]
     assert semantic.extra_elements == ('<passive_joint name="cover_joint"/>',)
     assert "LF8021" in {one.code.id for one in compilation.diagnostics}
+
+
+def test_comments_of_a_macro_stand_at_what_each_call_made(tmp_path: Path):
+    file = tmp_path / "c.urdf.xacro"
+    file.write_text(
+        """<robot name="c" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="part" params="name">
+    <!-- a part -->
+    <link name="${name}">
+      <visual>
+        <origin xyz="0 0 1"/> <!-- measured -->
+        <geometry><sphere radius="1"/></geometry>
+      </visual>
+    </link>
+  </xacro:macro>
+  <xacro:part name="one"/>
+  <xacro:part name="two"/> <!-- the last -->
+  <joint name="j" type="fixed"><parent link="one"/><child link="two"/></joint>
+  <mine><a/> <!-- theirs --></mine>
+</robot>""",
+        "utf-8",
+    )
+    assert (
+        import_urdf(file).text
+        == """\
+linkforge: 1
+name: c
+
+links:
+  # a part
+  one:
+    visual:
+      sphere: 1
+      # measured
+      origin: [0, 0, 1]
+  # a part
+  # the last
+  two:
+    visual:
+      sphere: 1
+      # measured
+      origin: [0, 0, 1]
+
+joints:
+  j: {type: fixed, parent: one, child: two}
+
+extra: <mine><a/><!-- theirs --></mine>
+"""
+    )

@@ -11,7 +11,8 @@ from linkforge_compile.importers.xacro.run import Place, place_of
 from linkforge_compile.importers.xml import XmlComment, XmlContent, XmlDocument, XmlElement
 from linkforge_compile.source import Span
 
-_MARK = re.compile(rf'\s{MARK}="[0-9:]*"')
+_MARK = re.compile(rf'\s{MARK}(?:="[0-9:]*"|(?=-->))')
+_FOLLOWS = f" {MARK}"
 
 Find = Callable[[Place], XmlElement | None]
 """Returns the element at a place as it was written; None where its file cannot be read."""
@@ -39,4 +40,6 @@ def _moved(element: XmlElement, find: Find, around: Span | None) -> XmlElement:
 def _content(item: XmlContent, find: Find, span: Span) -> XmlContent:
     if isinstance(item, XmlElement):
         return _moved(item, find, span)
-    return replace(item, span=span) if isinstance(item, XmlComment) else item
+    if isinstance(item, XmlComment):
+        return XmlComment(item.text.removesuffix(_FOLLOWS), span, follows=item.text.endswith(_FOLLOWS))
+    return item

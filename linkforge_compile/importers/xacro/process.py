@@ -3,7 +3,7 @@
 It reads a request from standard input, a line of JSON, and answers with one. In between it asks where packages are,
 `{"find": NAME}`, and reads the folder or null, and whether it may read a file, `{"may_read": PATH}`, and reads true or
 false. Every element is marked with the file that it was written in and its number there, for the expanded text has no
-places.
+places, and every comment that stands behind an element on its line, for xacro leaves the space around elements out.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
-from xml.dom.minidom import Element
+from xml.dom.minidom import Comment, Element, Text
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from xml.dom.minidom import Document, Node
 
 MARK = "linkforge-place"
@@ -111,6 +111,9 @@ class _Run:
             self._places[id(element)] = place
             if element.tagName == "xacro:arg":
                 self.arguments.setdefault(element.getAttribute("name"), place)
+        for comment in _comments(document):
+            if _follows(comment):
+                comment.data += f" {MARK}"
 
     def at(self, element: Element) -> None:
         """Note that xacro has come to an element, or to a copy of it."""
@@ -177,6 +180,23 @@ class _Run:
             return step(element, *rest)
 
         return follow
+
+
+def _comments(document: Document) -> Iterator[Comment]:
+    waiting: list[Node] = [document]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, Comment):
+            yield node
+        waiting += node.childNodes
+
+
+def _follows(comment: Comment) -> bool:
+    """Whether a comment stands on the line on which an element before it ends."""
+    before = comment.previousSibling
+    if isinstance(before, Text) and not before.data.strip() and "\n" not in before.data:
+        before = before.previousSibling
+    return isinstance(before, Element)
 
 
 if TYPE_CHECKING:
