@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.backends import render_srdf, render_urdf
 from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
-from linkforge_compile.diagnostics.codes.importing import LOSSES
+from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
@@ -55,14 +55,16 @@ def import_urdf(
     arguments: Parameters = (),
     packages: Packages | None = None,
     allow_outside: bool = False,
+    output: str | Path | None = None,
 ) -> Import:
     """Read a URDF file, and the SRDF of the same robot, as a spec that compiles to the same robot.
 
     Its errors are told where those files have them. A xacro file is expanded with the arguments first, its packages
     are looked for in `packages` before other places, and what it names is read where `compile_file` reads;
-    `allow_outside` lets it read anything.
+    `allow_outside` lets it read anything. `output` is the folder that the spec is for: meshes that lie beside the URDF
+    and not there are told.
     """
-    settings = Settings(arguments, packages, allow_outside=allow_outside)
+    settings = Settings(arguments, packages, allow_outside=allow_outside, output=Path(output) if output else None)
     return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), settings))
 
 
@@ -77,6 +79,7 @@ def _imported(urdf: Path, srdf: Path | None, settings: Settings) -> Import:
 
 
 def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
+    from linkforge_compile.backends.relative_paths import lost_on_the_way
     from linkforge_compile.importers.losses import unread
     from linkforge_compile.importers.srdf import with_srdf
     from linkforge_compile.syntax import write
@@ -97,6 +100,8 @@ def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diag
     sink.report_all(judged.faults)
     if judged.robot is not None:
         sink.report_all(_losses(whole, judged.robot, {one.span for one in sink if one.code in LOSSES}))
+        if settings.output is not None:
+            sink.report_all(lost_on_the_way(judged.robot, settings.output, MESH_BESIDE_THE_URDF))
     text = write(whole.tree, *whole.comments)
     sink.report_all(unread(whole.tree, read(SourceFile("<spec>", text), Diagnostics(), Budget())))
     return text

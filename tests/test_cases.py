@@ -40,6 +40,7 @@ WITHOUT_A_CASE = {
     "LF8003": "importers/test_xml.py",
     "LF8004": "importers/test_xml.py",
     "LF8098": "importers/test_xml.py",
+    "LF8130": "cli/test_import.py",
     "LF8031": "modules/test_xacro_modules.py",
     "LF8032": "modules/test_xacro_modules.py",
     "LF8033": "modules/test_xacro_modules.py",

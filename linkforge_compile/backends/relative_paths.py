@@ -8,14 +8,17 @@ from pathlib import Path
 
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics import Code, Diagnostic, Note
 from linkforge_compile.diagnostics.codes.backends import MESH_BESIDE_THE_SPEC
 
 _SHOWN = 3
 
 
-def lost_on_the_way(robot: Robot, folder: Path) -> Iterator[Diagnostic]:
-    """Yield, once for all, the meshes that lie where the spec says, while from `folder`, for the URDF, nothing does.
+def lost_on_the_way(robot: Robot, folder: Path, code: Code = MESH_BESIDE_THE_SPEC) -> Iterator[Diagnostic]:
+    """Yield, once for all, the meshes that lie where the robot's file says, while from `folder` nothing does.
+
+    `folder` is where the other file goes that has the same paths: the URDF of a spec, or the spec of a URDF, which
+    `code` tells.
 
     Those that lie in neither place are told as missing, and one that lies in both, as a build may copy it, is found.
     """
@@ -33,7 +36,7 @@ def lost_on_the_way(robot: Robot, folder: Path) -> Iterator[Diagnostic]:
         more = [Note(f"nor {len(others) - _SHOWN} more")] if len(others) > _SHOWN else []
         back = Path(os.path.relpath(spec.parent)).as_posix()
         facts = {"path": first.resource, "folder": folder.as_posix(), "back": back}
-        yield MESH_BESIDE_THE_SPEC.at(first.source, "file", notes=notes[:_SHOWN] + more, **facts)
+        yield code.at(first.source, "file", notes=notes[:_SHOWN] + more, **facts)
 
 
 def _relative_meshes(robot: Robot) -> dict[str, Mesh]:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 FORMATS = ("urdf", "srdf")
 _FILE_ENDINGS = (".urdf", ".srdf", ".xml")
+_SPEC_ENDINGS = (".yaml", ".yml")
 
 
 class Targets(NamedTuple):
@@ -65,6 +66,12 @@ def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets
     return Targets(paths, is_srdf_asked_for=chosen == "srdf")
 
 
+def imported_spec(robot: str, output: str) -> Path:
+    """Return where the spec of an imported robot goes: a file, or NAME.robot.yaml in a folder."""
+    path = Path(output)
+    return path if _is_file(output, _SPEC_ENDINGS) else path / f"{name_of(robot)}.robot.yaml"
+
+
 def name_of(spec: str) -> str:
     """Return what the files of a spec are named after: arm for arm.robot.yaml, and for arm.urdf.xacro."""
     if spec == "-":
@@ -94,7 +101,7 @@ def _format_of_file(output: str, chosen: str | None) -> str:
     return chosen or ("srdf" if Path(output).suffix == ".srdf" else "urdf")
 
 
-def _is_file(output: str) -> bool:
+def _is_file(output: str, endings: Sequence[str] = _FILE_ENDINGS) -> bool:
     """Whether `-o` names a file: one with one of the endings, a device or a pipe; all else are folders.
 
     An ending that is neither is refused: `-o arm.robot.yaml` would else replace the spec, or make a folder of it.
@@ -102,9 +109,10 @@ def _is_file(output: str) -> bool:
     path = Path(output)
     if output.endswith(("/", "\\")) or path.is_dir():
         return False
-    if path.suffix and path.suffix not in _FILE_ENDINGS:
+    if path.suffix and path.suffix not in endings:
+        *others, last = endings
         raise UsageError(
-            f"-o takes a folder, or a file that ends in .urdf, .srdf or .xml; found '{output}'"
+            f"-o takes a folder, or a file that ends in {', '.join(others)} or {last}; found '{output}'"
             f" (for a folder of that name, write '{output}/')"
         )
     return bool(path.suffix) or (path.exists() and not path.is_file())

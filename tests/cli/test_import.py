@@ -56,6 +56,44 @@ def test_a_robot_that_is_wrong_is_told_where_the_urdf_is(arm, capfd: pytest.Capt
     assert "child: tool" in told.out
 
 
+@pytest.mark.parametrize("folder", ["new/", "new", "there"])
+def test_a_folder_gets_a_spec_of_the_robots_file_name(arm, folder: str, tmp_path: Path):
+    (tmp_path / "there").mkdir()
+    run = linkforge("import", arm(), "-o", folder, cwd=tmp_path)
+    written = Path(folder) / "arm.robot.yaml"
+    assert (run.returncode, run.stderr.strip()) == (0, f"wrote {written}")
+    assert (tmp_path / written).is_file()
+
+
+def test_a_file_of_another_kind_is_no_spec(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    assert main(["import", arm(), "-o", str(tmp_path / "arm.xml")]) == 2
+    assert "-o takes a folder, or a file that ends in .yaml or .yml; found" in capfd.readouterr().err
+
+
+def test_a_spec_that_was_changed_is_replaced_by_force_only(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    spec = tmp_path / "arm.robot.yaml"
+    spec.write_text("# mine\n")
+    assert main(["import", arm(), "-o", str(tmp_path)]) == 2
+    assert f"'{spec}' is there and says something else; --force replaces it" in capfd.readouterr().err
+    assert spec.read_text() == "# mine\n"
+    assert main(["import", arm(), "-o", str(tmp_path), "--force"]) == 0
+    assert spec.read_text().startswith("linkforge: 1")
+
+
+def test_a_mesh_beside_the_urdf_and_not_beside_the_spec_is_told(arm, tmp_path: Path):
+    (tmp_path / "rod.stl").write_text("solid rod\nendsolid rod\n")
+    rod = '<visual><geometry><mesh filename="rod.stl"/></geometry></visual>'
+    urdf = arm(
+        f'<joint name="j" type="fixed"><parent link="base"/><child link="rod"/></joint><link name="rod">{rod}</link>'
+    )
+    beside = linkforge("import", urdf, "-o", ".", cwd=tmp_path)
+    assert (beside.returncode, "LF8130" in beside.stderr) == (0, False)
+    away = linkforge("import", urdf, "-o", "specs", cwd=tmp_path)
+    assert away.returncode == 0
+    assert "'rod.stl' leads nowhere from 'specs', where the spec goes, for it lies beside the URDF" in away.stderr
+    assert "or the spec into '.' [LF8130]" in away.stderr
+
+
 def test_the_robot_itself_is_never_written_over(arm, capfd: pytest.CaptureFixture[str]):
     urdf = arm()
     assert main(["import", urdf, "-o", urdf]) == 2

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import one_spec
 from linkforge_compile.cli.options import add_outside_option, add_package_option, packages_of, split_assignments
+from linkforge_compile.cli.targets import imported_spec
 from linkforge_compile.cli.telling import add_telling_options, say, tell
 
 if TYPE_CHECKING:
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 The spec compiles to the same robot. What the language has no word for is in its `extra`, as raw XML; what cannot be
-kept at all is told. Relative paths of meshes stay as they are, so keep the spec beside the URDF.
+kept at all is told. Relative paths of meshes stay as they are, so keep the spec beside the URDF;
+those that lead nowhere from another folder are told.
 
 examples:
   linkforge import arm.urdf
@@ -29,7 +31,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("words", metavar="ROBOT.urdf", nargs="+", help="the robot; a xacro is expanded first")
     parser.add_argument("--srdf", metavar="ROBOT.srdf", help="what planners know of the same robot")
-    parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
+    parser.add_argument(
+        "-o", "--output", metavar="PATH", help="a file that ends in .yaml, or a folder for NAME.robot.yaml"
+    )
+    parser.add_argument("--force", action="store_true", help="replace a spec that is there and says something else")
     parser.add_argument("--strict", action="store_true", help="fail, writing nothing, where something cannot be kept")
     add_package_option(parser)
     add_outside_option(parser)
@@ -42,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     sources = {Path(file).resolve() for file in (urdf, arguments.srdf) if file is not None}
     if arguments.output is not None and Path(arguments.output).resolve() in sources:
         raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
-    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+    output = imported_spec(urdf, arguments.output) if arguments.output is not None else None
     from linkforge_compile.importing import import_urdf
 
     imported = import_urdf(
@@ -51,14 +56,22 @@ def run(arguments: argparse.Namespace) -> int:
         arguments=assignments,
         packages=packages_of(arguments),
         allow_outside=arguments.allow_outside,
+        output=output.parent if output else None,
     )
     is_faulty = tell(imported.diagnostics, arguments) or imported.has_errors
     if imported.text is None or (arguments.strict and (imported.losses or is_faulty)):
         return FAULTY_SPEC
-    if arguments.output is None:
-        write_to_stdout(imported.text)
-    elif write_if_changed(Path(arguments.output), imported.text):
-        say(f"wrote {arguments.output}", arguments)
-    else:
-        say(f"{arguments.output} is up to date", arguments)
+    _put(imported.text, output, arguments)
     return FAULTY_SPEC if is_faulty else OK
+
+
+def _put(text: str, output: Path | None, arguments: argparse.Namespace) -> None:
+    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+
+    if output is None:
+        write_to_stdout(text)
+        return
+    if output.is_file() and not arguments.force and output.read_bytes() != text.encode("utf-8"):
+        # A spec is the user's own from the import on, and what he changed there is nowhere else.
+        raise UsageError(f"'{output}' is there and says something else; --force replaces it")
+    say(f"wrote {output}" if write_if_changed(output, text) else f"{output} is up to date", arguments)

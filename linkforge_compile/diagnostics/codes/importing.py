@@ -40,6 +40,14 @@ XACRO_ARGUMENT = Code("LF8033", _E, "'{name}' of a xacro file takes a text, a nu
 XACRO_FORBIDDEN = Code("LF8035", _E, "'{path}' is not expanded: the environment sets {variable}")
 XACRO_WARNS = Code("LF8034", _W, "xacro says: {text}")
 
+# LF813x: where the spec goes
+MESH_BESIDE_THE_URDF = Code(
+    "LF8130",
+    _W,
+    "'{path}' leads nowhere from '{folder}', where the spec goes, for it lies beside the URDF; "
+    "write 'package://NAME/PATH', or the spec into '{back}'",
+)
+
 # LF81xx: losses
 TEXT_LEFT_OUT = Code("LF8101", _W, "<{tag}> holds no text; '{text}' is left out")
 INSTRUCTION_LEFT_OUT = Code("LF8102", _W, "the processing instruction '{target}' is left out")
