@@ -1,6 +1,8 @@
 """What fuzzing kept breaks no promise any more, and none breaks within half a minute of it in CI."""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -22,7 +24,23 @@ def test_what_is_kept_stays_small():
     assert sum(path.stat().st_size for path in files) < 1024**2
 
 
-@pytest.mark.skipif(not SECONDS, reason="it takes a while: LINKFORGE_FUZZ_SECONDS, which CI sets, says how long")
+takes_a_while = pytest.mark.skipif(
+    not SECONDS, reason="it takes a while: LINKFORGE_FUZZ_SECONDS, which CI sets, says how long"
+)
+
+
+@takes_a_while
+@pytest.mark.parametrize("target", ["compile", "import"])
+def test_the_compiler_is_instrumented(target: str):
+    pytest.importorskip("atheris", reason="it is for Linux, and not for every version of Python")
+    command = [sys.executable, "-m", "tests.fuzz.run", target, "-help=1"]
+    run = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    told = {line.rpartition(" ")[2] for line in run.stderr.splitlines() if line.startswith("INFO: Instrumenting")}
+    for module in ("pipeline", "importing", "lowering.joint", "checks.joints", "backends.urdf", "importers.urdf"):
+        assert f"linkforge_compile.{module}" in told
+
+
+@takes_a_while
 @pytest.mark.parametrize("target", TARGETS)
 def test_fuzzing_finds_nothing(target: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     pytest.importorskip("atheris", reason="it is for Linux, and not for every version of Python")
