@@ -4,8 +4,8 @@ from linkforge_compile.launch import RobotDescription
 
 robot = RobotDescription("robots/arm.robot.yaml")
 LaunchDescription([
-*robot.arguments,
-Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[robot.description]),
+    *robot.arguments,
+    Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[robot.description]),
 ])
 """
 
