@@ -34,20 +34,13 @@ class Order(NamedTuple):
     targets: Targets
 
 
-class Build(NamedTuple):
-    """How a build ended, and what was read for it."""
-
-    exit_code: int
-    compilation: Compilation
+def compile_order(order: Order, arguments: argparse.Namespace) -> Compilation:
+    """Compile the spec, as the options of `linkforge compile` say."""
+    return compile_spec(order.spec, order.assignments, arguments, order.targets.folder)
 
 
-def build(order: Order, arguments: argparse.Namespace) -> Build:
-    """Compile a spec and write what comes out, as the options of `linkforge compile` say."""
-    compilation = compile_spec(order.spec, order.assignments, arguments, order.targets.folder)
-    return Build(_build(order, compilation, arguments), compilation)
-
-
-def _build(order: Order, compilation: Compilation, arguments: argparse.Namespace) -> int:
+def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespace) -> int:
+    """Tell of a compilation and write or compare what comes out of it; return the exit code."""
     outputs = None if compilation.robot is None else _outputs(compilation.robot, order, arguments)
     if outputs is not None:
         _refuse_to_replace(compilation.files, outputs, arguments.depfile)

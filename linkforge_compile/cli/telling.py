@@ -65,7 +65,13 @@ def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
 
 def say(line: str, arguments: argparse.Namespace) -> None:
     """Write what was done to standard error, unless that is to be quiet or to hold one document for a program."""
-    if not arguments.quiet and arguments.diagnostics in {"text", "github"}:
+    if not arguments.quiet:
+        say_failure(line, arguments)
+
+
+def say_failure(line: str, arguments: argparse.Namespace) -> None:
+    """Write what did not succeed to standard error, unless that is to hold one document for a program."""
+    if arguments.diagnostics in {"text", "github"}:
         to_stderr(f"{line}\n")
 
 

@@ -1,5 +1,6 @@
 """`linkforge watch`: what a person does between two looks at the files is done where it would sleep."""
 
+import argparse
 import os
 import signal
 import subprocess
@@ -10,6 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from linkforge_compile import Compilation
+from linkforge_compile.cli.build import Order
+from linkforge_compile.cli.commands import watch as watch_command
 from linkforge_compile.cli.main import main
 
 CELL = "linkforge: 1\nname: cell\nlinks: {base: }\nmodules: {arm: {use: arm.robot.yaml, parent: base}}\n"
@@ -120,6 +124,56 @@ def test_a_command_runs_behind_each_compile_without_errors(cell: Path, watch: Ca
     )
     assert len((cell / "counts").read_text().split()) == 2
     assert told.count("'grep -c link out/cell.urdf >> counts; exit 3' ended with exit code 3") == 2
+
+
+def test_a_command_that_fails_is_told_also_where_all_else_is_quiet(watch: Callable[..., list[str]]):
+    assert watch(nothing, words=("-q", "--then", "exit 3")) == ["'exit 3' ended with exit code 3"]
+
+
+def test_what_is_saved_while_it_is_compiled_is_compiled_again(
+    cell: Path, watch: Callable[..., list[str]], monkeypatch: pytest.MonkeyPatch
+):
+    compile_order = watch_command.compile_order
+    saves = iter([ARM.replace("hand", "gripper")])
+
+    def compile_while_a_person_saves(order: Order, arguments: argparse.Namespace) -> Compilation:
+        compilation = compile_order(order, arguments)
+        for text in saves:
+            (cell / "arm.robot.yaml").write_text(text)
+            # The clock of a file system may be some milliseconds behind.
+            now = time.time_ns()
+            os.utime(cell / "arm.robot.yaml", ns=(now, now))
+        return compilation
+
+    monkeypatch.setattr(watch_command, "compile_order", compile_while_a_person_saves)
+    assert watch(nothing)[2:] == ["arm.robot.yaml changed", "wrote out/cell.urdf", WATCHING]
+    assert '<link name="arm_gripper"/>' in (cell / "out" / "cell.urdf").read_text()
+
+
+def test_what_cannot_be_done_is_told_until_it_is_mended(watch: Callable[..., list[str]]):
+    told = watch(
+        sets("cell.robot.yaml", CELL.replace("arm.robot.yaml", "out/cell.urdf")),
+        sets("cell.robot.yaml", CELL),
+        words=("-q",),
+    )
+    refused = "'out/cell.urdf' would be replaced, and the robot is made from it; write to another place"
+    assert told == [f"linkforge watch: {refused}"]
+
+
+def test_a_file_where_the_output_has_its_folder_does_not_end_it(cell: Path, watch: Callable[..., list[str]]):
+    def put_a_file_there(folder: Path) -> None:
+        (folder / "out" / "cell.urdf").unlink()
+        (folder / "out").rmdir()
+        (folder / "out").write_text("")
+        sets("arm.robot.yaml", ARM.replace("hand", "gripper"))(folder)
+
+    def make_room(folder: Path) -> None:
+        (folder / "out").unlink()
+        sets("arm.robot.yaml", ARM.replace("hand", "finger"))(folder)
+
+    told = watch(put_a_file_there, make_room)
+    assert any(line.startswith("linkforge watch: cannot write 'out/cell.urdf'") for line in told)
+    assert told[-2:] == ["wrote out/cell.urdf", WATCHING]
 
 
 @pytest.mark.parametrize(

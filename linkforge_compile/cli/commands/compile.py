@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.build import Order, build
+from linkforge_compile.cli.build import Order, compile_order, deliver
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.one_spec import one_spec
 from linkforge_compile.cli.options import add_spec_options, split_assignments
@@ -55,7 +55,8 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    return build(order(arguments), arguments).exit_code
+    ordered = order(arguments)
+    return deliver(ordered, compile_order(ordered, arguments), arguments)
 
 
 def order(arguments: argparse.Namespace) -> Order:

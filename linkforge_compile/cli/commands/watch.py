@@ -6,11 +6,11 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.build import build
+from linkforge_compile.cli.build import Order, compile_order, deliver
 from linkforge_compile.cli.commands import compile as compile_command
-from linkforge_compile.cli.exits import OK, UsageError
+from linkforge_compile.cli.exits import OK, WRONG_USAGE, UsageError
 from linkforge_compile.cli.stamps import Stamps
-from linkforge_compile.cli.telling import say
+from linkforge_compile.cli.telling import say, say_failure, to_stderr
 
 if TYPE_CHECKING:
     import argparse
@@ -46,15 +46,30 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("takes a file, not standard input")
     order.targets.require_files("watch", "renews files")
     stamps = Stamps([Path(order.spec)])
+    exit_code = _build(order, stamps, arguments)
     while True:
-        exit_code, compilation = build(order, arguments)
-        watched = (*compilation.files, *compilation.unread)
-        # Before the command, which may take its time: what changes meanwhile is to be seen.
-        stamps.follow(watched)
         if exit_code == OK and arguments.then is not None:
             _run_then(arguments)
-        say(f"watching {_listed(watched)}; Ctrl-C ends", arguments)
+        say(f"watching {_listed(stamps.paths)}; Ctrl-C ends", arguments)
         say(f"{_listed(_changed(stamps))} changed", arguments)
+        exit_code = _build_again(order, stamps, arguments)
+
+
+def _build(order: Order, stamps: Stamps, arguments: argparse.Namespace) -> int:
+    began = time.time_ns()
+    compilation = compile_order(order, arguments)
+    # Before anything that may fail or take its time: what changes meanwhile is to be seen.
+    stamps.follow((*compilation.files, *compilation.unread), began)
+    return deliver(order, compilation, arguments)
+
+
+def _build_again(order: Order, stamps: Stamps, arguments: argparse.Namespace) -> int:
+    """Build, and tell of what cannot be done where the first build would end: it is mended while we watch."""
+    try:
+        return _build(order, stamps, arguments)
+    except UsageError as error:
+        to_stderr(f"linkforge watch: {error}\n")
+        return WRONG_USAGE
 
 
 def _changed(stamps: Stamps) -> tuple[Path, ...]:
@@ -81,4 +96,4 @@ def _run_then(arguments: argparse.Namespace) -> None:
 
     code = subprocess.run(arguments.then, shell=True, check=False).returncode
     if code:
-        say(f"'{arguments.then}' ended with exit code {code}", arguments)
+        say_failure(f"'{arguments.then}' ended with exit code {code}", arguments)
