@@ -80,9 +80,10 @@ class Limit(Enum):
 class Budget:
     """What one compile has taken so far."""
 
-    def __init__(self) -> None:
+    def __init__(self, times: int = 1) -> None:
+        """`times` the limits are allowed."""
         factor = os.environ.get(FACTOR_VARIABLE, "")
-        self._factor = int(factor) if factor.isascii() and factor.isdigit() and len(factor) < 10 else 1
+        self._factor = times * (int(factor) if factor.isascii() and factor.isdigit() and len(factor) < 10 else 1)
         self._spent = dict.fromkeys(Limit, 0)
 
     def left(self, limit: Limit) -> int:

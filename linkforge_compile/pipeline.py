@@ -6,6 +6,7 @@ Values flow down, faults flow sideways into the sink, and no stage stops the lin
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -238,7 +239,7 @@ class Settings(NamedTuple):
         """Return what reads the files of one compile, the compiled one at a place; None for a text without one."""
         packages = {name: Path(place) for name, place in (self.packages or {}).items()}
         roots = ANYWHERE if self.allow_outside else Roots.around(place, packages.values())
-        return Loader(packages, roots, _errors_of)
+        return Loader(packages, roots)
 
     def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:
         """Return the parameters; the loader may read the files that they name."""
@@ -278,6 +279,7 @@ def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilatio
     sink = Diagnostics()
     loader = settings.loader(place)
     meshes = MeshSolids(loader.budget)
+    loader.judge = partial(_errors_of, meshes)
     robot = None
     ignores: tuple[Ignore, ...] = ()
     try:
@@ -325,7 +327,10 @@ def _resolver(instance: Instance, loader: Loader) -> FileSystemResolver:
     return FileSystemResolver(packages=packages)
 
 
-def _errors_of(spec: SpecFile, loader: Loader) -> tuple[Diagnostic, ...]:
-    sink = Diagnostics()
-    robot_of(spec, Settings(), loader, MeshSolids(), sink)
+def _errors_of(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with a spec by itself, that reads the meshes of the compile."""
+    sink, was_told = Diagnostics(), meshes.is_without_library
+    with loader.judging():
+        robot_of(spec, Settings(), loader, meshes, sink)
+    meshes.is_without_library = was_told  # this sink is nobody's: the robot tells it where it is used
     return tuple(fault for fault in sink if fault.severity is Severity.ERROR)

@@ -26,14 +26,15 @@ def lower_gazebo_elements(file: Fields) -> Iterator[GazeboElement]:
         for entry in entries if isinstance(entries, YamlMap) else ():
             if isinstance(entry.value, YamlMap):
                 owner = Fields(entry.value, f"{kind} '{entry.name}'", file.sink, file.trail, entry.key.span)
-                yield from lower_gazebo(owner, entry.name)
-    yield from lower_gazebo(file, None)
+                yield from lower_gazebo(owner, entry.name, {entry.name: entry.value})
+    yield from lower_gazebo(file, None, joints_of(file.node))
 
 
-def lower_gazebo(owner: Fields, reference: str | None) -> Iterator[GazeboElement]:
+def lower_gazebo(owner: Fields, reference: str | None, written: Mapping[str, YamlMap]) -> Iterator[GazeboElement]:
     """Lower the blocks that stand beside what they are about: the link or joint `reference`, None for the robot.
 
-    At the robot a block may say itself what it refers to, such as a link of a module.
+    At the robot a block may say itself what it refers to, such as a link of a module. `written` are the joints, by
+    name, that may be meant.
     """
     physics = owner.node.get("physics")
     said_by_physics = dict(_tags_of_physics(physics)) if isinstance(physics, YamlMap) else {}
@@ -43,8 +44,7 @@ def lower_gazebo(owner: Fields, reference: str | None) -> Iterator[GazeboElement
             continue
         _refuse_repeated_tags(block, said_by_physics)
         about = block.text("reference") if reference is None else reference
-        joint = owner.node if reference is not None or about is None else joints_of(owner.node).get(about)
-        element = _element(block, about, positions_of_type(joint))
+        element = _element(block, about, positions_of_type(written.get(about) if about is not None else None))
         if element:
             yield element
 

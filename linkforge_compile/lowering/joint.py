@@ -54,6 +54,7 @@ _MOTIONS = {
     JointType.FLOATING: _Motion(),
     JointType.PLANAR: _Motion(),
 }
+_MOTIONS_BY_NAME = {str(kind): motion for kind, motion in _MOTIONS.items()}
 _ANY_MOTION = _Motion(
     _TURNING.position + _SLIDING.position, _TURNING.effort + _SLIDING.effort, _TURNING.velocity + _SLIDING.velocity
 )
@@ -96,8 +97,7 @@ def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
 def positions_of_type(joint: Located | None) -> tuple[Dimension, ...]:
     """Return what a joint that is written somewhere goes by: an angle, a length, or either where nobody knows."""
     kind = joint.child("type") if joint else None
-    motions = {str(each): motion for each, motion in _MOTIONS.items()}
-    motion = motions.get(kind.text) if isinstance(kind, YamlScalar) else None
+    motion = _MOTIONS_BY_NAME.get(kind.text) if isinstance(kind, YamlScalar) else None
     return (motion and motion.position) or _SOME_POSITION.dimensions
 
 

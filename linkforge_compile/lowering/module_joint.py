@@ -61,7 +61,7 @@ def gazebo_of(joint: Fields, name: str) -> tuple[GazeboElement, ...]:
         return ()
     from linkforge_compile.lowering.gazebo import lower_gazebo
 
-    return tuple(lower_gazebo(joint, name))
+    return tuple(lower_gazebo(joint, name, {name: joint.node}))
 
 
 def _name(module: Fields, default: str) -> str | None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import field
 from pathlib import Path
 from typing import Protocol, TypeAlias
@@ -67,12 +68,14 @@ def _nothing_wrong(_spec: SpecFile, _loader: Loader) -> tuple[Diagnostic, ...]:
     return ()
 
 
+_TIMES_JUDGED = 3
+"""How many times what a compile may take its judges may take: the largest robot is judged twice with its SRDF."""
+
+
 class Loader:
     """All the files of one compile."""
 
-    def __init__(
-        self, packages: Mapping[str, Path] | None = None, roots: Roots = ANYWHERE, judge: Judge = _nothing_wrong
-    ) -> None:
+    def __init__(self, packages: Mapping[str, Path] | None = None, roots: Roots = ANYWHERE) -> None:
         """`packages` come before every other place where `package://` is looked for.
 
         What a spec names is read within the `roots`, what its user names wherever it is. `judge` is asked of a
@@ -80,7 +83,7 @@ class Loader:
         """
         self.packages = dict(packages or {})
         self.roots = roots
-        self.judge = judge
+        self.judge: Judge = _nothing_wrong
         self._sources: list[SourceFile] = []
         self._specs: dict[str, Whole | None] = {}  # by real path
         self._data: dict[str, YamlNode | None] = {}  # by real path
@@ -88,6 +91,7 @@ class Loader:
         self._read_elsewhere: list[Path] = []
         self._unread: list[Path] = []
         self.budget = Budget()
+        self._budget_of_judges = Budget(times=_TIMES_JUDGED)
 
     @property
     def sources(self) -> tuple[SourceFile, ...]:
@@ -156,6 +160,15 @@ class Loader:
             notes = [Note("read here", used.where)]
             self._data[real] = read_data(source, NotedSink(sink, notes), tags, self.budget)
         return self._data[real]
+
+    @contextmanager
+    def judging(self) -> Iterator[None]:
+        """Count what is taken meanwhile apart: a robot that is judged by itself is expanded once more for the rest."""
+        own, self.budget = self.budget, self._budget_of_judges
+        try:
+            yield
+        finally:
+            self.budget = own
 
     def may_read(self, path: Path, used: Used, sink: Diagnostics) -> bool:
         """Whether a file may be read by whoever names it; reports why not, be there a file or not."""

@@ -1,6 +1,8 @@
 """Gazebo: blocks beside what they are about, with tags that are keys, other elements, and plugins."""
 
+from linkforge_compile import compile_text
 from linkforge_compile.core import LinkPhysics, Robot
+from linkforge_compile.lowering import gazebo
 from tests.lowering.specs import Spec, lowered, robot_of
 
 ARM = """
@@ -110,3 +112,17 @@ def test_a_faulty_field_leaves_the_rest_of_its_block():
               mu2: 1
     """).robot
     assert robot.gazebo_elements[0].properties == {"mu2": "1"}
+
+
+def test_blocks_that_name_their_joint_look_through_the_joints_once(monkeypatch):
+    looked = []
+
+    def joints_of(file):
+        looked.append(file)
+        return original(file)
+
+    original = gazebo.joints_of
+    monkeypatch.setattr(gazebo, "joints_of", joints_of)
+    blocks = ", ".join("{reference: base, kp: 1}" for _ in range(5))
+    robot = compile_text(f"linkforge: 1\nname: case\nlinks: {{base: }}\ngazebo: [{blocks}]\n").result()
+    assert (len(robot.gazebo_elements), len(looked)) == (5, 1)

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from linkforge_compile import Compilation, compile_file, compile_text, import_urdf, render_srdf, render_urdf
+from linkforge_compile.bounds import Budget, Limit
+from linkforge_compile.diagnostics import Where
 from tests.consumers import check_urdf, mujoco_model, pinocchio_model
 from tests.importers.robots import CORPUS
 
@@ -225,6 +227,27 @@ def test_its_srdf_joins_under_the_prefix(tmp_path):
     assert [state.joint_values for state in semantic.group_states] == [{"left_slide": (0.04,)}]
     assert [(pair.link1, pair.link2) for pair in semantic.disabled_collisions] == [("left_palm", "left_finger")]
     assert "gripper.srdf" in {path.name for path in compilation.files}
+
+
+def test_its_srdf_is_judged_at_no_cost_of_the_robot(tmp_path, monkeypatch):
+    """A robot of as many links as there may be has an SRDF, although it is expanded once more to judge it."""
+    left: list[int] = []
+
+    def spend(budget: Budget, limit: Limit, amount: int, where: Where) -> None:
+        original(budget, limit, amount, where)
+        left.append(budget.left(Limit.ENTRIES))
+
+    original = Budget.spend
+    monkeypatch.setattr(Budget, "spend", spend)
+    ends = []
+    for srdf in ("", "srdf: gripper.srdf, "):
+        folder = tmp_path / str(len(ends))
+        folder.mkdir()
+        (folder / "gripper.srdf").write_text(SRDF, "utf-8")
+        compiled(folder, f"left: {{use: vendor/gripper.urdf, {srdf}parent: table}}").result()
+        ends.append(min(left))
+        left.clear()
+    assert ends[0] - ends[1] == 2 * 3, "a group, a state and a pair, in the module and in the file around it"
 
 
 def test_what_is_wrong_with_its_srdf_is_told_in_it(tmp_path):
