@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from linkforge_compile.diagnostics.codes import REGISTER
 from linkforge_compile.diagnostics.codes.ignoring import (
+    IGNORE_MISWRITTEN,
     IGNORE_OF_ERROR,
     IGNORE_OF_UNKNOWN_CODE,
     IGNORE_WITHOUT_CODE,
@@ -18,11 +19,15 @@ from linkforge_compile.source import Span
 
 
 class Ignore(NamedTuple):
-    """One comment: on `line` of its file the codes are not to be told; each is with where it is written."""
+    """One comment: on `line` of its file the codes are not to be told; each is with where it is written.
+
+    One that is not understood ignores nothing.
+    """
 
     span: Span
     line: int
     codes: tuple[tuple[str, Span], ...]
+    is_understood: bool = True
 
 
 def heed(diagnostics: tuple[Diagnostic, ...], ignores: tuple[Ignore, ...], *, is_whole: bool) -> tuple[Diagnostic, ...]:
@@ -33,7 +38,12 @@ def heed(diagnostics: tuple[Diagnostic, ...], ignores: tuple[Ignore, ...], *, is
     if not ignores:
         return diagnostics
     # By the file's name, as one that is included twice is two files with the same comments.
-    asked = {(ignore.span.file.name, ignore.line, code) for ignore in ignores for code, _ in ignore.codes}
+    asked = {
+        (ignore.span.file.name, ignore.line, code)
+        for ignore in ignores
+        if ignore.is_understood
+        for code, _ in ignore.codes
+    }
     ignored = {_key(one) for one in diagnostics if one.severity is not Severity.ERROR} & asked
     kept = [one for one in diagnostics if one.severity is Severity.ERROR or _key(one) not in ignored]
     # A file may be all comments: no more is told of them than of anything else.
@@ -51,11 +61,19 @@ def _key(diagnostic: Diagnostic) -> tuple[str, int, str]:
 
 
 def _faults(ignore: Ignore, ignored: Iterable[tuple[str, int, str]], is_whole: bool) -> Iterator[Diagnostic]:
+    if not ignore.is_understood:
+        codes = ", ".join(dict.fromkeys(code.upper() for code, _ in ignore.codes)) or "and codes such as LF6003"
+        yield IGNORE_MISWRITTEN.at(ignore.span, codes=codes)
+        return
     if not ignore.codes:
         yield IGNORE_WITHOUT_CODE.at(ignore.span)
     for code, span in ignore.codes:
         if code not in REGISTER:
-            yield IGNORE_OF_UNKNOWN_CODE.at(span, name=code, near=REGISTER)
+            family = next(
+                (one for one in sorted(REGISTER) if one.startswith(code.upper()) and len(one) > len(code)), None
+            )
+            hint = f"; write each in full, such as {family}" if family else ""
+            yield IGNORE_OF_UNKNOWN_CODE.at(span, name=code, hint=hint, near=() if hint else REGISTER)
         elif REGISTER[code].severity is Severity.ERROR:
             yield IGNORE_OF_ERROR.at(span, code=code)
         elif is_whole and (span.file.name, ignore.line, code) not in ignored:

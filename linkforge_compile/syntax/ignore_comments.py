@@ -16,8 +16,9 @@ from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.reader import MAX_READ_TWICE, PARSER
 
 # A search for plain text is a hundred times as fast as one for the pattern, and most files end here.
-_WORDS = re.compile(r"linkforge:[ \t]*ignore")
+_WORDS = re.compile(r"linkforge[: \t]+(?:ignore|disable|suppress|skip|noqa|nolint)\b")
 _COMMENT = re.compile(r"(?<!\S)#[ \t]*linkforge:[ \t]*ignore(?!\w)(?P<codes>(?:[ \t,]+(?i:LF)\w+)*)")
+_MEANT_AS_ONE = re.compile(rf"(?<!\S)#[^#\r\n]*?(?<!\w){_WORDS.pattern}(?:[ \t,:=]+(?i:LF)\w+)*")
 _CODE = re.compile(r"LF\w+", re.IGNORECASE)
 _NOTHING_BUT_COMMENT = re.compile(r"\s*(#.*)?")
 
@@ -25,28 +26,30 @@ _NOTHING_BUT_COMMENT = re.compile(r"\s*(#.*)?")
 def ignore_comments(file: SourceFile, budget: Budget | None = None) -> Iterator[Ignore]:
     """Yield the comments that name codes to ignore: those of their line, or of the next where they stand alone.
 
-    What follows the codes is the author's reason. A file without the words costs one search. They are counted in
-    the budget, without one in their own.
+    What follows the codes is the author's reason. One that is meant so and written otherwise, such as
+    `# linkforge: disable LF6003`, comes as well, not understood. A file without the words costs one search. They are
+    counted in the budget, without one in their own.
     """
     if not _WORDS.search(file.text):
         return
     marks = Marks(file, file.text.removeprefix("\ufeff"))
-    if not _COMMENT.search(marks.text) or (texts := _texts(marks)) is None:
+    if not _MEANT_AS_ONE.search(marks.text) or (texts := _texts(marks)) is None:
         return
     budget = budget or Budget()
     starts, line_meant = [text.start for text in texts], _lines_meant(file)
-    for comment in _COMMENT.finditer(marks.text):
+    for meant in _MEANT_AS_ONE.finditer(marks.text):
+        comment = _COMMENT.match(marks.text, meant.start())
+        comment, is_understood = comment or meant, comment is not None
         span = marks.part(comment.start(), len(comment[0]))
         before = bisect_right(starts, span.start)
         if before and span.start < texts[before - 1].end:
             continue
         # A comment without a code is one thing to tell of as well.
-        budget.spend(Limit.IGNORED_CODES, max(1, len(_CODE.findall(comment["codes"]))), span)
+        budget.spend(Limit.IGNORED_CODES, max(1, len(_CODE.findall(comment[0]))), span)
         codes = (
-            (code[0], marks.part(code.start(), len(code[0])))
-            for code in _CODE.finditer(marks.text, *comment.span("codes"))
+            (code[0], marks.part(code.start(), len(code[0]))) for code in _CODE.finditer(marks.text, *comment.span())
         )
-        yield Ignore(span, line_meant(span.line), tuple(codes))
+        yield Ignore(span, line_meant(span.line), tuple(codes), is_understood)
 
 
 def _lines_meant(file: SourceFile) -> Callable[[int], int]:

@@ -189,6 +189,8 @@ def _entry_expected(trouble: _Trouble) -> Diagnostic:
     """Tell why a line is no entry of the map or list around it."""
     here = trouble.here
     if trouble.before.strip():
+        if trouble.character in ("}", "]"):
+            return codes.BRACKET_TOO_MANY.at(here, bracket=trouble.character)
         return codes.TEXT_AFTER_VALUE.at(here)
     if stuck := trouble.found(_ITEM_STUCK_TO_DASH, here.line):
         return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
@@ -235,6 +237,8 @@ def _document_ended(trouble: _Trouble) -> Diagnostic:
     """Tell a second document from a first line that is no key, which is a document by itself to the parser."""
     if _said(trouble.marks.file.line(trouble.line_above())) == "...":
         return codes.SEVERAL_DOCUMENTS.at(trouble.here)
+    if trouble.character in ("}", "]"):
+        return codes.BRACKET_TOO_MANY.at(trouble.here, bracket=trouble.character)
     return _faulty_key_above(trouble) or codes.TEXT_AFTER_VALUE.at(trouble.here)
 
 

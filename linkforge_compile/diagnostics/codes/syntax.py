@@ -29,6 +29,7 @@ XACRO_EXPRESSION = Code("LF1020", Severity.ERROR, "'{text}' is xacro's; write '{
 XACRO_IN_FREE_TEXT = Code(
     "LF1075", Severity.WARNING, "'{text}' is xacro's and goes on as it stands; write '{ours}' if its value is meant"
 )
+BRACKET_TOO_MANY = Code("LF1076", Severity.ERROR, "one '{bracket}' too many: what it could close is closed already")
 
 DUPLICATE_KEY = Code("LF1101", Severity.ERROR, "the key '{key}' is written twice")
 KEY_NOT_SCALAR = Code("LF1102", Severity.ERROR, "a key must be text, found {found}")
