@@ -87,10 +87,17 @@ def lower_file(
         **outer_extras_of(file),
     )
     lost = [name for parts in (links, joints) for name, part in parts.items() if part is None]
+    lost += _without_mimic(tree.get("joints"))
     gaps = gaps_of([*lost, *(semantic.lost if semantic else ())])
     if is_part or _has_lost(tree, _SECTIONS_OF_NAMES) or _has_lost(tree.get("semantic"), _SECTIONS_OF_SEMANTIC_NAMES):
         gaps |= Gaps(prefixes=("",))
     return LoweredFile(robot, semantic.states if semantic else (), gaps, tuple(_mounts(file)))
+
+
+def _without_mimic(joints: YamlNode | None) -> list[str]:
+    """Return the joints that follow another, but whose `mimic` has a fault, so that nobody knows which."""
+    entries = joints if isinstance(joints, YamlMap) else ()
+    return [entry.name for entry in entries if _has_lost(entry.value, ("mimic",))]
 
 
 def _has_lost(node: YamlNode | None, sections: tuple[str, ...]) -> bool:

@@ -86,12 +86,18 @@ def _once(
         tree.disabled.add(thing.key, body, thing.title, condition.span, tree)
 
 
+_TRUTHS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
+"""What YAML 1.1 reads as true and false, and who has written it since may still mean."""
+
+
 def _is_there(condition: YamlNode | None, tree: TreeEvaluator) -> bool | Fault:
     value = True if condition is None else tree.value(condition)
     if value is None or isinstance(value, bool | Fault):
         return True if value is None else value
     assert condition is not None, "without a condition, the value is True"
-    tree.sink.report(CONDITION_KIND.at(tree.place(condition), found=describe(value)))
+    meant = _TRUTHS.get(value.lower()) if isinstance(value, str) else None
+    way_out = f", which YAML 1.2 reads as text; write {meant} where it is set" if meant else ""
+    tree.sink.report(CONDITION_KIND.at(tree.place(condition), found=f"{describe(value)}{way_out}"))
     return FAULT
 
 
