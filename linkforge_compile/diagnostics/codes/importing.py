@@ -40,7 +40,10 @@ XACRO_ARGUMENT = Code("LF8033", _E, "'{name}' of a xacro file takes a text, a nu
 XACRO_FORBIDDEN = Code("LF8035", _E, "'{path}' is not expanded: the environment sets {variable}")
 XACRO_WARNS = Code("LF8034", _W, "xacro says: {text}")
 
-# LF813x: where the spec goes
+# LF813x: which file goes where
+URDF_FOR_SRDF = Code(
+    "LF8132", _E, "this is a URDF, not an SRDF, for it has a <{tag}> of its own; give the robot's SRDF"
+)
 MESH_BESIDE_THE_URDF = Code(
     "LF8130",
     _W,

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Protocol, TypeVar
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.diagnostics.codes.importing import URDF_FOR_SRDF
 from linkforge_compile.importers.comments import Comments
 from linkforge_compile.importers.document import Imported, read_document
 from linkforge_compile.importers.draft import DeclinedError
@@ -40,6 +41,10 @@ def with_srdf(
     """Return the spec of a URDF with what an SRDF says, and what is known of it; None where that is no SRDF."""
     document = read_document(file, sink)
     if document is None:
+        return None
+    # Kept raw in the semantic part, the whole robot would come out as an SRDF.
+    if part := next((child for child in document.root.children if child.tag in ("link", "joint")), None):
+        sink.report(URDF_FOR_SRDF.at(part.span, tag=part.tag))
         return None
     refused: dict[Span, DeclinedError] = {}
     sections = sum(len(entry.value) for entry in urdf.tree if isinstance(entry.value, YamlMap))
