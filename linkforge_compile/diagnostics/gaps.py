@@ -45,7 +45,7 @@ class Gaps:
     `prefixes` stand for whole modules that could not be read: every name that begins with one may be theirs,
     and the empty prefix covers all names. True when anything is missing, so a check that judges the whole
     tree can tell that it does not see the whole tree. `removed` are no gaps, but there for whoever misses them.
-    `mounts` are none either: joints by which this robot, or one in it, hangs on a link of whoever uses it.
+    `mounts` are none either: what a robot lacks that hangs nowhere, the joint by which it would hang.
     `may_look` says whether a check may look at a file, for a spec can name any file of this machine.
     """
 

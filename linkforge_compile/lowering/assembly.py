@@ -62,6 +62,11 @@ class Lowered:
     under_a_prefix: tuple[Diagnostic, ...] = ()
     mount: ModuleJoint | None = None
 
+    @property
+    def gaps_alone(self) -> Gaps:
+        """The gaps of a robot that hangs nowhere, and so lacks its mount."""
+        return self.gaps | Gaps(mounts=frozenset([self.mount.name])) if self.mount else self.gaps
+
 
 def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = None) -> Lowered:
     """Make one robot of a file and of all its modules, in the order written: its own parts, then each module's.
@@ -87,7 +92,7 @@ def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids) -> Lower
         fold.add(module, _lowered(module, sink, meshes))
     lowered = fold.finished(hangs_alone=instance.entry is None)
     if instance.references and lowered.robot:
-        tell_unknown_names(instance.references, lowered.robot, lowered.gaps, sink)
+        tell_unknown_names(instance.references, lowered.robot, lowered.gaps_alone, sink)
     return lowered
 
 
@@ -132,13 +137,13 @@ class _Fold:
         if component is None:
             joined = False
         elif not is_named:
-            joined = self._leave_out(component, module.prefix, lowered.gaps)
+            joined = self._leave_out(component, module.prefix, lowered.gaps_alone)
         elif clashes:
             self._sink.report_all(told_of_clashes(module, clashes))
-            joined = self._leave_out(component, "", lowered.gaps.with_prefix(module.prefix))
+            joined = self._leave_out(component, "", lowered.gaps_alone.with_prefix(module.prefix))
         else:
             held = hanging is not None or final_root in self._held
-            gaps = lowered.gaps.with_prefix(module.prefix)
+            gaps = lowered.gaps_alone.with_prefix(module.prefix)
             joined = self._join(component, module, gaps, final_root if held else None)
         if hanging and not (joined and self._connect(hanging)):
             self._gaps |= gaps_of([hanging.name])
@@ -166,7 +171,6 @@ class _Fold:
         """
         mount = only_mount(self._mounts, self._sink)
         self._gaps |= gaps_of(other.name for other in self._mounts[1:])
-        self._gaps |= Gaps(mounts=frozenset([mount.name] if mount else ()))
         if mount and hangs_alone:
             self._gaps |= hang_on_world(self._robot, mount, _root_of(self._robot), self._sink)
         if self._states:

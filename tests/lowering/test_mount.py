@@ -96,3 +96,11 @@ def test_a_module_that_lacks_only_its_parent_is_told_by_the_links_that_someone_w
     text = "linkforge: 1\nname: w\nlinks: {trunk: }\nmodules: {left: {use: leg.robot.yaml}}"
     (told,) = [one.message for one in compile_text(text, folder=tmp_path).diagnostics if one.severity is Severity.ERROR]
     assert told.startswith("2 links are no joint's child: 'trunk' and 'left_hip'")
+
+
+def test_one_that_hangs_is_no_link_to_whoever_takes_it_for_one(tmp_path):
+    (tmp_path / "leg.robot.yaml").write_text(LEG)
+    joints = "joints: {weld: {type: fixed, parent: left_hip_joint, child: box}}"
+    text = f"links: {{trunk: , box: }}\n{joints}\nmodules: {{left: {{use: leg.robot.yaml, parent: trunk}}}}"
+    compiled = compile_text(f"linkforge: 1\nname: w\n{text}", folder=tmp_path)
+    assert [one.code.id for one in compiled.diagnostics if one.severity is Severity.ERROR] == ["LF4102"]
