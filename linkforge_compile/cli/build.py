@@ -34,6 +34,15 @@ class Order(NamedTuple):
     targets: Targets
 
 
+def targets_for(robot: Robot, targets: Targets) -> Targets | None:
+    """Return those that are written of a robot; None where an SRDF is asked for in vain."""
+    if robot.says_semantic and not robot.semantic.is_empty:
+        return targets
+    if targets.is_srdf_asked_for and "srdf" in targets.paths:
+        return None
+    return targets.without_srdf()
+
+
 def compile_order(order: Order, arguments: argparse.Namespace) -> Compilation:
     """Compile the spec, as the options of `linkforge compile` say."""
     return compile_spec(order.spec, order.assignments, arguments, order.targets.folder)
@@ -78,11 +87,9 @@ def _report(compilation: Compilation, outputs: Sequence[Output] | None) -> tuple
 
 def _outputs(robot: Robot, order: Order, arguments: argparse.Namespace) -> tuple[Output, ...] | None:
     """Return what goes where, all of it rendered before any is written; None where an SRDF is asked for in vain."""
-    targets = order.targets
-    if not robot.says_semantic or robot.semantic.is_empty:
-        if targets.is_srdf_asked_for and "srdf" in targets.paths:
-            return None
-        targets = targets.without_srdf()
+    targets = targets_for(robot, order.targets)
+    if targets is None:
+        return None
     name = Path(order.spec).name
     banner = None if order.spec == "-" else f"Compiled by linkforge from {name}; edit that file, not this one."
     options: dict[str, dict[str, str]] = {"urdf": {"gazebo": arguments.gazebo}, "srdf": {}}

@@ -22,6 +22,9 @@ _COLON = re.compile(r"(?<!^[A-Za-z]):|:(?![/\\])")
 
 _UNWRITABLE = re.compile(r"[\n\r;|]")
 
+# Of Make, `=` before the colon assigns a variable, and `%` is a pattern; escaped for Make, `%` is no name to Ninja.
+_UNWRITABLE_IN_TARGETS = re.compile(r"[\n\r;|=%]")
+
 
 def write_depfile(path: str, outputs: Sequence[Path], compilation: Compilation) -> None:
     """Write the rule by which outputs depend on all that they were made from."""
@@ -35,13 +38,13 @@ def inputs_of(compilation: Compilation) -> tuple[Path, ...]:
 
 def make_rule(outputs: Iterable[Path], inputs: Iterable[Path]) -> str:
     """Return `OUTPUTS: INPUTS`, an input a line; UsageError for a name that no makefile can hold."""
-    targets = " ".join(map(_escaped, outputs))
+    targets = " ".join(_escaped(output, _UNWRITABLE_IN_TARGETS) for output in outputs)
     return " \\\n  ".join((f"{targets}:", *map(_escaped, inputs))) + "\n"
 
 
-def _escaped(path: Path) -> str:
+def _escaped(path: Path, unwritable: re.Pattern[str] = _UNWRITABLE) -> str:
     name = path.as_posix()
-    if found := _UNWRITABLE.search(name):
+    if found := unwritable.search(name):
         raise UsageError(f"a depfile cannot hold '{name}', for it has {found[0]!r} in it; rename it")
     name = name.replace("$", "$$").replace("#", r"\#")
     return _COLON.sub(r"\\:", _BLANK.sub(r"\1\1\\\2", name))

@@ -90,6 +90,8 @@ def rule(capfd: pytest.CaptureFixture[str], *words: str) -> str:
 def test_a_rule_is_for_the_outputs_that_are_said(cell: Path, capfd: pytest.CaptureFixture[str]):
     assert rule(capfd, "cell.robot.yaml") == "cell.urdf"
     assert rule(capfd, "cell.robot.yaml", "-o", "b/a.urdf", "-o", "b/a.srdf") == "b/a.urdf b/a.srdf"
+    assert rule(capfd, "cell.robot.yaml", "-o", "b/") == "b/cell.urdf b/cell.srdf"
+    assert rule(capfd, "arm.robot.yaml", "-o", "b/") == "b/arm.urdf", "it has nothing for an SRDF"
 
 
 class Makefile:
@@ -145,6 +147,26 @@ def test_a_name_that_no_makefile_can_hold_is_told(cell: Path, capfd: pytest.Capt
     (cell / "cell.robot.yaml").write_text(ROBOT.replace("table.yaml", "a;b.yaml"))
     assert main(["compile", "cell.robot.yaml", "-o", "robot.urdf", "--depfile", "robot.d"]) == 2
     assert "a depfile cannot hold 'a;b.yaml', for it has ';' in it; rename it" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("mark", ["=", "%"])
+def test_an_output_whose_name_make_and_ninja_cannot_both_read_is_told(
+    cell: Path, capfd: pytest.CaptureFixture[str], mark: str
+):
+    assert main(["compile", "cell.robot.yaml", "-o", f"reach{mark}2.urdf", "--depfile", "robot.d"]) == 2
+    assert f"a depfile cannot hold 'reach{mark}2.urdf', for it has {mark!r} in it" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["a b.urdf", "a#b.urdf", "a$b.urdf", "a:b.urdf", "a'b.urdf", "ä.urdf"])
+def test_make_reads_outputs_with_what_means_something_to_it(cell: Path, name: str):
+    for path in cell.iterdir():
+        aged(path, 100)
+    assert main(["compile", "cell.robot.yaml", "-o", name, "--depfile", "robot.d"]) == 0
+    (cell / "Makefile").write_text("include robot.d\n%.urdf:\n\t@touch made\n")
+    question = [program("make"), "-q", name]
+    assert subprocess.run(question, cwd=cell, check=False, timeout=60).returncode == 0
+    aged(cell / "table.yaml", -100)
+    assert subprocess.run(question, cwd=cell, check=False, timeout=60).returncode == 1
 
 
 def test_a_build_that_asks_for_a_depfile_is_told_of_faults_only(cell: Path, capfd: pytest.CaptureFixture[str]):

@@ -1,5 +1,6 @@
 """`linkforge compile --check`, and the hooks of pre-commit that call it."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -121,3 +122,6 @@ def test_the_hooks_of_pre_commit_are_commands_of_ours(arm: Path):
     assert main([*words, "arm.robot.yaml", "-o", "urdf/"]) == 0
     (arm / "urdf" / "arm.urdf").write_text("<robot/>")
     assert main([*words, "arm.robot.yaml", "-o", "urdf/"]) == 1
+    for name in ("urdf/arm.urdf", "arm.robot.yml", "urdf/arm.xml", "urdf/arm.urdf.map.json", "meshes/HAND.STL"):
+        assert re.search(uptodate_hook["files"], name), name
+    assert not re.search(uptodate_hook["files"], "package.json")

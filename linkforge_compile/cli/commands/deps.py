@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
 from linkforge_compile.cli.one_spec import compile_spec, one_spec
 from linkforge_compile.cli.options import add_spec_options, split_assignments
-from linkforge_compile.cli.targets import name_of
+from linkforge_compile.cli.targets import name_of, targets_of
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
@@ -37,7 +37,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
     parser.add_argument(
-        "-o", "--output", metavar="FILE", dest="outputs", action="append", default=[], help="a file of the rule of Make"
+        "-o",
+        "--output",
+        metavar="PATH",
+        dest="outputs",
+        action="append",
+        default=[],
+        help="a file or folder of outputs, as for compile",
     )
     parser.add_argument("--format", choices=FORMATS, default="make", help="a rule of Make (unless said), or JSON")
     add_spec_options(parser)
@@ -56,9 +62,18 @@ def run(arguments: argparse.Namespace) -> int:
     elif not is_faulty:
         from linkforge_compile.cli.depfile import inputs_of, make_rule
 
-        outputs = map(Path, arguments.outputs or [f"{name_of(spec)}.urdf"])
-        write_to_stdout(make_rule(outputs, inputs_of(compilation)))
+        write_to_stdout(make_rule(_outputs(spec, arguments.outputs, compilation), inputs_of(compilation)))
     return FAULTY_SPEC if is_faulty else OK
+
+
+def _outputs(spec: str, outputs: list[str], compilation: Compilation) -> tuple[Path, ...]:
+    """Return the files that `linkforge compile` would write for these outputs, the URDF where there are none."""
+    from linkforge_compile.cli.build import targets_for
+
+    targets = targets_of(spec, outputs or [f"{name_of(spec)}.urdf"], None)
+    if compilation.robot is not None:
+        targets = targets_for(compilation.robot, targets) or targets
+    return tuple(path for path in targets.paths.values() if path is not None)
 
 
 def _json_text(compilation: Compilation) -> str:
