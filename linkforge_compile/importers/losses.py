@@ -7,10 +7,15 @@ from collections.abc import Iterable, Iterator
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic
-from linkforge_compile.diagnostics.codes.importing import BECOMES_OTHER, COMES_IN_ADDITION, DOES_NOT_COME_OUT
+from linkforge_compile.diagnostics.codes.importing import (
+    BECOMES_OTHER,
+    COMES_IN_ADDITION,
+    DOES_NOT_COME_OUT,
+    VERSION_FOR_CAPSULE,
+)
 from linkforge_compile.importers.draft import same
 from linkforge_compile.importers.said import Said, said
-from linkforge_compile.importers.xml import XmlDocument
+from linkforge_compile.importers.xml import XmlDocument, XmlElement
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
@@ -51,12 +56,25 @@ def _attributes(one: Said, again: Said) -> Iterator[Diagnostic]:
             continue
         what = f"'{name}' of <{one.tag}>"
         attribute, other = one.element.attributes.get(name), again.element.attributes.get(name)
-        if attribute is None:
+        if attribute is None and (one.tag, name) == ("robot", "version"):
+            yield VERSION_FOR_CAPSULE.at(_capsule(one).span)
+        elif attribute is None:
             yield COMES_IN_ADDITION.at(one.element.span, what=what)
         elif other is None:
             yield DOES_NOT_COME_OUT.at(attribute.span, what=what)
         else:
             yield _other(what, attribute.value, other.value, attribute.span)
+
+
+def _capsule(one: Said) -> XmlElement:
+    """Return the first capsule in an element, for which alone a version is added; itself where there is none."""
+    waiting = [one.element]
+    while waiting:
+        element = waiting.pop()
+        if element.tag == "capsule":
+            return element
+        waiting += reversed(tuple(element.children))
+    return one.element
 
 
 def _other(what: str, was: str, now: str, where: Span) -> Diagnostic:

@@ -48,6 +48,13 @@ def test_what_is_kept_raw_is_no_loss(arm, capfd: pytest.CaptureFixture[str]):
     assert "LF8021" in capfd.readouterr().err
 
 
+def test_the_version_that_a_capsule_needs_is_no_loss(arm, capfd: pytest.CaptureFixture[str]):
+    capsule = '<link name="rod"><visual><geometry><capsule radius="1" length="1"/></geometry></visual></link>'
+    joint = '<joint name="j" type="fixed"><parent link="base"/><child link="rod"/></joint>'
+    assert main(["import", arm(capsule + joint), "--strict"]) == 0
+    assert "LF8131" in capfd.readouterr().err
+
+
 def test_a_robot_that_is_wrong_is_told_where_the_urdf_is(arm, capfd: pytest.CaptureFixture[str]):
     urdf = arm('<joint name="j" type="fixed"><parent link="base"/><child link="tool"/></joint>')
     assert main(["import", urdf]) == 1

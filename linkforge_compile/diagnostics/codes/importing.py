@@ -51,6 +51,14 @@ MESH_BESIDE_THE_URDF = Code(
     "write 'package://NAME/PATH', or the spec into '{back}'",
 )
 
+# LF813x: what is said in addition, and loses nothing
+VERSION_FOR_CAPSULE = Code(
+    "LF8131",
+    Severity.NOTE,
+    '<capsule> came with URDF 1.1, and this file states no version, so what is compiled says version="1.1"; '
+    'write <robot version="1.1" ...> here',
+)
+
 # LF81xx: losses
 TEXT_LEFT_OUT = Code("LF8101", _W, "<{tag}> holds no text; '{text}' is left out")
 INSTRUCTION_LEFT_OUT = Code("LF8102", _W, "the processing instruction '{target}' is left out")
