@@ -44,6 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     files, assignments = split_assignments(arguments.words)
     urdf = one_spec(files)
+    _refuse_srdf(urdf, arguments.srdf)
     sources = {Path(file).resolve() for file in (urdf, arguments.srdf) if file is not None}
     if arguments.output is not None and Path(arguments.output).resolve() in sources:
         raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
@@ -63,6 +64,15 @@ def run(arguments: argparse.Namespace) -> int:
         return FAULTY_SPEC
     _put(imported.text, output, arguments)
     return FAULTY_SPEC if is_faulty else OK
+
+
+def _refuse_srdf(urdf: str, srdf: str | None) -> None:
+    """Refuse an SRDF where its robot belongs, and one that is not expanded."""
+    if urdf.lower().endswith((".srdf", ".srdf.xacro")):
+        raise UsageError(f"'{urdf}' is an SRDF; give it with its robot: linkforge import ROBOT.urdf --srdf ROBOT.srdf")
+    if srdf is not None and srdf.lower().endswith(".xacro"):
+        expanded = srdf[: -len(".xacro")]
+        raise UsageError(f"--srdf takes an expanded file; write 'xacro {srdf} -o {expanded}' first")
 
 
 def _put(text: str, output: Path | None, arguments: argparse.Namespace) -> None:
