@@ -12,6 +12,7 @@ from typing import NamedTuple
 import pytest
 
 from linkforge_compile import __version__
+from linkforge_compile.cli.targets import name_of
 from tests.conftest import ROOT
 from tests.programs import program
 
@@ -191,6 +192,16 @@ def test_wrong_arguments_are_told_when_cmake_configures(tmp_path: Path, argument
     run = script(tmp_path, f"{find}\nlinkforge_add_robot(arm.robot.yaml {arguments})", "-DLINKFORGE_EXECUTABLE=true")
     assert run.returncode != 0
     assert f"linkforge_add_robot(arm.robot.yaml): {said}" in " ".join(run.stderr.split())
+
+
+def test_cmake_names_files_after_the_spec_as_the_command_does(tmp_path: Path):
+    parts = ("robot.yaml", "yaml", "robot.yml", "yml", "urdf.xacro", "xacro", "urdf", "urdf.robot.yaml", "xacro.yaml")
+    specs = [f"arm{number}.{part}" for number, part in enumerate(parts)]
+    text = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)\n'
+    text += "".join(f'linkforge_add_robot({spec} OUTPUT made)\nmessage("made ${{made}}")\n' for spec in specs)
+    run = script(tmp_path, text, "-DLINKFORGE_EXECUTABLE=true")
+    made = [Path(line).stem for line in run.stderr.splitlines() if line.startswith("made ")]
+    assert made == [name_of(spec) for spec in specs]
 
 
 @pytest.mark.parametrize(("asked", "is_found"), [("", True), (__version__, True), ("0.1", True), ("99", False)])
