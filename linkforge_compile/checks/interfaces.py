@@ -137,28 +137,37 @@ def _faults_of_parameters(interface: Exported, joint: Joint | None) -> Iterator[
 
 def _far_beyond(interface: Exported, joint: Joint, lowest: float, highest: float) -> Iterator[Diagnostic]:
     """Tell of a range that the joint's limit makes idle, and that a wrong unit explains."""
-    reach = max(abs(lowest), abs(highest))
+    reach, units = max(abs(lowest), abs(highest)), _SI.get(joint.type)
     limit = _limit(interface.name, joint)
-    if not limit or not FAR <= reach / limit < UNBOUNDED:
+    if not units or not limit or not FAR <= reach / limit < UNBOUNDED:
         return
     parameter, found = ("max", highest) if abs(highest) >= abs(lowest) else ("min", lowest)
-    is_effort, is_turning, shown = interface.name == "effort", joint.type != JointType.PRISMATIC, f"{found:.6g}"
-    length = f"write '$({shown} / 1000)' if millimetres are meant"
-    remedy = f"write '$(radians({shown}))' if degrees are meant" if is_turning else length
-    place = _at(interface, parameter)
-    yield place.told(
+    shown = f"{found:.6g}"
+    if interface.name == "effort":
+        remedy = "correct one of them"
+    elif units is _SLIDING:
+        remedy = f"write '$({shown} / 1000)' if millimetres are meant"
+    else:
+        remedy = f"write '$(radians({shown}))' if degrees are meant"
+    yield _at(interface, parameter).told(
         RANGE_FAR_BEYOND,
         interface=f"interface '{interface.name}'",
         joint=joint.name,
         found=shown,
         limit=f"{limit:.6g}",
-        si=_SI[is_turning][MOTIONS.index(interface.name)],
-        remedy="correct one of them" if is_effort else remedy,
+        si=units[interface.name],
+        remedy=remedy,
     )
 
 
-_SI = {True: ("rad", "rad/s", "", "N*m"), False: ("m", "m/s", "", "N")}
-"""The units of MOTIONS of a joint that turns, and of one that slides."""
+_TURNING = {"position": "rad", "velocity": "rad/s", "effort": "N*m"}
+_SLIDING = {"position": "m", "velocity": "m/s", "effort": "N"}
+_SI: dict[str, Mapping[str, str]] = {
+    JointType.REVOLUTE: _TURNING,
+    JointType.CONTINUOUS: _TURNING,
+    JointType.PRISMATIC: _SLIDING,
+}
+"""The units of the interfaces in BOUNDED_BOTH_WAYS, by the type of a joint that goes along or about one axis."""
 
 
 def _limit(interface: str, joint: Joint) -> float | None:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from linkforge_compile.checks.circles import told_circles
-from linkforge_compile.checks.ranges import passed_range
+from linkforge_compile.checks.ranges import passed_range, says_unit
 from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointMimic, JointSafetyController, JointType
 from linkforge_compile.core.models.robot import Robot
@@ -167,14 +167,16 @@ def check_joint_power(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
 def check_joint_speed(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     """A joint that stops at its ends is not faster than joints are: ten turns a second, or 20 m/s.
 
-    Data sheets give degrees a second and millimetres a second; a bare number is in rad/s or m/s. Write the unit, such
-    as `180 deg/s`. A continuous joint, which may be a wheel, may turn at any speed.
+    Data sheets give degrees a second and millimetres a second; a bare number is in rad/s or m/s, and only that is told.
+    Write the unit, such as `180 deg/s`. A continuous joint, which may be a wheel, may turn at any speed.
     """
     for joint in robot.joints:
         fastest = FASTEST.get(joint.type)
         velocity = joint.limits.velocity if joint.limits else None
         if fastest is None or velocity is None or velocity == NO_SPEED or not fastest < velocity < UNBOUNDED:
             continue
+        if joint.source and says_unit(joint.source.at("limits", "velocity").text):
+            continue  # whoever wrote the unit meant it
         found, is_turning = f"{velocity:.6g}", joint.type == JointType.REVOLUTE
         also = f", {velocity / math.tau:.3g} turns a second" if is_turning else ""
         si, unit, units = ("rad/s", "deg/s", "degrees") if is_turning else ("m/s", "mm/s", "millimetres")

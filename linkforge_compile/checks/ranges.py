@@ -19,6 +19,13 @@ _SIZES = {"deg": math.pi / 180, "°": math.pi / 180, "mm": 0.001, "cm": 0.01}
 
 _UNIT = re.compile(r"[0-9.]\s*(?P<unit>deg|°|mm|cm)['\"]?")
 
+_SAYS_UNIT = re.compile(r"[0-9]\.?\s*(?![eE][-+]?[0-9])[^\W\d_]|°|\$\(")
+
+
+def says_unit(text: str | None) -> bool:
+    """Whether a number is written with a unit, or computed, which may have one; False for no text."""
+    return bool(text and _SAYS_UNIT.search(text))
+
 
 def unit_in(text: str | None) -> str | None:
     """Return the unit in which a position is written; None for one in SI units, for an expression, and for no text."""

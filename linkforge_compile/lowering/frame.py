@@ -12,7 +12,7 @@ from linkforge_compile.lowering.joint import Ends, joint_between
 
 
 class Frame(NamedTuple):
-    """The link and the joint of a frame with their names, both None if the frame is lost."""
+    """The link and the joint of a frame, None where one is lost; the names are those that it has in any case."""
 
     link_name: str
     joint_name: str
