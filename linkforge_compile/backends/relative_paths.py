@@ -28,7 +28,7 @@ def lost_on_the_way(robot: Robot, folder: Path, code: Code = MESH_BESIDE_THE_SPE
     lost = [
         mesh
         for path, mesh in _relative_meshes(robot).items()
-        if _is_file(spec.parent / path) and not _is_file(folder / path)
+        if _is_file(spec.parent / path) and not _is_beside(folder, path)
     ]
     if lost:
         first, *others = lost
@@ -49,6 +49,11 @@ def _relative_meshes(robot: Robot) -> dict[str, Mesh]:
     for mesh in relative:
         first.setdefault(mesh.resource, mesh)
     return first
+
+
+def _is_beside(folder: Path, path: str) -> bool:
+    # Joined as text: before the folder is made, the file system leads nowhere from it, not even by `..`.
+    return _is_file(Path(os.path.normpath(os.path.realpath(folder) + os.sep + path)))
 
 
 def _is_file(path: Path) -> bool:

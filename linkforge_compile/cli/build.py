@@ -66,12 +66,21 @@ def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespac
 
 
 def _refuse_to_replace(files: Sequence[Path], outputs: Sequence[Output], depfile: str | None) -> None:
-    """Refuse to write over what the robot is made from, as the URDF of a vendor beside a spec of the same name."""
+    """Refuse to write over what the robot is made from, as the URDF of a vendor beside a spec of the same name.
+
+    Nor may one thing that is written replace another, as a depfile the URDF.
+    """
     made_from = {file.resolve() for file in files}
+    places: set[Path] = set()
     written = [output.path for output in outputs if output.path] + ([Path(depfile)] if depfile else [])
     for path in written:
-        if path.resolve() in made_from:
+        place = path.resolve()
+        if place in made_from:
             raise UsageError(f"'{path}' would be replaced, and the robot is made from it; write to another place")
+        # A device, such as /dev/null, takes whatever comes.
+        if place in places and (place.is_file() or not place.exists()):
+            raise UsageError(f"'{path}' would be written twice, and the second replaces the first; give each a file")
+        places.add(place)
 
 
 def _report(compilation: Compilation, outputs: Sequence[Output] | None) -> tuple[Diagnostic, ...]:

@@ -127,6 +127,23 @@ def test_meshes_beside_the_spec_are_told_where_the_urdf_goes_elsewhere(pendulum:
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
 
 
+def test_a_mesh_is_found_or_not_whether_or_not_the_output_folder_is_there_already(pendulum: Path):
+    specs = pendulum / "specs"
+    specs.mkdir()
+    (pendulum / ".git").mkdir()  # a repository is read as a whole
+    for folder in (pendulum, specs):
+        (folder / "rod.stl").write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
+    (specs / "rod.robot.yaml").write_text(
+        "linkforge: 1\nname: rod\nlinks: {rod: {visual: {mesh: ../rod.stl}}, grip: {visual: {mesh: rod.stl}}}\n"
+        "joints: {glue: {type: fixed, parent: rod, child: grip}}\n"
+    )
+    words = ("compile", "specs/rod.robot.yaml", "-o", "build/")
+    first, again = (linkforge(*words, cwd=pendulum).stderr.splitlines()[:-1] for _ in range(2))
+    assert "'rod.stl' leads nowhere from 'build'" in "".join(first)
+    assert "'../rod.stl'" not in "".join(first)
+    assert again == first
+
+
 def test_a_spec_comes_from_standard_input(pendulum: Path):
     run = linkforge("compile", "-", cwd=pendulum, stdin=PENDULUM)
     assert run.returncode == 0

@@ -208,6 +208,21 @@ def test_what_a_robot_is_made_from_is_not_written_over(
 
 
 @pytest.mark.parametrize(
+    "words",
+    [
+        ("-o", "out/a.urdf", "--depfile", "out/a.urdf"),
+        ("-o", "out/a.urdf", "-o", "out/a.srdf", "--depfile", "out/../out/a.srdf"),
+        ("-o", "out/a.urdf", "--source-map", "--depfile", "out/a.urdf.map.json"),
+    ],
+)
+def test_one_output_does_not_replace_another(cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...]):
+    (cell / "cell.robot.yaml").write_text(ROBOT + "semantic: {groups: {all: {links: [base]}}}\n")
+    assert main(["compile", "cell.robot.yaml", *words]) == 2
+    assert "would be written twice, and the second replaces the first; give each a file" in capfd.readouterr().err
+    assert not (cell / "out").exists()
+
+
+@pytest.mark.parametrize(
     "name", ["cell.robot.yaml", "cell.yaml", "cell.yml", "cell.urdf", "cell.urdf.xacro", "cell.xacro"]
 )
 def test_files_are_named_after_the_spec(name: str):
