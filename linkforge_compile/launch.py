@@ -22,7 +22,7 @@ from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.parameter_descriptions import ParameterValue
 
-from linkforge_compile.pipeline import CompileError, ListedParameter, Packages, compile_file, parameters_of
+from linkforge_compile.pipeline import CompileError, ListedParameter, Packages, Told, compile_file, parameters_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
 
-    Given: TypeAlias = Mapping[str, bool | int | float | str | Substitution | Sequence[str | Substitution]]
+    Words: TypeAlias = str | Substitution | Sequence[str | Substitution]
+    Given: TypeAlias = Mapping[str, bool | int | float | Words | Sequence[float | str | Substitution]]
 
 __all__ = ["RobotDescription"]
 
@@ -67,7 +68,7 @@ class RobotDescription:
         spec: str | Path,
         parameters: Given | None = None,
         *,
-        variant: str | None = None,
+        variant: Words | None = None,
         packages: Packages | None = None,
         gazebo: Gazebo = "gz",
         allow_outside: bool = False,
@@ -75,20 +76,26 @@ class RobotDescription:
     ) -> None:
         """`parameters` are values or substitutions; the other words are those of `compile_file`.
 
+        A list with a number in it is a vector; any other is one text in parts, as everywhere in launch. `variant` may
+        be a substitution, too; one that gives no text is no variant.
+
         `argument_prefix` stands before the names of the launch arguments, for two robots in one launch file.
 
         Raises:
             CompileError: The parameters of the spec cannot be listed.
+            TypeError: A value is nothing that a launch file can give.
 
         """
         self.spec, self.gazebo = Path(spec), gazebo
-        self._given = {name: _substitutions(value) for name, value in (parameters or {}).items()}
-        self._variant, self._packages, self._prefix = variant, packages, argument_prefix
+        self._given = {name: _substitutions(name, value) for name, value in (parameters or {}).items()}
+        self._variant: list[Substitution] | None = None if variant is None else _substitutions("variant", variant)
+        self._packages, self._prefix = packages, argument_prefix
         self._allow_outside = allow_outside
         listing, diagnostics = parameters_of(self.spec, allow_outside=allow_outside)
         if listing is None:
             raise CompileError(diagnostics)
-        sets = listing.variants.get(variant, {}) if variant is not None else {}
+        # Of a variant that is known at a launch only, the defaults that show are those of the spec.
+        sets = listing.variants.get(variant, {}) if isinstance(variant, str) else {}
         self._defaults = {one.name: sets.get(one.name, one.default) for one in listing.parameters}
         self.arguments = [self._argument(one) for one in listing.parameters if one.name not in self._given]
         self.urdf, self.srdf = _Text(self, semantic=False), _Text(self, semantic=True)
@@ -120,7 +127,7 @@ class RobotDescription:
             self.spec,
             parameters=self._assignments(context),
             packages=self._packages,
-            variant=self._variant,
+            variant=self._variant_of(context),
             gazebo=self.gazebo,
             allow_outside=self._allow_outside,
         )
@@ -133,20 +140,50 @@ class RobotDescription:
             launch.logging.get_logger("linkforge").warning(told)
         return compilation.robot
 
-    def _assignments(self, context: LaunchContext) -> list[str]:
+    def _variant_of(self, context: LaunchContext) -> str | None:
+        return None if self._variant is None else str(perform_substitutions(context, self._variant)) or None
+
+    def _assignments(self, context: LaunchContext) -> dict[str, Told]:
         """Return what sets parameters; one that has its default is left to the spec, which may compute it."""
-        values = {name: perform_substitutions(context, value) for name, value in self._given.items()}
+        values = {
+            name: Told("<launch file>", name, perform_substitutions(context, value))
+            for name, value in self._given.items()
+        }
         for name, default in self._defaults.items():
-            value = context.launch_configurations.get(self._prefix + name)
+            spelt = self._prefix + name
+            value = context.launch_configurations.get(spelt)
             if name not in values and value is not None and value != default:
-                values[name] = value
-        return [f"{name}:={value}" for name, value in values.items()]
+                values[name] = Told("<launch argument>", spelt, value)
+        return values
 
 
-def _substitutions(value: object) -> list[Substitution]:
+def _substitutions(name: str, value: object) -> list[Substitution]:
+    """Return what gives the text of a value; TypeError, which names the parameter, for one that no launch file has."""
     if isinstance(value, bool):
-        return _substitutions("true" if value else "false")
-    if isinstance(value, int | float):
-        return _substitutions(repr(value))
-    normal: list[Substitution] = normalize_to_list_of_substitutions(value)
+        value = "true" if value else "false"
+    elif isinstance(value, int | float):
+        value = _number(value)
+    elif isinstance(value, list | tuple) and any(isinstance(item, int | float) for item in value):
+        value = _vector(value)
+    try:
+        if isinstance(value, Mapping):
+            raise TypeError  # launch would take its keys
+        normal: list[Substitution] = normalize_to_list_of_substitutions(value)
+    except TypeError:
+        raise TypeError(
+            f"'{name}' takes text, a number, true or false, a list of numbers, or substitutions; found {value!r}"
+        ) from None
     return normal
+
+
+def _number(value: float) -> str:
+    # numpy's are floats that show as another thing.
+    return repr(int(value)) if isinstance(value, int) else repr(float(value))
+
+
+def _vector(items: Sequence[object]) -> list[object]:
+    """Return the parts of the text `[1, 2, 3]`, in which an item may be a substitution."""
+    parts: list[object] = []
+    for item in items:
+        parts += [", " if parts else "[", _number(item) if isinstance(item, int | float) else item]
+    return [*parts, "]"]

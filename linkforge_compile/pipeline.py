@@ -26,9 +26,11 @@ from linkforge_compile.modules import (
     Loader,
     Plain,
     SpecFile,
+    Told,
     Unset,
     Used,
     arguments_from_text,
+    arguments_from_told,
     arguments_from_values,
     expand,
     list_parameters,
@@ -52,6 +54,7 @@ __all__ = [
     "Parameters",
     "Plain",
     "Settings",
+    "Told",
     "check_file",
     "check_text",
     "check_variants",
@@ -244,7 +247,11 @@ class Settings(NamedTuple):
     def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:
         """Return the parameters; the loader may read the files that they name."""
         if isinstance(self.parameters, Mapping):
-            arguments = arguments_from_values(self.parameters)
+            told = {name: value for name, value in self.parameters.items() if isinstance(value, Told)}
+            if len(told) == len(self.parameters):
+                arguments = arguments_from_told(told)
+            else:
+                arguments = arguments_from_values(self.parameters)
         else:
             arguments = arguments_from_text(tuple(self.parameters), sink)
         loader.roots = loader.roots.naming(arguments.named_files)

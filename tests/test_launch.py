@@ -147,6 +147,46 @@ def test_a_fault_fails_the_launch_and_is_told_at_its_place(ros: Ros, spec: Path)
         robot.urdf.perform(context)
 
 
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"serial": "A1"}, "<launch argument>:1:13: error: parameter 'reach'"),
+        ({"serial": "A1", "reach": 3}, "<launch file>:1:8: error: parameter 'reach'"),
+        ({"serial": "A1", "raech": 1}, "<launch file>:1:1: error:"),
+    ],
+)
+def test_a_wrong_value_is_told_as_whoever_launches_says_it(ros: Ros, spec: Path, given: dict[str, object], said: str):
+    robot = ros.ours.RobotDescription(spec, given, argument_prefix="left_")
+    failure = importlib.import_module("launch.substitutions").SubstitutionFailure
+    with pytest.raises(failure) as caught:
+        robot.urdf.perform(launched(ros, robot, left_reach="3 m"))
+    assert said in str(caught.value)
+    assert "command line" not in str(caught.value)
+
+
+def test_a_variant_may_be_known_at_the_launch_only(ros: Ros, spec: Path):
+    chosen = importlib.import_module("launch.substitutions").LaunchConfiguration("size")
+    robot = ros.ours.RobotDescription(spec, {"serial": "A1"}, variant=chosen)
+    assert box_of(robot.urdf.perform(launched(ros, robot, size="long"))) == "1 0.1 0.01"
+    assert box_of(robot.urdf.perform(launched(ros, robot, size=""))) == "0.5 0.05 0.01"
+
+
+def test_a_list_with_a_number_is_a_vector(ros: Ros, tmp_path: Path):
+    path = tmp_path / "box.robot.yaml"
+    path.write_text(
+        "linkforge: 1\nname: box\nparameters: {size: {type: vector, default: [1, 1, 1]}}\n"
+        "links: {base: {visual: {box: $(size)}}}\n"
+    )
+    height = importlib.import_module("launch.substitutions").LaunchConfiguration("height")
+    robot = ros.ours.RobotDescription(path, {"size": [2, 0.5, height]})
+    assert box_of(robot.urdf.perform(launched(ros, robot, height="0.25"))) == "2 0.5 0.25"
+
+
+def test_a_value_that_no_launch_file_has_is_told_with_its_parameter(ros: Ros, spec: Path):
+    with pytest.raises(TypeError, match=r"'reach' takes text, a number, .*; found {'a': 1}"):
+        ros.ours.RobotDescription(spec, {"reach": {"a": 1}})
+
+
 def test_a_warning_is_logged_once(ros: Ros, spec: Path, caplog: pytest.LogCaptureFixture):
     spec.write_text(SPEC.replace("sphere: 0.1", "capsule: {radius: 0.1, length: 1}"))
     robot = ros.ours.RobotDescription(spec, {"serial": "A1"})

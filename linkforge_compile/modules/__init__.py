@@ -1,6 +1,12 @@
 """Many files and their parameters to one assembly: every use of every file, with every expression computed."""
 
-from linkforge_compile.modules.arguments import Arguments, arguments_from_text, arguments_from_values
+from linkforge_compile.modules.arguments import (
+    Arguments,
+    Told,
+    arguments_from_text,
+    arguments_from_told,
+    arguments_from_values,
+)
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.modules.expand import expand
 from linkforge_compile.modules.given import Unset
@@ -18,9 +24,11 @@ __all__ = [
     "Loader",
     "Plain",
     "SpecFile",
+    "Told",
     "Unset",
     "Used",
     "arguments_from_text",
+    "arguments_from_told",
     "arguments_from_values",
     "expand",
     "list_parameters",

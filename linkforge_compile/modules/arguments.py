@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from numbers import Real
 from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE
@@ -18,6 +19,14 @@ from linkforge_compile.syntax import YamlEntry, YamlNode, YamlScalar, scalar_val
 from linkforge_compile.units import Quantity
 
 COMMAND_LINE = "<command line>"
+
+
+class Told(NamedTuple):
+    """What another program sets, and how that says it, for diagnostics to name: `left_reach:=1 m` at `place`."""
+
+    place: str
+    name: str
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +67,16 @@ def arguments_from_text(pairs: Sequence[str], sink: Diagnostics) -> Arguments:
             sink.report(SET_TWICE.at(key.span, name=name, notes=[first]))
             continue
         entries[name] = YamlEntry(key, _typed(text, _span(file, len(pair) - len(text), len(text))))
+    return Arguments(entries, Path(), as_text=True)
+
+
+def arguments_from_told(values: Mapping[str, Told]) -> Arguments:
+    """Take values by parameter name, which are read as on the command line."""
+    entries: dict[str, YamlEntry] = {}
+    for name, (place, spelt, text) in values.items():
+        file = SourceFile(place, f"{spelt}:={text}")
+        value = _typed(text, _span(file, len(spelt) + 2, len(text)))
+        entries[name] = YamlEntry(YamlScalar(name, name, _span(file, 0, len(spelt))), value)
     return Arguments(entries, Path(), as_text=True)
 
 
