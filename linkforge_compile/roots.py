@@ -74,9 +74,16 @@ def as_walked(path: Path) -> Path:
 
 def _top_of(place: Path) -> Path:
     """Return the package or repository in which a file or folder lies, else its folder, or the folder itself."""
-    folder = place if place.is_dir() else place.parent
+    folder = place if _is_folder(place) else place.parent
     tops = (top for top in (folder, *folder.parents) if any((top / marker).exists() for marker in MARKERS))
     return next(tops, folder)
+
+
+def _is_folder(place: Path) -> bool:
+    try:
+        return place.is_dir()
+    except OSError:  # A name that is too long.
+        return False
 
 
 def _search_path(variable: str) -> Iterator[Path]:

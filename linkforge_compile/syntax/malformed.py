@@ -223,7 +223,12 @@ def _unclosed_quote(trouble: _Trouble) -> Diagnostic:
 
 
 def _unknown_escape(trouble: _Trouble) -> Diagnostic:
-    backslash = trouble.marks.text.rfind("\\", trouble.began, trouble.at + 1)
+    text = trouble.marks.text
+    backslash = text.rfind("\\", trouble.began, trouble.at + 1)
+    if backslash < 0:  # One of a tag, such as !caf%E9.
+        start = max(text.rfind("!", 0, trouble.at + 1), 0)
+        tag = text[start : trouble.at + 1].split("\n")[0]
+        return codes.TAG.at(trouble.marks.part(start, max(len(tag), 1)), tag=tag)
     span = trouble.marks.part(backslash, 2)
     return codes.UNKNOWN_ESCAPE.at(span, text=span.text)
 
