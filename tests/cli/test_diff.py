@@ -80,6 +80,14 @@ def test_each_side_has_parameters_and_a_variant_of_its_own(arms: Path):
     assert "'old.urdf' has no parameters" in run.stderr
 
 
+def test_of_two_variants_for_one_side_none_is_forgotten_in_silence(arms: Path):
+    run = linkforge(
+        "diff", "old.robot.yaml", "old.robot.yaml", *["--after-variant", "a", "--after-variant", "b"], cwd=arms
+    )
+    assert run.returncode == 2
+    assert "argument --after-variant: may be given once, found 'a' and 'b'" in run.stderr
+
+
 def test_a_xacro_takes_its_arguments(arms: Path):
     pytest.importorskip("xacro")
     (arms / "a.urdf.xacro").write_text(

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import OK, UsageError
-from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments
+from linkforge_compile.cli.options import Once, add_spec_options, packages_of, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
@@ -58,7 +58,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             default=[],
             help=f"set a parameter of the robot {side} alone",
         )
-        parser.add_argument(f"--{side}-variant", metavar="NAME", help=f"the variant of the robot {side} alone")
+        parser.add_argument(
+            f"--{side}-variant", metavar="NAME", action=Once, help=f"the variant of the robot {side} alone"
+        )
     add_spec_options(parser)
     add_telling_options(parser)
 
