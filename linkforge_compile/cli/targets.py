@@ -39,6 +39,11 @@ class Targets(NamedTuple):
 
 
 def add_target_options(parser: argparse.ArgumentParser) -> None:
+    add_output_option(parser)
+    parser.add_argument("--format", choices=FORMATS, help="only this one (standard output: urdf unless said)")
+
+
+def add_output_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o",
         "--output",
@@ -49,7 +54,6 @@ def add_target_options(parser: argparse.ArgumentParser) -> None:
         help="a folder for NAME.urdf and NAME.srdf, or a file that ends in .urdf, .srdf or .xml; "
         "once more for the file of the other format",
     )
-    parser.add_argument("--format", choices=FORMATS, help="only this one (standard output: urdf unless said)")
 
 
 def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets:
