@@ -27,8 +27,8 @@ _UNWRITABLE_IN_TARGETS = re.compile(r"[\n\r;|=%]")
 
 
 def write_depfile(path: str, outputs: Sequence[Path], compilation: Compilation) -> None:
-    """Write the rule by which outputs depend on all that they were made from."""
-    write_if_changed(Path(path), make_rule(outputs, inputs_of(compilation)))
+    """Write the rules by which outputs depend on all that they were made from."""
+    write_if_changed(Path(path), make_rules(outputs, inputs_of(compilation)))
 
 
 def inputs_of(compilation: Compilation) -> tuple[Path, ...]:
@@ -36,10 +36,16 @@ def inputs_of(compilation: Compilation) -> tuple[Path, ...]:
     return tuple(dict.fromkeys((*compilation.files, *compiler_files())))
 
 
-def make_rule(outputs: Iterable[Path], inputs: Iterable[Path]) -> str:
-    """Return `OUTPUTS: INPUTS`, an input a line; UsageError for a name that no makefile can hold."""
+def make_rules(outputs: Iterable[Path], inputs: Sequence[Path]) -> str:
+    """Return `OUTPUTS: INPUTS` and an `INPUT:` for each; UsageError for a name that no makefile can hold.
+
+    By its empty rule Make takes an input that is gone for one that has changed, as behind `gcc -MP`: who deletes a
+    module need not delete the depfile as well.
+    """
     targets = " ".join(_escaped(output, _UNWRITABLE_IN_TARGETS) for output in outputs)
-    return " \\\n  ".join((f"{targets}:", *map(_escaped, inputs))) + "\n"
+    rule = " \\\n  ".join((f"{targets}:", *map(_escaped, inputs)))
+    empty = (f"{_escaped(path)}:" for path in inputs if not _UNWRITABLE_IN_TARGETS.search(path.as_posix()))
+    return "\n".join((rule, *empty, ""))
 
 
 def _escaped(path: Path, unwritable: re.Pattern[str] = _UNWRITABLE) -> str:

@@ -129,6 +129,14 @@ def test_make_builds_again_when_a_file_changes_and_else_not(cell: Path):
         assert not makefile.compiles()
 
 
+def test_a_file_that_is_gone_stops_no_make(cell: Path):
+    assert main(["compile", "cell.robot.yaml", "-o", "robot.urdf", "--depfile", "robot.d"]) == 0
+    makefile = Makefile(cell)
+    for name in (*FILES, "die.stl"):
+        (cell / name).unlink()
+    assert makefile.compiles()
+
+
 @pytest.mark.parametrize("name", ["a b.yaml", "a#b.yaml", "a$b.yaml", "a:b.yaml", "a%b.yaml", "a'b.yaml", "ä.yaml"])
 def test_make_reads_names_with_what_means_something_to_it(cell: Path, name: str):
     (cell / name).write_text("width: 2\n")
@@ -140,6 +148,8 @@ def test_make_reads_names_with_what_means_something_to_it(cell: Path, name: str)
     assert not makefile.compiles()
     aged(cell / name, -100)
     assert makefile.compiles()
+    (cell / name).unlink()
+    assert "%" in name or makefile.compiles()
 
 
 def test_a_name_that_no_makefile_can_hold_is_told(cell: Path, capfd: pytest.CaptureFixture[str]):

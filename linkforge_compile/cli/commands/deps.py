@@ -52,9 +52,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.format == "json":
         write_to_stdout(_json_text(compilation))
     elif not is_faulty:
-        from linkforge_compile.cli.depfile import inputs_of, make_rule
+        from linkforge_compile.cli.depfile import inputs_of, make_rules
 
-        write_to_stdout(make_rule(_outputs(spec, arguments.outputs, compilation), inputs_of(compilation)))
+        write_to_stdout(make_rules(_outputs(spec, arguments.outputs, compilation), inputs_of(compilation)))
     return FAULTY_SPEC if is_faulty else OK
 
 
