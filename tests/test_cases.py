@@ -23,6 +23,7 @@ WITHOUT_A_CASE = {
     "LF3028": "modules/test_parameters.py",
     "LF3065": "modules/test_includes.py",
     "LF3066": "modules/test_includes.py",
+    "LF3067": "cli/test_check.py",
     "LF3080": "modules/test_variants.py",
     "LF3029": "modules/test_parameters.py",
     "LF3302": "diagnostics/test_floods.py",

@@ -20,7 +20,9 @@ class TooManyFilesError(Exception):
 
 
 def specs_below(root: Path) -> tuple[Path, ...]:
-    """Return the specs in a folder and below it, sorted; not those in hidden folders, links and what tools made.
+    """Return the specs in a folder and below it, sorted; nothing hidden, nothing in linked folders and what tools made.
+
+    A link to one of them is the same spec once more, and left out.
 
     Raises:
         TooManyFilesError: For more than MAX_SPECS specs or MAX_FOLDERS folders.
@@ -31,7 +33,13 @@ def specs_below(root: Path) -> tuple[Path, ...]:
         found.append(spec)
         if len(found) > MAX_SPECS:
             raise TooManyFilesError(f"more than {MAX_SPECS} specs")
-    return tuple(sorted(found))
+    files = {os.path.realpath(spec) for spec in found if not spec.is_symlink()}
+    return tuple(sorted(spec for spec in found if not spec.is_symlink() or _is_another(spec, files)))
+
+
+def _is_another(link: Path, files: set[str]) -> bool:
+    """Whether a link leads to a file that is not found as itself; that of an editor's lock leads nowhere."""
+    return link.is_file() and os.path.realpath(link) not in files
 
 
 def _specs(root: Path) -> Iterator[Path]:
@@ -40,4 +48,4 @@ def _specs(root: Path) -> Iterator[Path]:
             raise TooManyFilesError(f"more than {MAX_FOLDERS} folders")
         # What is taken out here is not walked into.
         inner[:] = sorted(name for name in inner if not name.startswith(".") and name not in _NOT_SOURCES)
-        yield from (Path(folder, name) for name in files if name.endswith(SPEC_ENDINGS))
+        yield from (Path(folder, name) for name in files if name.endswith(SPEC_ENDINGS) and not name.startswith("."))

@@ -68,3 +68,25 @@ def test_of_two_variants_none_is_forgotten_in_silence(tmp_path: Path):
     run = linkforge("check", "arm.robot.yaml", "--variant", "sim", "--variant", "real", cwd=tmp_path)
     assert run.returncode == 2
     assert "argument --variant: may be given once, found 'sim' and 'real'" in run.stderr
+
+
+def test_a_folder_stands_for_every_spec_in_it_and_below(tmp_path: Path):
+    (tmp_path / "robots" / "parts").mkdir(parents=True)
+    (tmp_path / "robots" / "good.robot.yaml").write_text(PENDULUM)
+    (tmp_path / "robots" / "parts" / "faulty.robot.yaml").write_text(FAULTY)
+    (tmp_path / "robots" / "parts" / "values.yaml").write_text("no: [spec")
+    (tmp_path / "build").mkdir()
+    (tmp_path / "build" / "copy.robot.yaml").write_text(FAULTY)
+    for words in ((), (".",), ("robots", "robots/good.robot.yaml")):
+        run = linkforge("check", *words, cwd=tmp_path)
+        assert run.returncode == 1
+        assert "robots/parts/faulty.robot.yaml:4:45: error: " in run.stderr
+        assert run.stderr.splitlines()[-1] == "checked 2 specs: 3 errors"
+
+
+def test_a_folder_without_specs_is_no_clean_one(tmp_path: Path):
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "good.robot.yaml").write_text(PENDULUM)
+    run = linkforge("check", "empty", "good.robot.yaml", cwd=tmp_path)
+    assert run.returncode == 1
+    assert "there is no spec, NAME.robot.yaml, in the folder 'empty' or below it [LF3067]" in run.stderr

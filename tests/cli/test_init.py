@@ -91,8 +91,9 @@ def test_the_files_for_tools_are_what_these_read(tmp_path: Path):
     (repository,) = yaml.safe_load((folder / ".pre-commit-config.yaml").read_text())["repos"]
     (hook,) = repository["hooks"]
     assert hook["id"] == "linkforge-check"
-    assert linkforge(*hook["entry"].split()[1:], "arm.robot.yaml", cwd=folder).returncode == 0
+    assert linkforge(*hook["entry"].split()[1:], cwd=folder).returncode == 0
     assert re.search(hook["files"], "arm.robot.yaml")
+    assert hook["pass_filenames"] is False
 
 
 def test_its_cmake_finds_the_function_and_gives_it_what_it_takes(tmp_path: Path):

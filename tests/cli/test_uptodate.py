@@ -116,7 +116,7 @@ def test_the_hooks_of_pre_commit_are_commands_of_ours(arm: Path):
     assert (check_hook["id"], uptodate_hook["id"]) == ("linkforge-check", "linkforge-uptodate")
     program, *words = check_hook["entry"].split()
     assert program == "linkforge"
-    assert main([*words, "arm.robot.yaml"]) == 0
+    assert main(words) == 0
     program, *words = uptodate_hook["entry"].split()
     assert program == "linkforge"
     assert main([*words, "arm.robot.yaml", "-o", "urdf/"]) == 0
@@ -125,3 +125,20 @@ def test_the_hooks_of_pre_commit_are_commands_of_ours(arm: Path):
     for name in ("urdf/arm.urdf", "arm.robot.yml", "urdf/arm.xml", "urdf/arm.urdf.map.json", "meshes/HAND.STL"):
         assert re.search(uptodate_hook["files"], name), name
     assert not re.search(uptodate_hook["files"], "package.json")
+
+
+def test_the_check_hook_finds_what_a_changed_module_breaks(arm: Path, capfd: pytest.CaptureFixture[str]):
+    hook, _ = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
+    words = hook["entry"].split()[1:]
+    (arm / "parts").mkdir()
+    module = arm / "parts" / "hand.yaml"
+    module.write_text("linkforge: 1\nname: hand\nlinks: {palm: }\n")
+    user = "linkforge: 1\nname: cell\nlinks: {base: }\nmodules: {hand: {use: hand.yaml, parent: base}}\n"
+    (arm / "parts" / "cell.robot.yaml").write_text(user)
+    assert main(words) == 0
+    assert "checked 2 specs" in capfd.readouterr().err
+    module.write_text("linkforge: 1\nname: hand\nlinks: {palm: {inertial: {mass: -1}}}\n")
+    assert re.search(hook["files"], "parts/hand.yaml")
+    assert hook["pass_filenames"] is False
+    assert main(words) == 1
+    assert "parts/hand.yaml:3" in capfd.readouterr().err

@@ -258,8 +258,20 @@ def test_a_package_of_the_command_line_is_found(tmp_path: Path):
 
 def test_specs_are_those_that_a_person_wrote(tmp_path: Path):
     copies = {f"{folder}/arm.robot.yaml": ARM for folder in (".venv", "build/arm", "install/share", "parts/.hidden")}
-    root = written(tmp_path, {**copies, "a/b.robot.yml": ARM, "c.robot.yaml": ARM, "d.yaml": ARM})
+    hidden = {"a/.b.robot.yml": ARM, "._c.robot.yaml": "\0"}
+    root = written(tmp_path / "repo", {**copies, **hidden, "a/b.robot.yml": ARM, "c.robot.yaml": ARM, "d.yaml": ARM})
     assert [path.relative_to(root).as_posix() for path in specs_below(root)] == ["a/b.robot.yml", "c.robot.yaml"]
+
+
+def test_a_spec_that_links_lead_to_is_one(tmp_path: Path):
+    far = written(tmp_path / "far", {"d.robot.yaml": ARM})
+    root = written(tmp_path / "repo", {"parts/a.robot.yaml": ARM})
+    (root / "again.robot.yaml").symlink_to("parts/a.robot.yaml")
+    (root / "parts again").symlink_to("parts")
+    (root / ".#a.robot.yaml").symlink_to("somebody@machine.123")
+    (root / "lock.robot.yaml").symlink_to("somebody@machine.123")
+    (root / "d.robot.yaml").symlink_to(far / "d.robot.yaml")
+    assert [path.relative_to(root).as_posix() for path in specs_below(root)] == ["d.robot.yaml", "parts/a.robot.yaml"]
 
 
 def test_a_folder_of_more_than_robots_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
@@ -21,6 +23,7 @@ A required parameter without a value is no error here: what depends on it is not
 
 examples:
   linkforge check robots/*.robot.yaml
+  linkforge check                                   every spec below, but in hidden folders, build, install and log
   linkforge check arm.robot.yaml hardware:=mock
   linkforge check --all-variants arm.robot.yaml     with the defaults and with each of its variants
   linkforge check --format github *.robot.yaml      as annotations of a pull request, on standard output
@@ -30,7 +33,12 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
-    parser.add_argument("words", metavar="SPEC", nargs="+", help="specs, NAME.robot.yaml; - for standard input")
+    parser.add_argument(
+        "words",
+        metavar="SPEC",
+        nargs="*",
+        help="specs, NAME.robot.yaml, or folders (. unless said); - for standard input",
+    )
     parser.add_argument(
         "--all-variants", action="store_true", help="check the defaults and every variant of each spec, in one report"
     )
@@ -42,15 +50,14 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.diagnostics.render import summary
 
     words, assignments = split_assignments(arguments.words)
-    specs = list(dict.fromkeys(words))
-    if not specs:
-        raise UsageError("takes at least one spec")
+    meant = {word: _specs(word) for word in words or ["."]}
+    specs = list(dict.fromkeys(spec for ours in meant.values() for spec in ours))
     if arguments.all_variants and arguments.variant is not None:
         raise UsageError("takes --variant or --all-variants, not both")
     if arguments.all_variants and "-" in specs:
         raise UsageError("--all-variants takes files, not standard input")
     # Specs that use one module share its faults: each is told and counted once.
-    found: dict[str, Diagnostic] = {}
+    found = {str(one): one for one in _without_specs(meant)}
     variants = 0
     for spec in specs:
         compilations = _checked(spec, assignments, arguments)
@@ -65,6 +72,25 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.quiet:
         to_stderr(f"{checked}: {summary(told)}\n")
     return FAULTY_SPEC if has_errors(told) else OK
+
+
+def _specs(word: str) -> tuple[str, ...]:
+    """Return what a word of the command line means: itself, or every spec in a folder and below, if any."""
+    # Path.is_dir raises for a name that is too long.
+    if not os.path.isdir(word):  # noqa: PTH112
+        return (word,)
+    from linkforge_compile.editor.specs import TooManyFilesError, specs_below
+
+    try:
+        return tuple(map(str, specs_below(Path(word))))
+    except TooManyFilesError as error:
+        raise UsageError(f"there are {error} below '{word}'; name the folders of the robots") from error
+
+
+def _without_specs(meant: Mapping[str, tuple[str, ...]]) -> Iterator[Diagnostic]:
+    from linkforge_compile.diagnostics.codes.modules import NO_SPEC_BELOW
+
+    return (NO_SPEC_BELOW.at(None, path=word) for word, specs in meant.items() if not specs)
 
 
 def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Mapping[str | None, Compilation]:

@@ -16,6 +16,7 @@ UNKNOWN_PACKAGE = Code(
     _WRITER,
 )
 USE_OF_NOWHERE = Code("LF3006", _E, "'{path}' leads nowhere: {reason}", _WRITER)
+NO_SPEC_BELOW = Code("LF3067", _E, "there is no spec, NAME.robot.yaml, in the folder '{path}' or below it")
 
 # LF301x: modules
 MODULE_WITHOUT_FILE = Code("LF3010", _E, "module '{name}' has no 'use'; write 'use: FILE.robot.yaml'")
