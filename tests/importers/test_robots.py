@@ -6,41 +6,73 @@ import runpy
 from contextlib import redirect_stdout
 from io import StringIO
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
-from benchmarks.import_table import differences_of
-from linkforge_compile import Severity, compile_text, import_urdf, render_srdf, render_urdf
+from linkforge_compile import Diagnostic, Severity, compile_text, import_urdf, render_srdf, render_urdf
 from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar, read
 from tests.importers.robots import OF_CORPUS, OF_EXAMPLES, PAIRS
 
+OTHER_ROBOT = "LF8103"
+"""An SRDF is written for a robot of another name, which does not come back."""
 
-def imported(path: Path) -> str:
-    whole = import_urdf(path)
+
+class Documents(NamedTuple):
+    """A robot in the formats that it comes in and goes out; `srdf` is None where it has none."""
+
+    urdf: Path
+    srdf: Path | None
+
+    def __str__(self) -> str:
+        own = self.srdf or self.urdf
+        return f"{own.parent.parent.name}-{own.stem}"
+
+
+ROBOTS = [
+    *(Documents(urdf, None) for urdf in (*OF_CORPUS, *OF_EXAMPLES) if urdf not in {urdf for urdf, _ in PAIRS}),
+    *(Documents(urdf, srdf) for urdf, srdf in PAIRS),
+]
+
+
+def imported(robot: Documents) -> tuple[str, tuple[Diagnostic, ...]]:
+    """Return the spec of a robot, and what of it is lost."""
+    whole = import_urdf(robot.urdf, srdf=robot.srdf)
     assert whole.text is not None, whole.diagnostics
     assert not whole.has_errors, whole.diagnostics
-    assert not whole.losses
-    return whole.text
+    return whole.text, whole.losses
 
 
-def compiled(text: str) -> str:
+def compiled(text: str, folder: Path) -> Documents:
+    """Return the documents that a spec compiles to."""
     compilation = compile_text(text)
     errors = [str(one) for one in compilation.diagnostics if one.severity is Severity.ERROR]
     assert not errors
-    return render_urdf(compilation.result())
+    robot = compilation.result()
+    folder.mkdir()
+    documents = Documents(folder / "robot.urdf", folder / "robot.srdf" if robot.says_semantic else None)
+    documents.urdf.write_text(render_urdf(robot), "utf-8")
+    if documents.srdf:
+        documents.srdf.write_text(render_srdf(robot), "utf-8")
+    return documents
+
+
+def texts(robot: Documents) -> list[str]:
+    return [path.read_text("utf-8") for path in robot if path]
 
 
 @pytest.fixture(scope="session")
 def judge(shared: Path):
-    """Return what tells whether two files are the same robot to each consumer; in process, which costs a tenth."""
+    """Return what tells whether two robots are the same to each consumer; in process, which costs a tenth."""
     main = runpy.run_path(str(shared / "tools" / "urdf_equiv.py"))["main"]
 
-    def checks(theirs: Path, ours: Path) -> dict[str, dict[str, object]]:
+    def checks(theirs: Documents, ours: Documents) -> dict[str, dict[str, object]]:
+        both = ["--srdf", str(theirs.srdf), str(ours.srdf)] if theirs.srdf else []
         with redirect_stdout(StringIO()) as told:
-            main([str(theirs), str(ours), "--json"])
+            main([str(theirs.urdf), str(ours.urdf), *both, "--json"])
         return json.loads(told.getvalue())["checks"]
 
     return checks
@@ -54,22 +86,24 @@ COLOURED_BY_ORDER = {"so101", "talos_full_v2", "talos_full_v2_box"}
 first of two colours of one name counts, and a collision has the colour of the visual before it."""
 
 
-@pytest.mark.parametrize("path", [*OF_CORPUS, *OF_EXAMPLES], ids=lambda path: f"{path.parent.parent.name}-{path.stem}")
-def test_a_robot_is_the_same_to_every_consumer_and_stays_so(path: Path, judge, tmp_path: Path):
+@pytest.mark.parametrize("robot", ROBOTS, ids=str)
+def test_a_robot_is_the_same_to_every_consumer_and_stays_so(robot: Documents, judge, tmp_path: Path):
     """What came in once stays: its spec comes again from what that compiles to, and from then on byte for byte."""
-    spec = imported(path)
-    urdf = compiled(spec)
-    ours = tmp_path / "ours.urdf"
-    ours.write_text(urdf, "utf-8")
-    checks = judge(path, ours)
+    spec, losses = imported(robot)
+    renamed = [loss for loss in losses if loss.code.id == OTHER_ROBOT]
+    assert len(losses) == len(renamed)
+    ours = compiled(spec, tmp_path / "ours")
+    checks = judge(robot, ours)
     mujoco = checks.pop("mujoco")
+    assert [one["path"] for one in checks.pop("srdf", {}).get("fatal", ())] == ["/robot/@name"] * len(renamed)
     assert {name: check["status"] for name, check in checks.items()} == dict.fromkeys(("xml", "pin", "urdfdom"), "same")
-    if path.stem in COLOURED_BY_ORDER:
+    if robot.urdf.stem in COLOURED_BY_ORDER:
         assert all(one.endswith(": geoms differ") for one in mujoco["diffs"])
     else:
-        assert mujoco["status"] == ("both-reject" if path.stem in REFUSED_BY_MUJOCO else "same")
-    again = imported(ours)
-    assert compiled(again) == urdf
+        assert mujoco["status"] == ("both-reject" if robot.urdf.stem in REFUSED_BY_MUJOCO else "same")
+    again, lost_again = imported(ours)
+    assert not lost_again
+    assert texts(compiled(again, tmp_path / "again")) == texts(ours)
     assert told(again) == told(spec)
 
 
@@ -89,37 +123,3 @@ def _told(node: YamlNode | None) -> object:
     words = " ".join(re.sub(r"<!--.*?-->", "", node.text, flags=re.DOTALL).split())
     dense = re.sub(r"\s*(/?>|=)\s*", r"\1", words)
     return re.sub(r"<([^\s<>]+)([^<>]*)></\1>", r"<\1\2/>", dense)
-
-
-def of_pair(pair: tuple[Path, Path]) -> str:
-    return f"{pair[1].parent.parent.name}-{pair[1].stem}"
-
-
-@pytest.mark.parametrize("pair", PAIRS, ids=of_pair)
-def test_a_robot_with_its_srdf_is_the_same_but_for_the_name_that_was_told(pair: tuple[Path, Path], shared: Path):
-    urdf, srdf = pair
-    read = import_urdf(urdf, srdf=srdf)
-    assert read.text is not None
-    assert not read.has_errors, read.diagnostics
-    robot = compile_text(read.text).result()
-    differences = differences_of(robot, shared / "tools" / "urdf_equiv.py", urdf, srdf, "xml")
-    renamed = [loss for loss in read.losses if loss.code.id == "LF8103"]
-    assert [one["path"] for one in differences] == ["/robot/@name"] * len(renamed)
-    assert len(read.losses) == len(renamed)
-
-
-@pytest.mark.parametrize("pair", PAIRS[::4], ids=of_pair)
-def test_an_srdf_that_came_in_once_stays_as_it_is(pair: tuple[Path, Path], tmp_path: Path):
-    urdf, srdf = pair
-    specs, documents = [], []
-    for number in range(3):
-        text = import_urdf(urdf, srdf=srdf).text
-        assert text is not None
-        robot = compile_text(text).result()
-        specs.append(text)
-        documents.append((render_urdf(robot), render_srdf(robot)))
-        urdf, srdf = (tmp_path / f"{number}.{kind}" for kind in ("urdf", "srdf"))
-        for file, document in zip((urdf, srdf), documents[-1], strict=True):
-            file.write_text(document, "utf-8")
-    assert documents[0] == documents[1] == documents[2]
-    assert specs[1] == specs[2]
