@@ -114,10 +114,14 @@ def test_parameters_become_elements():
     ]
 
 
-@pytest.mark.parametrize("key", ["two words", "1st", "a<b", "", "a:b:c", "-x"])
+@pytest.mark.parametrize("key", ["two words", "1st", "a<b", "", "a:b:c", "-x", "a\ufffd", "a:\u0300", "\ud800"])
 def test_a_key_that_is_no_tag_is_refused(key: str):
     with pytest.raises(RobotGeneratorError, match="cannot be the name of an XML element"):
         parameter_elements({key: "1"})
+
+
+def test_a_tag_may_be_in_any_language():
+    assert parameter_elements({"größe": "1", "ros:高さ": "2"}) == "<größe>1</größe>\n<ros:高さ>2</ros:高さ>"
 
 
 def test_text_beside_an_element_of_the_same_name_stays_xml():

@@ -26,12 +26,15 @@ MOST_KEPT = 70
 _LIMITS = (f"-max_len={LONGEST}", "-timeout=60", "-rss_limit_mb=2048")
 
 
-def fuzz(target: str, seconds: int, found: Path, beginning: Path) -> int:
-    """Fuzz for so long and return the exit code, 0 where every promise is kept; `found` takes what reaches more."""
+def fuzz(target: str, seconds: int, found: Path, beginning: Path, dice: int = 0) -> int:
+    """Fuzz for so long and return the exit code, 0 where every promise is kept; `found` takes what reaches more.
+
+    `dice` says how chance falls; 0 means otherwise each time.
+    """
     dictionary = found.with_name("words")
     quoted = (word.replace("\\", r"\\").replace('"', r"\"") for word in dict.fromkeys(words(target)))
     dictionary.write_text("".join(f'"{word}"\n' for word in quoted), "utf-8")
-    given = (f"-max_total_time={seconds}", f"-dict={dictionary}", *_LIMITS)
+    given = (f"-max_total_time={seconds}", f"-seed={dice}", f"-dict={dictionary}", *_LIMITS)
     return _run(target, *given, str(found), str(beginning))
 
 
