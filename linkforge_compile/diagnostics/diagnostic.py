@@ -118,7 +118,9 @@ class Code:
             return used, ()
         if self.blame is Blame.WRITER or (self.blame is Blame.KIND and origin.is_data):
             return origin.span, (Note("the value is used here", used),)
-        return used, (Note("the value is written here", origin.span),)
+        meant = used.meant if self.blame is Blame.KIND else None
+        way_out = f"; write '{meant}'" if meant else ""
+        return used, (Note(f"the value is written here{way_out}", origin.span),)
 
 
 def notes_of_changes(changes: Iterable[Change], told: Span | None) -> tuple[Note, ...]:

@@ -1,6 +1,7 @@
 """`$(...)`: from text to a value, by an allow-list over Python's grammar; nothing is ever run."""
 
 from linkforge_compile.expressions.evaluate import evaluate, handed_on
+from linkforge_compile.expressions.forgotten import as_one_expression, forgotten_expression
 from linkforge_compile.expressions.functions import RESERVED_NAMES
 from linkforge_compile.expressions.parse import has_expression, parse_template
 from linkforge_compile.expressions.scope import FileFunction, Lazy, Scope
@@ -18,8 +19,10 @@ __all__ = [
     "Scope",
     "Template",
     "Value",
+    "as_one_expression",
     "as_text",
     "evaluate",
+    "forgotten_expression",
     "handed_on",
     "has_expression",
     "kind_name",

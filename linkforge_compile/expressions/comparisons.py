@@ -34,7 +34,7 @@ def _is_number(value: Value) -> bool:
 
 
 def _numbers(left: Value, right: Value, taker: str, predicate: Predicate) -> bool:
-    (a, left_dimension), (b, right_dimension) = number(left, taker), number(right, taker)
+    (a, left_dimension), (b, right_dimension) = number(left, taker, 0), number(right, taker, 1)
     shared_dimension((left_dimension, right_dimension), taker)
     return predicate(a, b)
 

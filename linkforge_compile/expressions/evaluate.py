@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import TypeVar
+from typing import TypeAlias, TypeVar
 
 from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostics
@@ -18,8 +18,17 @@ from linkforge_compile.expressions.operators import ARITHMETIC, MAX_TEXT, is_too
 from linkforge_compile.expressions.scope import Scope
 from linkforge_compile.expressions.template import Expression, Template
 from linkforge_compile.expressions.types import FAULT, Fault, RefusedError, Value, as_text, joined, kind_name
+from linkforge_compile.source import Span
 
 T = TypeVar("T")
+
+Trace: TypeAlias = Callable[[str, Span], Span]
+"""Makes the place of a part of an expression, of which it is given the text, one that can tell of its value."""
+
+
+def _untraced(_expression: str, where: Span) -> Span:
+    return where
+
 
 _CHARACTERS_A_STEP = 4
 """How long the text of an expression is for each step that computing it takes, roughly."""
@@ -28,16 +37,22 @@ _STEPS_OF_A_FAULT = 50
 """What it takes to tell of an expression that it has no value, where a `for` makes it fail each time."""
 
 
-def evaluate(template: Template, scope: Scope, sink: Diagnostics, *, is_xml: bool = False) -> Value | Fault:
+def evaluate(
+    template: Template, scope: Scope, sink: Diagnostics, *, is_xml: bool = False, trace: Trace = _untraced
+) -> Value | Fault:
     """Return the value of the expression that is the whole text, else the text with the values of its expressions.
 
     In a text that is XML, the values of those around which there is more are text of it and no markup. FAULT where
-    one is at fault, which is reported, or uses a name that is FAULT, which was reported.
+    one is at fault, which is reported, or uses a name that is FAULT, which was reported. `trace` makes the place of
+    a part of an expression one that can tell where its value comes from.
     """
     match template.parts:
         case (Expression() as whole,):
-            return _evaluate(whole, scope, sink)
-    texts = [part if isinstance(part, str) else _evaluate_to_text(part, scope, sink) for part in template.parts]
+            return _evaluate(_Evaluation(whole, scope, sink, trace))
+    texts = [
+        part if isinstance(part, str) else _evaluate_to_text(_Evaluation(part, scope, sink, trace))
+        for part in template.parts
+    ]
     if None in texts:
         return FAULT
     text = joined(*(_in_xml(template, texts) if is_xml else (text for text in texts if text is not None)))
@@ -70,25 +85,27 @@ def handed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, .
     return None
 
 
-def _evaluate_to_text(expression: Expression, scope: Scope, sink: Diagnostics) -> str | None:
-    value = _evaluate(expression, scope, sink)
+def _evaluate_to_text(evaluation: _Evaluation) -> str | None:
+    value = _evaluate(evaluation)
     if isinstance(value, Fault):
         return None
     text = as_text(value)
     if text is None:
-        sink.report(codes.NOT_TEXT.at(expression.span(expression.tree), found=kind_name(value)))
+        expression = evaluation.expression
+        evaluation.sink.report(codes.NOT_TEXT.at(expression.span(expression.tree), found=kind_name(value)))
     return text
 
 
-def _evaluate(expression: Expression, scope: Scope, sink: Diagnostics) -> Value | Fault:
+def _evaluate(evaluation: _Evaluation) -> Value | Fault:
+    expression, scope = evaluation.expression, evaluation.scope
     scope.budget.spend(Limit.STEPS, len(expression.text) // _CHARACTERS_A_STEP + 1, expression.place.span)
     unknown = [name for name in expression.names if name.id not in scope]
     for name in unknown:
-        sink.report(codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, near=[*scope, *CONSTANTS]))
+        evaluation.sink.report(codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, near=[*scope, *CONSTANTS]))
     if unknown:
         return FAULT
     try:
-        return _Evaluation(expression, scope, sink).value(expression.tree)
+        return evaluation.value(expression.tree)
     except _FaultError:
         scope.budget.spend(Limit.STEPS, _STEPS_OF_A_FAULT, expression.place.span)
         return FAULT
@@ -107,10 +124,11 @@ def _text(taker: str, value: Value) -> str:
 class _Evaluation:
     """One evaluation of one expression; what is at fault is reported where it stands."""
 
-    def __init__(self, expression: Expression, scope: Scope, sink: Diagnostics) -> None:
-        self._expression = expression
-        self._scope = scope
-        self._sink = sink
+    def __init__(self, expression: Expression, scope: Scope, sink: Diagnostics, trace: Trace = _untraced) -> None:
+        self.expression = expression
+        self.scope = scope
+        self.sink = sink
+        self._trace = trace
 
     def value(self, node: ast.expr) -> Value:
         match node:
@@ -156,7 +174,7 @@ class _Evaluation:
         return None
 
     def _named(self, name: str) -> Value:
-        value = self._scope.lookup(name, self._sink)
+        value = self.scope.lookup(name, self.sink)
         if isinstance(value, Fault):
             raise _FaultError
         return value
@@ -168,11 +186,11 @@ class _Evaluation:
 
     def _asked_of_the_file(self, name: ast.Name, argument: ast.expr) -> Value:
         text = self._apply(partial(_text, f"{name.id}()"), name, argument)
-        function = self._scope.function(name.id)
+        function = self.scope.function(name.id)
         if function is None:
-            self._sink.report(codes.UNKNOWN_FUNCTION.at(self._expression.span(name), name=name.id))
+            self.sink.report(codes.UNKNOWN_FUNCTION.at(self.expression.span(name), name=name.id))
             raise _FaultError
-        value = function(text, self._expression.span(argument), self._sink)
+        value = function(text, self.expression.span(argument), self.sink)
         if isinstance(value, Fault):
             raise _FaultError
         return value
@@ -197,9 +215,9 @@ class _Evaluation:
         def counting(*values: Value) -> T:
             for value in values:
                 if isinstance(value, tuple):
-                    self._scope.budget.spend(Limit.STEPS, len(value), self._expression.place.span)
+                    self.scope.budget.spend(Limit.STEPS, len(value), self.expression.place.span)
                 elif isinstance(value, str):
-                    self._scope.budget.spend(Limit.CHARACTERS_MADE, len(value), self._expression.place.span)
+                    self.scope.budget.spend(Limit.CHARACTERS_MADE, len(value), self.expression.place.span)
             return operation(*values)
 
         return counting
@@ -214,12 +232,15 @@ class _Evaluation:
         try:
             return operation(*values)
         except RefusedError as refused:
-            expression = self._expression
+            expression = self.expression
             if refused.operand is None:
-                span = expression.span(node)
+                span = self._place(node)
             elif refused.operand < len(operands):
-                span = expression.span(operands[refused.operand])
+                span = self._place(operands[refused.operand])
             else:
                 span = expression.key_span(node)
-            self._sink.report(refused.code.at(span, near=refused.near, notes=(), **refused.facts))
+            self.sink.report(refused.code.at(span, near=refused.near, notes=(), **refused.facts))
             raise _FaultError from None
+
+    def _place(self, node: ast.expr) -> Span:
+        return self._trace(self.expression.written(node), self.expression.span(node))

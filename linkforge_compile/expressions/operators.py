@@ -18,6 +18,7 @@ from linkforge_compile.expressions.types import (
     seen_from_compiled,
 )
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.units import Dimension, Quantity
 
 Number: TypeAlias = int | float
@@ -150,5 +151,7 @@ def truth(value: Value, taker: str, operand: int | None = None) -> bool:
     """Return a boolean; refuse what only Python would take for one, such as the text 'false'."""
     if isinstance(value, bool):
         return value
+    if isinstance(value, str) and (meant := TRUTHS_OF_YAML_1_1.get(value.lower())):
+        raise RefusedError(codes.TRUTH_AS_TEXT, operand=operand, name=value, meant=meant)
     expected = "true or false"
     raise RefusedError(codes.WRONG_KIND, operand=operand, taker=taker, expected=expected, found=kind_name(value))

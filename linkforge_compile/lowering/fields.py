@@ -11,6 +11,7 @@ from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.diagnostics import Code, Diagnostics, notes_of_changes
+from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT
 from linkforge_compile.diagnostics.codes.model import (
     MISSING_FIELD,
     REFUSED,
@@ -25,6 +26,7 @@ from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.quantities import Bound, Measure, Refusal, doubt, found, si_number
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
+from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.syntax.xacro import xacro_facts
 from linkforge_compile.units import Dimension, number_text
 
@@ -86,7 +88,10 @@ class Fields:
             return None
         if isinstance(node, YamlScalar) and isinstance(node.value, bool):
             return node.value
-        self.tell(WRONG_KIND, node, field=key, expected="true or false", found=found(node))
+        if isinstance(node, YamlScalar) and (meant := TRUTHS_OF_YAML_1_1.get(node.text.lower())):
+            self.tell(TRUTH_AS_TEXT, node, name=node.text, meant=meant)
+        else:
+            self.tell(WRONG_KIND, node, field=key, expected="true or false", found=found(node))
         return None
 
     def text(self, key: str, *, required: str = "") -> str | None:

@@ -220,7 +220,9 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: _Motion) -> Jo
         _tell_crossed(limits)
     is_one_lost = (lower is None and limits.said("lower")) or (upper is None and limits.said("upper"))
     if are_crossed or is_one_lost or limits.is_faulty:
-        lower, upper = _STAND_IN_LIMITS.lower, _STAND_IN_LIMITS.upper
+        # A continuous joint has none, and is told of those that it has.
+        has_range = joint_type is not JointType.CONTINUOUS
+        lower, upper = (_STAND_IN_LIMITS.lower, _STAND_IN_LIMITS.upper) if has_range else (None, None)
     effort = _STAND_IN_LIMITS.effort if effort is None else effort
     velocity = _STAND_IN_LIMITS.velocity if velocity is None else velocity
     return limits.build(lambda: JointLimits(lower, upper, effort, velocity, source=limits.ref, **extras_of(limits)))

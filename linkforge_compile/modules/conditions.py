@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.diagnostics import Code, Diagnostics
+from linkforge_compile.diagnostics import Code, Diagnostic, Diagnostics
+from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT
 from linkforge_compile.diagnostics.codes.modules import INVALID_VARIABLE_NAME, RESERVED_NAME
 from linkforge_compile.diagnostics.codes.repetition import (
     CONDITION_KIND,
@@ -14,11 +15,12 @@ from linkforge_compile.diagnostics.codes.repetition import (
     KEY_WITHOUT_NAME,
     LONG_FORM,
 )
-from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value
+from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression
 from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.values import describe
 from linkforge_compile.schema.shapes import Shape
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 
 if TYPE_CHECKING:
     from linkforge_compile.modules.evaluate_tree import TreeEvaluator
@@ -86,19 +88,24 @@ def _once(
         tree.disabled.add(thing.key, body, thing.title, condition.span, tree)
 
 
-_TRUTHS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
-"""What YAML 1.1 reads as true and false, and who has written it since may still mean."""
-
-
 def _is_there(condition: YamlNode | None, tree: TreeEvaluator) -> bool | Fault:
     value = True if condition is None else tree.value(condition)
     if value is None or isinstance(value, bool | Fault):
         return True if value is None else value
     assert condition is not None, "without a condition, the value is True"
-    meant = _TRUTHS.get(value.lower()) if isinstance(value, str) else None
-    way_out = f", which YAML 1.2 reads as text; write {meant} where it is set" if meant else ""
-    tree.sink.report(CONDITION_KIND.at(tree.place(condition), found=f"{describe(value)}{way_out}"))
+    tree.sink.report(_no_condition(value, condition, tree))
     return FAULT
+
+
+def _no_condition(value: Value, condition: YamlNode, tree: TreeEvaluator) -> Diagnostic:
+    """Tell of a value that is neither true nor false, and of what was meant where that shows."""
+    place = tree.place(condition)
+    if isinstance(value, str) and (meant := TRUTHS_OF_YAML_1_1.get(value.lower())):
+        return TRUTH_AS_TEXT.at(place, name=value, meant=meant)
+    names, text = tree.scope, condition.text if isinstance(condition, YamlScalar) else ""
+    whole = as_one_expression(text, condition.span, names)
+    way_out = f"; write '{whole}'" if whole else ""
+    return CONDITION_KIND.at(place, found=f"{describe(value)}{way_out}")
 
 
 def _repeated(

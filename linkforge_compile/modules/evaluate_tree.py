@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field, replace
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
-from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TEXT_NOT_NUMBER, TREE_TOO_LARGE
+from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TREE_TOO_LARGE
 from linkforge_compile.diagnostics.codes.repetition import RESERVED_KEY
 from linkforge_compile.expressions import (
     FAULT,
@@ -28,18 +27,16 @@ from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.computed import judge_computed
 from linkforge_compile.modules.conditions import occurrences
 from linkforge_compile.modules.disabled import Disabled
+from linkforge_compile.modules.made_number import tell_made_number
 from linkforge_compile.modules.origins import ExpressionTrace, Setting
 from linkforge_compile.modules.values import node_of, passed_on, plain_value, size_of
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.source import ComputedSpan, SourceFile, Span
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
-from linkforge_compile.units import parse_quantity
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
 MAX_COMPUTED_DEPTH = 100
 """How deep the lists and maps of one value may lie in one another: every later stage walks them by recursion."""
-
-_NEGATED = re.compile(r"-\s*\$\(\s*([A-Za-z_][\w.]*)\s*\)")
 
 
 class Expressions:
@@ -121,21 +118,6 @@ class Expressions:
             return False
         self.budget.spend(Limit.VALUES, size.nodes, where)
         self.budget.spend(Limit.CHARACTERS_MADE, size.characters, where)
-        return True
-
-    def tell_made_number(self, node: YamlNode, value: Value, sink: Diagnostics) -> bool:
-        """Report text that an expression inside it makes look like a number or quantity; True where it does.
-
-        Fields read numbers and units only where a person typed them, or where the whole is one expression.
-        """
-        if not isinstance(node, YamlScalar) or not has_expression(node.text) or not _looks_like_number(value):
-            return False
-        template = self.template(node, sink)
-        if template is None or len(template.parts) == 1:
-            return False
-        negated = _NEGATED.fullmatch(node.text.strip())
-        remedy = f"write '$(-{negated[1]})'" if negated else "make the whole one expression, such as '$(-a)'"
-        sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=remedy))
         return True
 
 
@@ -303,12 +285,20 @@ class TreeEvaluator:
         template = self.expressions.template(scalar, self.sink)
         if template is None:
             return FAULT
-        return evaluate(template, self.scope_of(scalar), self.sink, is_xml=is_xml)
+        return evaluate(template, self.scope_of(scalar), self.sink, is_xml=is_xml, trace=self._traced)
+
+    def _traced(self, expression: str, where: Span) -> Span:
+        """Return the place of a part of an expression as one that can tell where its value comes from."""
+        whole = f"$({expression})"
+        return ComputedSpan.of(where, ExpressionTrace(YamlScalar(whole, whole, where), self))
+
+    def _is_made_number(self, scalar: YamlScalar, value: Value) -> bool:
+        return tell_made_number(scalar, value, self.expressions, self.scope_of(scalar), self.sink)
 
     def _scalar(self, scalar: YamlScalar, shape: Shape, is_free: bool) -> YamlNode:
         value = self._computed(scalar, is_xml=shape.is_xml)
         is_text = is_free or shape.is_text
-        if value is FAULT or (not is_text and self.expressions.tell_made_number(scalar, value, self.sink)):
+        if value is FAULT or (not is_text and self._is_made_number(scalar, value)):
             return YamlFault(scalar.span)
         admitted = self.expressions.admit(value, scalar.span, self.sink)
         if not admitted:
@@ -327,10 +317,3 @@ def _passed_on_in(value: Value, shape: Shape, is_free: bool) -> Value:
             item = shape.item
             return tuple(_passed_on_in(one, item, is_free) for one in value)
     return value
-
-
-def _looks_like_number(text: Value) -> bool:
-    if not isinstance(text, str):
-        return False
-    number = scalar_value(text.strip())
-    return isinstance(number, int | float) or parse_quantity(text) is not None

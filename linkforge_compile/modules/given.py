@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import replace
 from enum import Enum
 from pathlib import Path
@@ -21,6 +22,7 @@ from linkforge_compile.modules.arguments import COMMAND_LINE, Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.kinds import Kind, kind_of
 from linkforge_compile.modules.loader import SpecFile
+from linkforge_compile.modules.made_number import tell_made_number
 from linkforge_compile.modules.noted import NotedSink
 from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.parameters import Declaration, Parameter, parameter_of, written
@@ -79,6 +81,11 @@ class Given:
     def place(self, node: YamlNode) -> Span:
         """Return where a given node stands; the place of an expression can tell where its value comes from."""
         return self.tree.place(node) if self.tree else node.span
+
+    @property
+    def names(self) -> Container[str]:
+        """The names that expressions may use where the arguments are written."""
+        return self.tree.scope if self.tree else ()
 
     def settings(self, name: str, node: YamlNode) -> list[Setting]:
         """Return what gives the node to a parameter, and what that took the place of."""
@@ -155,7 +162,7 @@ def _given_value(
     value = None if node is None else given.value(node, parameter.kind)
     if node is None or value is None:
         return None, []
-    taken = _judged(parameter, _Said(node, value, given.place(node)), tree, sink)
+    taken = _judged(parameter, _Said(node, value, given.place(node), given.names), tree, sink)
     path = _in_the_file(parameter, taken, given.arguments.folder, spec)
     if isinstance(taken, str) and path != taken and Path(str(path)).is_absolute():
         sink.report(FILE_OUTSIDE_PACKAGE.at(node.span, path=taken))
@@ -169,7 +176,7 @@ def _own_value(
     value = written(node, parameter.kind, tree)
     if value is None:
         return None
-    taken = _judged(parameter, _Said(node, value, tree.place(node)), tree, sink)
+    taken = _judged(parameter, _Said(node, value, tree.place(node), tree.scope), tree, sink)
     return _in_the_file(parameter, taken, spec.writer(node.span).folder, spec)
 
 
@@ -179,21 +186,23 @@ def _in_the_file(parameter: Parameter, value: Value | Fault, writer: Path | None
 
 
 class _Said(NamedTuple):
-    """What is said of a parameter, what it comes to, and the place to blame for that."""
+    """What is said of a parameter, what it comes to, the place to blame for that, and the names known there."""
 
     node: YamlNode
     value: Value | Fault
     place: Span
+    names: Container[str]
 
 
 def _judged(parameter: Parameter, said: _Said, tree: TreeEvaluator, sink: Diagnostics) -> Value | Fault:
     """Return the value as one of the parameter's type, FAULT where it does not fit, which is reported at its place."""
     if said.value is FAULT:
         return FAULT
-    if not parameter.kind.is_text and tree.expressions.tell_made_number(said.node, said.value, sink):
+    is_text = parameter.kind.is_text
+    if not is_text and tell_made_number(said.node, said.value, tree.expressions, said.names, sink):
         return FAULT
     if parameter.pattern is not None:
         steps = parameter.pattern.steps(str(said.value))
         tree.expressions.budget.spend(Limit.STEPS, steps, said.node.span)
-    taken = parameter.take(said.value, said.place, sink)
+    taken = parameter.take(said.value, said.place, sink, said.names)
     return FAULT if taken is None else taken

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expressions import FAULT, handed_on, has_expression
+from linkforge_compile.expressions import FAULT, forgotten_expression, handed_on, has_expression
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.values import describe
 from linkforge_compile.source import ComputedSpan, Key, Origin
@@ -50,10 +50,18 @@ class ExpressionTrace:
 
     def origin(self, path: Path) -> Origin | None:
         """Return where the part at a path of the value was written; None where the expression itself made it."""
-        node, is_data, key = _written(self.scalar, self.tree, path)
+        node, is_data, key, _ = _written(self.scalar, self.tree, path)
         if node is self.scalar or isinstance(node, YamlFault):
             return None
         return Origin((node.key_span(key) if key else None) or node.span, is_data)
+
+    def meant(self, path: Path) -> str | None:
+        """Return the expression that the part at a path seems meant for, which is text; None for anything else."""
+        written = _written(self.scalar, self.tree, path)
+        node, tree = written.node, written.tree
+        if tree is None or written.key or not isinstance(node, YamlScalar) or has_expression(node.text):
+            return None
+        return forgotten_expression(node.text, node.span, tree.scope) if isinstance(node.value, str) else None
 
 
 class NameOrigin(NamedTuple):
@@ -107,11 +115,15 @@ def _names_in(node: YamlNode, tree: TreeEvaluator | None) -> Iterator[tuple[str,
 
 
 class _Written(NamedTuple):
-    """A node that says a value; `key` where it is the key of the node that is meant, not what stands under it."""
+    """A node that says a value; `key` where it is the key of the node that is meant, not what stands under it.
+
+    `tree` is what computes the node, None where no `$(` is an expression.
+    """
 
     node: YamlNode
     is_data: bool
     key: Key | None = None
+    tree: TreeEvaluator | None = None
 
 
 def _written(node: YamlNode, tree: TreeEvaluator | None, path: Path) -> _Written:
@@ -138,7 +150,7 @@ def _written(node: YamlNode, tree: TreeEvaluator | None, path: Path) -> _Written
             if inner is None:
                 break
             node, path = inner, path[1:]
-    return _Written(node, is_data)
+    return _Written(node, is_data, None, tree)
 
 
 def _part(node: YamlNode, key: str | int) -> YamlNode | None:

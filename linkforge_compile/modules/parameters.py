@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING
 
@@ -20,13 +20,14 @@ from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_TOO_SMALL,
     UNFIT_CONSTRAINT,
 )
-from linkforge_compile.expressions import FAULT, Fault, Value, has_expression
+from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_expression, has_expression
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.kinds import KINDS, Kind
 from linkforge_compile.modules.values import describe
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text
 
 if TYPE_CHECKING:
@@ -91,11 +92,15 @@ class Parameter:
     choices: tuple[Value, ...] | None = None
     pattern: Pattern | None = None
 
-    def take(self, given: Value, where: Span, sink: Diagnostics) -> Value:
-        """Return the value as one of this parameter's type; None where it does not fit, which is reported."""
+    def take(self, given: Value, where: Span, sink: Diagnostics, names: Container[str]) -> Value:
+        """Return the value as one of this parameter's type; None where it does not fit, which is reported.
+
+        `names` are those that expressions may use where it is given.
+        """
         value = self.kind.take(given)
         if value is None:
-            sink.report(PARAMETER_KIND.at(where, parameter=self.name, expected=self.kind.words, found=describe(given)))
+            found = f"{describe(given)}{self._way_out(given, where, names)}"
+            sink.report(PARAMETER_KIND.at(where, parameter=self.name, expected=self.kind.words, found=found))
             return None
         violation = next(self._violations(value, where), None)
         if violation:
@@ -104,6 +109,15 @@ class Parameter:
         if self.kind.name == Dimension.ANGLE and isinstance(given, int | float) and abs(given) > WIDEST_ANGLE:
             sink.report(WIDE_ANGLE.at(where, field=f"parameter '{self.name}'", found=number_text(given)))
         return value
+
+    def _way_out(self, given: Value, where: Span, names: Container[str]) -> str:
+        """Return what to write for a text that was meant as a value of another type; "" for what shows no meaning."""
+        if not isinstance(given, str):
+            return ""
+        if self.kind is KINDS["boolean"] and (truth := TRUTHS_OF_YAML_1_1.get(given.lower())):
+            return f"; write {truth}"
+        meant = forgotten_expression(given, where, names)
+        return f"; write '{meant}'" if meant else ""
 
     def _violations(self, value: Value, where: Span) -> Iterator[Diagnostic]:
         name, found = self.name, describe(value)
@@ -147,7 +161,7 @@ def parameter_of(declaration: Declaration, kind: Kind, tree: TreeEvaluator) -> P
 
 def _constraint(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) -> Value:
     given = FAULT if node is None else written(node, plain.kind, tree)
-    return None if node is None or given is FAULT else plain.take(given, node.span, tree.sink)
+    return None if node is None or given is FAULT else plain.take(given, node.span, tree.sink, tree.scope)
 
 
 def _choices(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) -> tuple[Value, ...] | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.schema import (
@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes.schema import (
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
+from linkforge_compile.schema.meant import Misfit, Path, is_row, meant_expression, way_out
 from linkforge_compile.schema.repetition import has_names
 from linkforge_compile.schema.words import (
     COMMON_KEYS,
@@ -27,7 +28,6 @@ from linkforge_compile.schema.words import (
     expected,
     field,
     found,
-    is_number,
     shortened,
     words_of,
 )
@@ -36,8 +36,6 @@ from linkforge_compile.syntax.xacro import xacro_facts
 
 if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError
-
-Path: TypeAlias = tuple[str | int, ...]
 
 _SHOWN_KEYS = 10
 """More keys than that help nobody who wrote another one."""
@@ -50,21 +48,13 @@ class Judgement(NamedTuple):
     path: Path
 
 
-class Misfit(NamedTuple):
-    """A node, the path to it, and the schema that it does not meet."""
-
-    node: YamlNode
-    path: Path
-    schema: Schema
-
-
 def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
     """Yield the faults behind one error; none where nothing was said or the reader has reported it already."""
     path = tuple(error.absolute_path)
     node = _node_at(tree, path)
     if isinstance(node, YamlFault) or (is_null(node) and not isinstance(path[-1], int)):
         return
-    misfit = Misfit(node, path, mapping(error.schema))
+    misfit = Misfit(node, path, mapping(error.schema), tree)
     meant = None if error.validator != "anyOf" or _is_text(node) else branch_meant(misfit.schema, node)
     if meant is not None:
         for inner in error.context or ():
@@ -78,7 +68,7 @@ def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
 
 
 def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:
-    node, path, schema = misfit
+    node, path, schema, _ = misfit
     known, patterns = mapping(schema.get("properties", {})), mapping(schema.get("patternProperties", {}))
     for entry in node if isinstance(node, YamlMap) else ():
         if entry.name in known or any(re.search(pattern, entry.name) for pattern in patterns):
@@ -185,7 +175,7 @@ def _is_entry_of(said: YamlNode, section: Json) -> bool:
 
 def _missing_keys(misfit: Misfit) -> Iterator[Judgement]:
     """Tell of all missing keys: the error does not say which one it is for, and the sink takes equal faults as one."""
-    node, path, schema = misfit
+    node, path, schema, _ = misfit
     required = schema["required"]
     if not isinstance(node, YamlMap) or not isinstance(required, list):
         return
@@ -202,10 +192,11 @@ def _other_version(misfit: Misfit) -> Iterator[Judgement]:
 
 def _wrong_word(misfit: Misfit) -> Iterator[Judgement]:
     """Say which words there are, of text; of anything else, `type` has told already."""
-    node, path, schema = misfit
+    node, path, schema, _ = misfit
     if isinstance(node, YamlScalar) and isinstance(node.value, str):
         words, meant = words_of(schema), _WORDS_MEANT.get(node.text.lower())
-        hint = f"; write '{meant}'" if meant in words else ""
+        meant = meant if meant in words else meant_expression(misfit)
+        hint = f"; write '{meant}'" if meant else ""
         facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint}
         yield Judgement(UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
 
@@ -231,73 +222,20 @@ _WORDS_MEANT = {
 
 
 def _wrong_kind(misfit: Misfit) -> Iterator[Judgement]:
-    node, path, schema = misfit
-    way_out = _EXAMPLES.get(str(path[-1]), "") if path else ""
-    if isinstance(node, YamlScalar) and node.text.lower() in _TRUTHS and "true, false" in expected(schema):
-        way_out = f"; write {_TRUTHS[node.text.lower()]}"
-    way_out = way_out or _as_urdf(node, path, schema)
-    yield Judgement(
-        WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=f"{found(node)}{way_out}"),
-        path,
-    )
-
-
-def _as_urdf(node: YamlNode, path: Path, schema: Schema) -> str:
-    """Return what to write for a value that is as URDF has it: '0 0 1' in one attribute, or `{link: base}`."""
-    takes_list = any("array" in str(branch.get("type")) for branch in branches(schema))
-    if isinstance(node, YamlScalar) and _is_row(node) and takes_list:
-        return f"; write '[{', '.join(node.text.split())}]'"
-    if isinstance(node, YamlScalar) and isinstance(node.value, str) and _is_item(node.text, schema):
-        return f"; write '[{node.text}]'"
-    if isinstance(node, YamlScalar) and _is_row(node) and path and isinstance(path[-1], int):
-        return f"; write '{', '.join(node.text.split())}'"
-    if isinstance(node, YamlScalar) and isinstance(node.value, str) and path and path[-1] == "mimic":
-        return f"; write '{{joint: {node.text}}}'"
-    entries = tuple(node) if isinstance(node, YamlMap) else ()
-    if entries and len(path) > 1 and path[-2] in _INTERFACES:
-        return f"; write a map in place of the list: '{path[-2]}: {{{entries[0].name}: …}}'"
-    if len(entries) == 1 and entries[0].name in _ATTRIBUTES and isinstance(entries[0].value, YamlScalar):
-        key = f"{path[-1]}: " if path and isinstance(path[-1], str) else ""
-        return f"; write '{key}{entries[0].value.text}'"
-    return ""
-
-
-def _is_item(text: str, schema: Schema) -> bool:
-    """Whether a schema takes a list in which the text could stand."""
-    items = (mapping(branch["items"]) for branch in branches(schema) if isinstance(branch.get("items"), dict))
-    kinds = (kind for item in items for kind in branches(item) if "string" in str(kind.get("type", "string")))
-    return any(re.search(str(kind.get("pattern", "")), text) for kind in kinds)
-
-
-_INTERFACES = ("command_interfaces", "state_interfaces")
-"""The lists that become maps where an item has parameters."""
-
-_ATTRIBUTES = ("link", "value", "name", "joint")
-"""Attributes of URDF that hold the whole of their element."""
-
-
-def _is_row(node: YamlNode) -> bool:
-    """Whether it is text of several numbers with spaces between them."""
-    words = node.text.split() if isinstance(node, YamlScalar) and isinstance(node.value, str) else []
-    return len(words) > 1 and all(is_number(word) for word in words)
-
-
-_EXAMPLES = {"for": "; write '{side: [left, right]}'"}
-"""What to write under keys of which it is easily forgotten."""
-
-_TRUTHS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
-"""What older YAML reads as true and false, and YAML 1.2 as text."""
+    node, path, schema, _ = misfit
+    said = f"{found(node)}{way_out(misfit)}"
+    yield Judgement(WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=said), path)
 
 
 def _no_branch(misfit: Misfit) -> Iterator[Judgement]:
-    word = _is_text(misfit.node) and not _is_row(misfit.node) and words_of(misfit.schema)
+    word = _is_text(misfit.node) and not is_row(misfit.node) and words_of(misfit.schema)
     yield from (_wrong_word if word else _wrong_kind)(misfit)
 
 
 def _wrong_length(misfit: Misfit) -> Iterator[Judgement]:
-    node, path, schema = misfit
+    node, path, schema, _ = misfit
     # A row of numbers without commas is told as that.
-    if isinstance(node, YamlList) and not any(map(_is_row, node)):
+    if isinstance(node, YamlList) and not any(map(is_row, node)):
         yield Judgement(
             WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=len(node)),
             path,

@@ -8,9 +8,10 @@ from itertools import islice
 from typing import TYPE_CHECKING, Final
 
 from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, too_many_errors
-from linkforge_compile.schema.explain import Judgement, Path, explain
+from linkforge_compile.schema.explain import Judgement, explain
 from linkforge_compile.schema.fit import fit_of
 from linkforge_compile.schema.json_types import Schema
+from linkforge_compile.schema.meant import Path
 from linkforge_compile.schema.registry import linked
 from linkforge_compile.schema.shapes import Shape
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar

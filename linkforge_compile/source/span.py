@@ -66,6 +66,11 @@ class Span(NamedTuple):
         return None
 
     @property
+    def meant(self) -> str | None:
+        """The expression that the text seems meant for which an expression here hands on; None for anything else."""
+        return None
+
+    @property
     def changes(self) -> tuple[Change, ...]:
         """What overrides changed right in the object or list that stands here, in their order."""
         return ()
@@ -95,6 +100,10 @@ class Trace(Protocol):
         """Return where the part at a path of the value was written; None where the expression itself made it."""
         ...
 
+    def meant(self, path: tuple[str | int, ...]) -> str | None:
+        """Return the expression that the part at a path seems meant for, which is text; None for anything else."""
+        ...
+
 
 class ComputedSpan(Span):
     """The place of an expression, for one part of its value: `path` leads to that from the whole."""
@@ -114,6 +123,10 @@ class ComputedSpan(Span):
     @property
     def origin(self) -> Origin | None:
         return self.trace.origin(self.path)
+
+    @property
+    def meant(self) -> str | None:
+        return self.trace.meant(self.path)
 
     def __reduce__(self) -> tuple[type[Span], tuple[object, ...]]:
         return Span, tuple(self)
@@ -140,6 +153,10 @@ class PatchedSpan(Span):
     @property
     def origin(self) -> Origin | None:
         return self._written.origin
+
+    @property
+    def meant(self) -> str | None:
+        return self._written.meant
 
     @property
     def changes(self) -> tuple[Change, ...]:

@@ -16,6 +16,9 @@ _WORDS: dict[str, ScalarValue] = {
     **dict.fromkeys((".nan", ".NaN", ".NAN"), math.nan),
 }
 
+TRUTHS_OF_YAML_1_1 = {"yes": "true", "on": "true", "no": "false", "off": "false"}
+"""What older YAML reads as true and false in any case, and YAML 1.2 as text: what to write for each."""
+
 _NUMBER = re.compile(
     r"""(?P<decimal> [-+]? [0-9]+ )
       | (?P<octal> 0o [0-7]+ )

@@ -76,9 +76,13 @@ def test_half_a_sample_is_told():
 
 def test_only_true_and_false_are_flags():
     assert fields_of("static: false").flag("static") is False
-    fields = fields_of("static: yes")
+    fields = fields_of("static: 1\ngravity: yes")
     assert fields.flag("static") is None
-    assert told(fields) == ["spec.yaml:1:9: error: static takes true or false, found 'yes' [LF5001]"]
+    assert fields.flag("gravity") is None
+    assert told(fields) == [
+        "spec.yaml:1:9: error: static takes true or false, found 1 [LF5001]",
+        "spec.yaml:2:10: error: 'yes' is text in YAML 1.2, not true or false; write true [LF3143]",
+    ]
 
 
 def test_text_is_taken_as_it_was_written():

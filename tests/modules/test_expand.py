@@ -2,6 +2,7 @@
 
 import pytest
 
+from linkforge_compile import compile_text
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.modules import Loader, Unset, arguments_from_text, expand
 from linkforge_compile.syntax import YamlFault, YamlMap, YamlScalar
@@ -172,3 +173,27 @@ def test_how_deep_a_computed_value_nests_is_bounded():
         metadata: {{fits: $(a), list: $(b)}}
     """)
     assert told == ["the expressions give more than 100 lists and maps inside each other"]
+
+
+@pytest.mark.parametrize("use", ["$(half)", "$(-half)", "$(half + 1)", "$(min(half, 1))", "$(pose.half)"])
+def test_text_that_was_meant_for_an_expression_says_so_where_it_is_written(use: str):
+    compilation = compile_text(f"""linkforge: 1
+name: cart
+parameters: {{track: 0.4 m}}
+variables: {{half: track / 2, pose: {{half: $(half)}}}}
+links: {{base: {{visual: {{box: [1, 1, "{use}"]}}}}}}
+""")
+    (fault,) = compilation.diagnostics
+    assert [(note.message, note.span and str(note.span)) for note in fault.notes] == [
+        ("the value is written here; write '$(track / 2)'", "<text>:4:19")
+    ]
+
+
+def test_a_quantity_or_name_that_is_no_expression_offers_none():
+    compilation = compile_text("""linkforge: 1
+name: cart
+variables: {side: left}
+links: {base: {visual: {box: [1, 1, $(side)]}}}
+""")
+    (fault,) = compilation.diagnostics
+    assert [note.message for note in fault.notes] == ["the value is written here"]

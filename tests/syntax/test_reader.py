@@ -192,7 +192,7 @@ def test_merged_entries_keep_their_own_places():
         ("a: 1\n  b: 2\n", "2:3 this line is indented under an entry that already has a value"),
         ("a:\n  b: 1\n c: 2\n", "3:2 this line is not aligned with any entry above"),
         ("a: 1\n- b\n", "2:1 a list item cannot stand among the keys of a map"),
-        ("a:\n  - b\n  c: d\n", "3:3 expected a list item '- ...' as above, found a key"),
+        ("a:\n  - b\n  c: d\n", "3:3 expected a list item '- ...' as above, found a key; begin all with '-', or none"),
         ("a: - b\n", "1:4 a list with dashes begins on a line of its own; on one line: [a, b]"),
         ("a: 'x\nb: c\n", "1:4 no closing quote for the text that begins here"),
         ('a: "x\\qy"\n', "1:6 '\\q' means nothing in double quotes; use single quotes"),

@@ -19,7 +19,9 @@ UNQUOTED_EXPRESSION = Code(
 TOO_DEEPLY_INDENTED = Code("LF1011", Severity.ERROR, "this line is indented under an entry that already has a value")
 UNEVEN_INDENTATION = Code("LF1012", Severity.ERROR, "this line is not aligned with any entry above")
 ITEM_AMONG_KEYS = Code("LF1013", Severity.ERROR, "a list item cannot stand among the keys of a map")
-KEY_AMONG_ITEMS = Code("LF1014", Severity.ERROR, "expected a list item '- ...' as above, found a key")
+KEY_AMONG_ITEMS = Code(
+    "LF1014", Severity.ERROR, "expected a list item '- ...' as above, found a key; begin all with '-', or none"
+)
 LIST_ON_KEY_LINE = Code("LF1015", Severity.ERROR, "a list with dashes begins on a line of its own; on one line: [a, b]")
 TEXT_AFTER_VALUE = Code("LF1016", Severity.ERROR, "the value ended before this; put the whole text in quotes")
 MISSING_VALUE = Code("LF1017", Severity.ERROR, "expected a value, found {found}")

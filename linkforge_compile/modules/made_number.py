@@ -1,0 +1,57 @@
+"""Text that an expression inside it makes look like a number: fields read those only where they were written whole."""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from typing import TYPE_CHECKING
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.modules import TEXT_NOT_NUMBER
+from linkforge_compile.expressions import (
+    Expression,
+    Template,
+    Value,
+    as_one_expression,
+    forgotten_expression,
+    has_expression,
+)
+from linkforge_compile.source import Span
+from linkforge_compile.syntax import YamlNode, YamlScalar, scalar_value
+from linkforge_compile.units import UNITS, parse_quantity
+
+if TYPE_CHECKING:
+    from linkforge_compile.modules.evaluate_tree import Expressions
+
+
+def tell_made_number(
+    node: YamlNode, value: Value, expressions: Expressions, names: Container[str], sink: Diagnostics
+) -> bool:
+    """Report text that an expression inside it makes look like a number, quantity or sum of them; True where it does.
+
+    Fields read numbers and units only where a person typed them, or where the whole is one expression. `names` are
+    those that the expressions may use.
+    """
+    if not isinstance(node, YamlScalar) or not isinstance(value, str) or not has_expression(node.text):
+        return False
+    if not _looks_like_number(value, node.span):
+        return False
+    template = expressions.template(node, sink)
+    if template is None or len(template.parts) == 1:
+        return False
+    sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=_remedy(node, template, names)))
+    return True
+
+
+def _remedy(node: YamlScalar, template: Template, names: Container[str]) -> str:
+    if meant := as_one_expression(node.text, node.span, names):
+        return f"write '{meant}'"
+    match template.parts:
+        case (Expression() as number, str(unit)) if unit.strip() in UNITS:
+            return f"give the unit '{unit.strip()}' where the number is written, and here '$({number.text.strip()})'"
+    return "make the whole one expression, such as '$(-a)'"
+
+
+def _looks_like_number(text: str, where: Span) -> bool:
+    number = scalar_value(text.strip())
+    is_number = isinstance(number, int | float) or parse_quantity(text) is not None
+    return is_number or forgotten_expression(text, where, ()) is not None
