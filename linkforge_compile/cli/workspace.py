@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path, PurePath
+from pathlib import Path
 
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.telling import to_stderr
 
-SCHEMA = PurePath(".linkforge", "robot.schema.json")
-"""Where the schema of a repository lies in it, unless said."""
 
-
-def schema_of(root: Path, packages: Mapping[str, Path]) -> str:
-    """Return the schema of the specs below a folder; UsageError where there is more than a repository has."""
+def schema_of(root: Path, packages: Mapping[str, Path], *, runs_xacro: bool = True) -> str:
+    """Return the schema of the specs below a folder; UsageError for none, or more than a repository has."""
     from linkforge_compile.editor import TooManyFilesError, specs_below, vocabulary_of, workspace_text
+    from linkforge_compile.editor.robot_folder import schemas_below
 
     try:
         specs = specs_below(root)
     except TooManyFilesError as error:
-        raise UsageError(f"there are {error} below '{root}'; --workspace takes the folder of the robots") from error
+        raise UsageError(f"there are {error} below '{root}'; name the folder of the robots") from error
     if not specs:
-        to_stderr(f"there is no spec, NAME.robot.yaml, below '{root}'\n")
-    vocabularies = [vocabulary_of(spec, root, packages) for spec in specs]
+        raise UsageError(f"there is no spec, NAME.robot.yaml, below '{root}'; name the folder of the robots")
+    for folder in schemas_below(root, specs):
+        to_stderr(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it\n")
+    vocabularies = [vocabulary_of(spec, root, packages, runs_xacro=runs_xacro) for spec in specs]
+    remedy = "`linkforge check` tells why" if runs_xacro else "`linkforge schema --workspace` may find them"
     for vocabulary in vocabularies:
         if not vocabulary.is_whole:
-            file = vocabulary.files[0]
-            to_stderr(f"names of {file} may be missing; `linkforge check` tells why\n")
+            to_stderr(f"names of {vocabulary.files[0]} may be missing; {remedy}\n")
     return workspace_text(vocabularies)

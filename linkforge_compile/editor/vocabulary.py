@@ -45,17 +45,21 @@ class Vocabulary:
     is_whole: bool = True
 
 
-def vocabulary_of(spec: Path, root: Path, packages: Mapping[str, Path] | None = None) -> Vocabulary:
+def vocabulary_of(
+    spec: Path, root: Path, packages: Mapping[str, Path] | None = None, *, runs_xacro: bool = True
+) -> Vocabulary:
     """Read a spec as far as its faults leave it; `root` is the folder of the workspace.
 
-    `packages` are where `package://` leads first. Meshes are not read: they bear no names.
+    `packages` are where `package://` leads first. Meshes are not read: they bear no names. Without `runs_xacro`, the
+    names in xacro files are missing.
     """
-    return with_room(lambda: _vocabulary_of(spec, root, packages or {}))
+    return with_room(lambda: _vocabulary_of(spec, root, packages or {}, runs_xacro=runs_xacro))
 
 
-def _vocabulary_of(path: Path, root: Path, packages: Mapping[str, Path]) -> Vocabulary:
+def _vocabulary_of(path: Path, root: Path, packages: Mapping[str, Path], *, runs_xacro: bool) -> Vocabulary:
     found = Vocabulary((_relative(path, root),), is_whole=False)
     sink, loader = Diagnostics(), Loader(packages, Roots.around(path, (root, *packages.values())))
+    loader.runs_xacro = runs_xacro
     try:
         spec = loader.open(path, sink)
         if spec is None:

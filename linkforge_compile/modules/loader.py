@@ -79,11 +79,13 @@ class Loader:
         """`packages` come before every other place where `package://` is looked for.
 
         What a spec names is read within the `roots`, what its user names wherever it is. `judge` is asked of a
-        vendor's robot what is wrong with it, for that is a matter of later stages.
+        vendor's robot what is wrong with it, for that is a matter of later stages. Without `runs_xacro` no xacro file
+        is expanded, as where the environment forbids it.
         """
         self.packages = dict(packages or {})
         self.roots = roots
         self.judge: Judge = _nothing_wrong
+        self.runs_xacro = True
         self._sources: list[SourceFile] = []
         self._specs: dict[str, Whole | None] = {}  # by real path
         self._data: dict[str, YamlNode | None] = {}  # by real path

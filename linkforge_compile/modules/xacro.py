@@ -89,7 +89,7 @@ def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Robot | None
     arguments = _texts(use, sink)
     if main is None or arguments is None:
         return None
-    if os.environ.get(FORBIDDEN):
+    if os.environ.get(FORBIDDEN) or not loader.runs_xacro:
         sink.report(XACRO_FORBIDDEN.at(use.used.where, path=use.used.text, variable=FORBIDDEN))
         return None
     asked = _Asked(use, loader)

@@ -5,11 +5,14 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 import yaml
 
 from linkforge_compile import check_file
+from linkforge_compile.cli.main import main
+from linkforge_compile.importers import xacro
 from tests.cli.test_compile import linkforge
 
 FILES = {
@@ -65,6 +68,61 @@ def test_what_is_there_is_kept(tmp_path: Path):
     before = files_in(tmp_path)
     assert "wrote" not in linkforge("init", "arm", "--dir", ".", cwd=tmp_path).stderr
     assert files_in(tmp_path) == before
+
+
+def test_a_second_robot_joins_the_schema_and_is_missed_in_cmake(tmp_path: Path):
+    linkforge("init", "arm", "--dir", ".", cwd=tmp_path)
+    told = linkforge("init", "hand", "--dir", ".", cwd=tmp_path).stderr
+    line = "linkforge_add_robot(hand.robot.yaml FORMATS urdf srdf INSTALL)"
+    assert told.endswith(f"\nput into CMakeLists.txt:\n  {line}\n")
+    assert "wrote .linkforge/robot.schema.json\n" in told
+    assert "hand.robot.yaml" in (tmp_path / ".linkforge/robot.schema.json").read_text()
+    cmake = tmp_path / "CMakeLists.txt"
+    cmake.write_text(f"{cmake.read_text()}{line}\n")
+    assert "put into" not in linkforge("init", "hand", "--dir", ".", cwd=tmp_path).stderr
+
+
+def test_what_stands_at_the_top_of_a_package_or_repository_is_not_written_twice(tmp_path: Path):
+    package = tmp_path / "src" / "arm_description"
+    package.mkdir(parents=True)
+    (tmp_path / ".git").mkdir()
+    (tmp_path / ".pre-commit-config.yaml").write_text("repos: []\n")
+    (package / "package.xml").touch()
+    (package / "CMakeLists.txt").write_text("project(arm_description)\n")
+    told = linkforge("init", "arm", "--dir", "robots", cwd=package).stderr
+    add = "linkforge_add_robot(robots/arm.robot.yaml FORMATS urdf srdf INSTALL)"
+    assert f"put into CMakeLists.txt:\n  find_package(linkforge_compile REQUIRED)\n  {add}\n" in told
+    assert "put into ../../.pre-commit-config.yaml:\n  - id: linkforge-check\n" in told
+    absent = {".pre-commit-config.yaml", "CMakeLists.txt", "my-arm.robot.yaml"}
+    assert files_in(package / "robots").keys() == (FILES - absent) | {"arm.robot.yaml"}
+    assert "wrote .linkforge/robot.schema.json" in linkforge("init", "hand", cwd=package / "robots").stderr
+    assert files_in(package / "robots" / "hand").keys() == {"hand.robot.yaml"}
+    spec = (package / "robots" / "hand" / "hand.robot.yaml").read_text()
+    assert spec.startswith("# yaml-language-server: $schema=../.linkforge/robot.schema.json\n")
+
+
+def test_what_is_beside_it_is_not_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+):
+    def run_xacro(*_words: object) -> NoReturn:
+        pytest.fail("xacro was run")
+
+    monkeypatch.setattr(xacro, "run_xacro", run_xacro)
+    monkeypatch.chdir(tmp_path)
+    Path("vendor.urdf.xacro").write_text('<robot name="vendor"><link name="base"/></robot>')
+    Path("cell.robot.yaml").write_text("linkforge: 1\nname: cell\nmodules: {arm: {use: vendor.urdf.xacro}}\n")
+    assert main(["init", "hand", "--dir", "."]) == 0
+    told = capfd.readouterr().err
+    assert "names of cell.robot.yaml may be missing; `linkforge schema --workspace` may find them\n" in told
+
+
+@pytest.mark.parametrize("blocked", [".vscode", ".linkforge"])
+def test_where_it_cannot_write_all_it_writes_nothing(tmp_path: Path, blocked: str):
+    (tmp_path / blocked).touch()
+    run = linkforge("init", "arm", "--dir", ".", cwd=tmp_path)
+    assert run.returncode == 2
+    assert f"'{blocked}' is not a folder" in run.stderr
+    assert files_in(tmp_path).keys() == {blocked}
 
 
 def test_the_bytes_are_the_same_wherever_it_is_run(tmp_path: Path):

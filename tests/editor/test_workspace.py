@@ -246,6 +246,24 @@ def test_the_command_tells_of_specs_with_errors_and_writes_once(tmp_path: Path):
     assert linkforge("schema", "--workspace", "nowhere", cwd=root).returncode == 2
 
 
+def test_the_schema_of_a_folder_is_the_one_that_its_specs_name(tmp_path: Path):
+    root = written(tmp_path, {"parts/arm.robot.yaml": ARM})
+    (root / ".git").mkdir()
+    assert linkforge("schema", "--workspace", cwd=root).stderr == "wrote .linkforge/robot.schema.json\n"
+    below = root / "parts"
+    assert linkforge("schema", "--workspace", cwd=below).stderr == "../.linkforge/robot.schema.json is up to date\n"
+    assert linkforge("schema", "--workspace", ".", cwd=below).stderr == "wrote .linkforge/robot.schema.json\n"
+    told = linkforge("schema", "--workspace", cwd=root).stderr
+    assert told.startswith("'parts' has a schema of its own; `linkforge schema --workspace parts` renews it\n")
+
+
+def test_a_folder_without_specs_gets_no_schema(tmp_path: Path):
+    run = linkforge("schema", "--workspace", cwd=tmp_path)
+    assert run.returncode == 2
+    assert "there is no spec, NAME.robot.yaml, below '.'" in run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_package_of_the_command_line_is_found(tmp_path: Path):
     cell = CELL.replace("../parts/arm", "package://arms/arm").replace("include: [palette.yaml]\n", "")
     written(tmp_path / "far", {"arms/arm.robot.yaml": ARM})

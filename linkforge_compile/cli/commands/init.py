@@ -10,13 +10,17 @@ from linkforge_compile.cli.exits import OK, UsageError
 if TYPE_CHECKING:
     import argparse
 
+    from linkforge_compile.editor.robot_folder import RobotFolder
+
 _EXAMPLES = """\
 Writes NAME.robot.yaml, which compiles, the schema by which editors complete it, settings of VS Code, .gitignore,
-.pre-commit-config.yaml and CMakeLists.txt. What is there already is kept as it is.
+.pre-commit-config.yaml and CMakeLists.txt. What is there already is kept as it is, and what it lacks is told; only the
+schema is renewed. A folder within a package or repository gets no second one of what stands once at its top.
 
 examples:
   linkforge init my_arm               in a new folder my_arm
   linkforge init my_arm --dir .       in this one
+  linkforge init my_arm --dir robots  in the folder robots of a package
 """
 
 
@@ -29,43 +33,54 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.telling import to_stderr
-    from linkforge_compile.editor.robot_folder import NAME, robot_files
+    from linkforge_compile.editor.robot_folder import NAME, RobotFolder
 
     name = arguments.name
     if not NAME.fullmatch(name):
         raise UsageError(f"NAME is letters, digits, _ and -, a letter first; found '{name}'")
-    folder = Path(arguments.dir if arguments.dir is not None else name)
-    told = [_written(folder / path, text) for path, text in robot_files(name).items()]
-    told.append(_schema(folder))
+    place = RobotFolder.at(Path(arguments.dir if arguments.dir is not None else name))
+    told = _written(place, name)
     if not arguments.quiet:
-        to_stderr("".join(f"{line}\n" for line in (*told, *_next(folder, name))))
+        to_stderr("".join(f"{line}\n" for line in (*told, *_next(place, name))))
     return OK
 
 
-def _written(path: Path, text: str) -> str:
-    """Write a file that is not there yet; say what was done."""
+def _written(place: RobotFolder, name: str) -> list[str]:
+    """Write what is not there yet and the schema, all or nothing; say what was done."""
     from linkforge_compile.cli.output import write_if_changed
+    from linkforge_compile.cli.workspace import schema_of
+    from linkforge_compile.editor.robot_folder import SCHEMA
 
-    if path.exists() or path.is_symlink():
-        return f"kept {path}, which is there already"
-    write_if_changed(path, text)
-    return f"wrote {path}"
+    told: list[str] = []
+    written: list[Path] = []
+    try:
+        for path, text in place.files(name).items():
+            if path.exists() or path.is_symlink():
+                told.append(f"kept {path}, which is there already")
+                continue
+            write_if_changed(path, text)
+            written.append(path)
+            told.append(f"wrote {path}")
+        schema = place.workspace / SCHEMA
+        # A first folder is no leave to run what is in the others.
+        is_new = write_if_changed(schema, schema_of(place.workspace, {}, runs_xacro=False))
+    except BaseException:
+        for path in written:
+            path.unlink()
+        raise
+    return [*told, f"wrote {schema}" if is_new else f"{schema} is up to date"]
 
 
-def _schema(folder: Path) -> str:
-    from linkforge_compile.cli.workspace import SCHEMA, schema_of
-
-    path = folder / SCHEMA
-    return f"kept {path}, which is there already" if path.exists() else _written(path, schema_of(folder, {}))
-
-
-def _next(folder: Path, name: str) -> list[str]:
+def _next(place: RobotFolder, name: str) -> list[str]:
     """Return what one would do now, as one would type it."""
-    enter = [] if folder.resolve() == Path.cwd() else [f"  cd {folder}"]
-    return [
+    enter = [] if place.folder.resolve() == Path.cwd() else [f"  cd {place.folder}"]
+    lines = [
         "",
         "next:",
         *enter,
         f"  linkforge compile {name}.robot.yaml -o build/",
         "  linkforge schema --workspace         when names have changed, so that editors offer them",
     ]
+    for path, missed in place.missing(name).items():
+        lines += ["", f"put into {path}:", *(f"  {line}" for line in missed)]
+    return lines

@@ -18,9 +18,10 @@ after writing the schema beside it:
   linkforge schema -o robot.schema.json
 
 With --workspace, the names of links, joints, groups, materials and files complete where they are referred to, and the
-parameters of a module under `with`; it goes to FOLDER/.linkforge/robot.schema.json unless -o says otherwise. Run it
-again when names have changed: what is new since is not offered, and is no fault. It compiles the specs, so a xacro that
-one of them uses is run, unless LINKFORGE_NO_XACRO is set.
+parameters of a module under `with`; it goes to FOLDER/.linkforge/robot.schema.json unless -o says otherwise. FOLDER is
+the one at or above this that has a schema, up to the top of the repository, else this one, unless said. Run it again
+when names have changed: what is new since is not offered, and is no fault. It compiles the specs, so a xacro that one
+of them uses is run, unless LINKFORGE_NO_XACRO is set.
   linkforge schema --workspace
 """
 
@@ -30,7 +31,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
     parser.add_argument("-q", "--quiet", action="store_true", help="say nothing when all is well")
     parser.add_argument(
-        "--workspace", metavar="FOLDER", nargs="?", const=".", help="with the names of all specs below; '.' unless said"
+        "--workspace",
+        metavar="FOLDER",
+        nargs="?",
+        const="",
+        help="with the names of all specs below; unless said, the folder at or above this one that has a schema",
     )
     add_package_option(parser)
 
@@ -42,11 +47,12 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.workspace is None:
         put_json(bundle_text(), arguments.output, quiet=arguments.quiet)
         return OK
-    root = Path(arguments.workspace)
+    from linkforge_compile.cli.workspace import schema_of
+    from linkforge_compile.editor.robot_folder import SCHEMA, workspace_of
+
+    root = Path(arguments.workspace) if arguments.workspace else workspace_of(Path())
     if not root.is_dir():
         raise UsageError(f"--workspace takes a folder, found '{arguments.workspace}'")
-    from linkforge_compile.cli.workspace import SCHEMA, schema_of
-
     packages = {name: Path(folder) for name, folder in packages_of(arguments).items()}
     put_json(schema_of(root, packages), arguments.output or str(root / SCHEMA), quiet=arguments.quiet)
     return OK
