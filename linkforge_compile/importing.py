@@ -99,7 +99,7 @@ def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diag
     whole, judged = both
     sink.report_all(judged.faults)
     if judged.robot is not None:
-        sink.report_all(_losses(whole, judged.robot, {one.span for one in sink if one.code in LOSSES}))
+        sink.report_all(_losses(whole, judged.robot, sink.places_of(LOSSES)))
         if settings.output is not None:
             sink.report_all(lost_on_the_way(judged.robot, settings.output, MESH_BESIDE_THE_URDF))
     text = write(whole.tree, *whole.comments)
@@ -140,7 +140,7 @@ def _judged(spec: SpecFile, loader: Loader, tree: YamlMap) -> _Judged:
     return _Judged(None if faults else robot, faults)
 
 
-def _losses(imported: Imported, robot: Robot, told: Collection[Span | None]) -> Iterator[Diagnostic]:
+def _losses(imported: Imported, robot: Robot, told: Collection[Span]) -> Iterator[Diagnostic]:
     """Yield what of its documents a robot does not say as they do, but for what is told already."""
     from linkforge_compile.importers.losses import losses
     from linkforge_compile.importers.xml import read_xml

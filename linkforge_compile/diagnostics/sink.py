@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics.codes.bounds import MORE_WARNINGS, TOO_MANY_ERRORS
-from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
+from linkforge_compile.diagnostics.diagnostic import Code, Diagnostic, Note, Severity
 from linkforge_compile.source import Position, SourceFile, Span
 
 MAX_TOLD = 1_000
@@ -90,6 +90,11 @@ class Diagnostics:
         starts = self._error_starts.get(span.file, [])
         following = bisect_left(starts, span.start)
         return following < len(starts) and (starts[following] < span.end or starts[following] == span.start)
+
+    def places_of(self, codes: Collection[Code]) -> set[Span]:
+        """Return where faults of these kinds were reported, those among them that are only counted."""
+        ids = {code.id for code in codes}
+        return {span for code, span in self._at if code in ids}
 
     @property
     def has_errors(self) -> bool:

@@ -172,9 +172,7 @@ class _Parse:
             raise _RefusedError(TOO_DEEP.at(self._span(start, len(tag) + 1), limit=MAX_NESTED_ELEMENTS))
         if self._elements > MOST_ELEMENTS:
             raise _RefusedError(TOO_MANY_ELEMENTS.at(self._span(start, len(tag) + 1), limit=MOST_ELEMENTS))
-        around = self._open[-1]
-        if len(around.content) > MOST_INSIDE:
-            raise _RefusedError(TOO_MUCH_INSIDE.at(self._span(start, len(tag) + 1), tag=around.tag, limit=MOST_INSIDE))
+        self._require_room(start, len(tag) + 1)
         read, place = self._attributes(start, attributes)
         closing = _CLOSING.match(self._text, place)
         self._open.append(_Open(tag, read, start, closing.end() if closing else None))
@@ -192,11 +190,21 @@ class _Parse:
             )
         )
 
+    def _require_room(self, start: int, length: int) -> None:
+        """Refuse what begins at an offset where the element around it holds as much as it may."""
+        around = self._open[-1]
+        if len(around.content) >= MOST_INSIDE:
+            owner = f"<{around.tag}>" if around.tag else "the file"
+            raise _RefusedError(TOO_MUCH_INSIDE.at(self._span(start, length), owner=owner, limit=MOST_INSIDE))
+
     def _characters(self, text: str) -> None:
+        # Text is handed over when what is behind it begins, which is where it is told.
+        self._require_room(self._here(), 1)
         self._open[-1].content.append(text)
 
     def _comment(self, text: str) -> None:
         start = self._here()
+        self._require_room(start, len("<!--"))
         between = self._text[self._last_end : start] if self._last_end >= 0 else "\n"
         follows = not between.strip() and "\n" not in between and "\r" not in between
         if follows:

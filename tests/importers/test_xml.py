@@ -128,10 +128,16 @@ def test_the_number_of_elements_is_bounded(monkeypatch: pytest.MonkeyPatch):
     assert codes("<a><b/><b/><b/></a>") == ["LF8004"]
 
 
-def test_what_one_element_holds_is_bounded(monkeypatch: pytest.MonkeyPatch):
+@pytest.mark.parametrize("one_more", ["<b/>", "<!-- c -->", "text"])
+def test_what_one_element_holds_is_bounded(monkeypatch: pytest.MonkeyPatch, one_more: str):
     monkeypatch.setattr(reader, "MOST_INSIDE", 3)
-    assert document("<a><b/> <b/><b><b/><b/></b></a>")
-    assert codes("<a><b/><!-- c --> <b/><b/></a>") == ["LF8098"]
+    assert document("<a><b/> <b><b/><b/><b/></b></a>")
+    assert codes(f"<a><b/><!-- c --><b/>{one_more}</a>") == ["LF8098"]
+
+
+def test_comments_beside_the_robot_are_bounded(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(reader, "MOST_INSIDE", 3)
+    assert codes("<!-- 1 --><!-- 2 --><!-- 3 --><a/>") == ["LF8098"]
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ DOCUMENT_TYPE = Code(
 )
 TOO_DEEP = Code("LF8003", _E, "elements are nested more than {limit} deep")
 TOO_MANY_ELEMENTS = Code("LF8004", _E, "the file has more than {limit} elements")
-TOO_MUCH_INSIDE = Code("LF8098", _E, "<{tag}> has more than {limit} elements, comments and texts in it")
+TOO_MUCH_INSIDE = Code("LF8098", _E, "{owner} has more than {limit} elements, comments and texts in it")
 NO_CHARACTER_OF_A_SPEC = Code("LF8005", _E, "a spec cannot hold the character {character}")
 
 # LF801x: URDF
