@@ -34,17 +34,18 @@ class Words:
         self,
         definitions: Mapping[str, Schema],
         words: Vocabulary,
-        files: Sequence[str],
-        modules: Sequence[Schema],
+        paths: Schema,
+        modules: Sequence[Json],
         *,
         prefix: str,
     ) -> None:
-        """`definitions` are those of the language; `files` are what `use` may name in this file, and `modules` what
-        there is to offer in an entry that uses one.
+        """`definitions` are those of the language; `paths` offers what `use` may name in this file, and `modules` are
+        what there is to offer in an entry that uses one.
         """
         self._definitions = definitions
         self._parameters = words.parameters
-        self._names = {**words.names, FILE: tuple(files)}
+        self._names = words.names
+        self._paths = paths
         self._modules = modules
         self._prefix = prefix
         self._begun: set[str] = set()
@@ -88,11 +89,10 @@ class Words:
 
     def _offered(self, schema: Schema, kinds: Sequence[str]) -> Schema:
         """Return the names of some kinds, as a value or as the items of a list."""
-        described = {kind: "a spec" if kind == FILE else f"a {kind} of this robot" for kind in kinds}
+        if FILE in kinds:
+            return self._paths
         snippets: list[Json] = [
-            {"label": name, "description": description, "body": _body(name)}
-            for kind, description in described.items()
-            for name in self._names.get(kind, ())
+            snippet(name, f"a {kind} of this robot") for kind in kinds for name in self._names.get(kind, ())
         ]
         if not snippets:
             return {}
@@ -127,8 +127,8 @@ def _listed(schema: Schema, key: str) -> list[Schema]:
     return [mapping(part) for part in listed] if isinstance(listed, list) else []
 
 
-def _body(name: str) -> str:
-    """Return a name as a snippet writes it: in quotes where YAML would read it as another kind."""
+def snippet(name: str, description: str) -> Schema:
+    """Return what offers a name and puts it in, in quotes where YAML would read it as another kind."""
     is_plain = _BARE.fullmatch(name) and scalar_value(name) is name
     written = name if is_plain else json.dumps(name, ensure_ascii=False)
-    return re.sub(r"[$}\\]", r"\\\g<0>", written)
+    return {"label": name, "description": description, "body": re.sub(r"[$}\\]", r"\\\g<0>", written)}

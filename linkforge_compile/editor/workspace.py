@@ -7,10 +7,11 @@ is new since this schema was written is no fault.
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from urllib.parse import quote
 
 from linkforge_compile.editor.module_words import entry_of, where_used
+from linkforge_compile.editor.spec_paths import SpecPaths
 from linkforge_compile.editor.vocabulary import Vocabulary
 from linkforge_compile.editor.words import ARGUMENT, NAMES, Words, mark_of
 from linkforge_compile.schema import bundle
@@ -28,56 +29,63 @@ def workspace_schema(vocabularies: Sequence[Vocabulary]) -> Schema:
     """Return the schema of a repository's specs, which holds for each of its files what is offered in it alone."""
     whole = mapping(_without_examples(bundle()))
     definitions = {name: mapping(part) for name, part in mapping(whole["definitions"]).items()}
+    # A file that is included from outside of the workspace has no path by which it is known.
+    files = [(file, words) for words in vocabularies for file in words.files if not file.startswith("../")]
+    known = [file for file, _ in files]
     modules = _Modules(vocabularies)
     offers: list[Json] = []
     made: Schema = {}
-    for file, vocabulary in [(file, words) for words in vocabularies for file in words.files]:
-        others = [other.files[0] for other in vocabularies if other.files[0] not in vocabulary.files]
-        usable = [_from(posixpath.dirname(file), other) for other in sorted(others)]
-        prefix = f"words_{len(offers) + 1}_"
-        words = Words(definitions, vocabulary, usable, modules.used_in(file, vocabulary), prefix=prefix)
-        offers.append({"if": {"filePatternAssociation": f"*/{quote(file)}"}, "then": words.of(whole)})
+    for file, vocabulary in files:
+        paths = modules.paths.paths_from(posixpath.dirname(file), vocabulary.files)
+        used = modules.used_in(file, vocabulary)
+        words = Words(definitions, vocabulary, paths, used, prefix=f"words_{len(offers) + 1}_")
+        offers.append(_in_file(file, words.of(whole), known))
         made |= words.made
     return {**whole, "allOf": offers, "definitions": {**definitions, **modules.made, **made}}
 
 
-class _Modules:
-    """What there is to offer in entries that use specs of the workspace; `made` are the definitions it needs.
+def _in_file(file: str, offer: Schema, files: Iterable[str]) -> Schema:
+    """Return an offer for one file, which the server knows by the end of its path; another may end alike."""
+    for longer in files:
+        if longer.endswith(f"/{file}"):
+            offer = {"if": _path_of(longer), "then": {}, "else": offer}
+    return {"if": _path_of(file), "then": offer}
 
-    They are the same for all files of a folder, which name other files alike.
-    """
+
+def _path_of(file: str) -> Schema:
+    return {"filePatternAssociation": f"*/{quote(file)}"}
+
+
+class _Modules:
+    """What there is to offer in entries that use specs of the workspace; `made` are the definitions it needs."""
 
     def __init__(self, vocabularies: Sequence[Vocabulary]) -> None:
-        self._specs = {words.files[0]: words for words in vocabularies}
-        self._entries: dict[str, Schema] = {}
-        self._folders: dict[str, Schema] = {}
-        self.made: Schema = {}
-        for number, (file, words) in enumerate(self._specs.items(), start=1):
-            self._entries[file] = self._defined(f"module_{number}", entry_of(words.parameters, words.entries))
+        specs = {words.files[0]: words for words in vocabularies}
+        self._entries = {spec: f"module_{number}" for number, spec in enumerate(specs, start=1)}
+        self.paths = SpecPaths({spec: _reference(name) for spec, name in self._entries.items()})
+        self._made: Schema = {
+            self._entries[spec]: entry_of(words.parameters, words.entries) for spec, words in specs.items()
+        }
 
-    def used_in(self, file: str, vocabulary: Vocabulary) -> list[Schema]:
+    @property
+    def made(self) -> Schema:
+        return self._made | self.paths.made
+
+    def used_in(self, file: str, vocabulary: Vocabulary) -> list[Json]:
         """Return what to offer where a file uses others; its own spelling of a path and packages included."""
         folder = posixpath.dirname(file)
-        if folder not in self._folders:
-            offers: list[Json] = [where_used(_from(folder, spec), entry) for spec, entry in self._entries.items()]
-            self._folders[folder] = self._defined(f"modules_from_{len(self._folders) + 1}", {"allOf": offers})
-        of_its_own = []
+        offers = self.paths.entries_from(folder)
         for use, parameters in vocabulary.arguments.items():
             spec = posixpath.normpath(posixpath.join(folder, use))
-            if spec not in self._specs:
-                of_its_own.append(where_used(use, entry_of(parameters, {})))
-            elif use != _from(folder, spec):
-                of_its_own.append(where_used(use, self._entries[spec]))
-        return [self._folders[folder], *of_its_own]
-
-    def _defined(self, name: str, schema: Schema) -> Schema:
-        self.made[name] = schema
-        return {"$ref": f"#/definitions/{name}"}
+            if spec not in self._entries:
+                offers.append(where_used(use, entry_of(parameters, {})))
+            elif use != posixpath.relpath(spec, folder or "."):
+                offers.append(where_used(use, _reference(self._entries[spec])))
+        return offers
 
 
-def _from(folder: str, file: str) -> str:
-    """Return the path of a file as a `use` in a file of the folder writes it."""
-    return posixpath.relpath(file, folder or ".")
+def _reference(name: str) -> Schema:
+    return {"$ref": f"#/definitions/{name}"}
 
 
 def _without_examples(node: Json) -> Json:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft7Validator
 
-from linkforge_compile.editor import TooManyFilesError, specs_below, vocabulary_of, workspace_text
+from linkforge_compile.editor import TooManyFilesError, Vocabulary, specs_below, vocabulary_of, workspace_text
 from linkforge_compile.editor import specs as specs_module
 from tests.cli.test_compile import linkforge
 from tests.conftest import ROOT
@@ -272,6 +272,24 @@ def test_a_package_of_the_command_line_is_found(tmp_path: Path):
     found = linkforge("schema", "--workspace", "--package", "arms=../far/arms", cwd=root)
     assert (found.returncode, found.stderr) == (0, "wrote .linkforge/robot.schema.json\n")
     assert '"left_tool0"' in (root / ".linkforge/robot.schema.json").read_text()
+
+
+def test_of_two_specs_of_one_name_each_has_its_own_words(server: LanguageServer, folder: Path):
+    root = written(folder / "namesakes", {"arm.robot.yaml": CELL, "parts/arm.robot.yaml": ARM})
+    (root / "robot.schema.json").write_text(schema_text(root), "utf-8")
+    document = "linkforge: 1\nname: x\njoints: {weld: {parent: |}}"
+    for place, schema, links in (("", "", ["table"]), ("parts/", "../", ["base", "tool0"])):
+        modeline = f"# yaml-language-server: $schema={schema}robot.schema.json\n"
+        offered = server.completions(modeline + document, f"namesakes/{place}arm.robot.yaml")
+        assert [found.label for found in offered] == links
+
+
+def test_the_schema_grows_with_the_specs_and_not_with_their_square():
+    def size(specs: int) -> int:
+        return len(workspace_text([Vocabulary((f"robots/r{number}/arm.robot.yaml",)) for number in range(specs)]))
+
+    ten, twenty, forty = size(10), size(20), size(40)
+    assert forty - twenty < 2.2 * (twenty - ten)
 
 
 def test_specs_are_those_that_a_person_wrote(tmp_path: Path):
