@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes.repetition import (
     SAME_AS_BEFORE,
 )
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.modules.gazebo_tags import with_tags_as_patched
 from linkforge_compile.modules.normal_form import (
     CHOICES,
     is_said,
@@ -83,6 +84,7 @@ class _Patch:
     def map(self, base: YamlMap, patch: YamlMap, shape: Shape, field: str) -> YamlMap:
         """Return an object or a map of names as its patch leaves it."""
         base, patch = long_object(base, shape), long_object(patch, shape)
+        base = with_tags_as_patched(base, patch, shape)
         entries = dict(base.entries)
         changes: list[Change] = []
         for change in patch:

@@ -84,6 +84,31 @@ def test_writing_one_of_a_choice_removes_the_others(change):
     assert made.at("links", "base", "visual")[1] == {"cylinder": {"radius": 1}}
 
 
+GAZEBO = "gazebo: {stop_cfm: 0.5, kp: 9, properties: {mu1: 0.50, stopErp: 0.10, serial: 7}}"
+
+
+@pytest.mark.parametrize(
+    ("patch", "left"),
+    [
+        ("{mu1: 2}", {"stop_cfm": 0.5, "kp": 9, "mu1": 2, "properties": {"stopErp": 0.1, "serial": 7}}),
+        ("{mu1: null, stop_erp: null}", {"stop_cfm": 0.5, "kp": 9, "properties": {"serial": 7}}),
+        ("{stop_erp: 0.2, mu1: 1, properties: {serial: null}}", {"stop_cfm": 0.5, "kp": 9, "stop_erp": 0.2, "mu1": 1}),
+        (
+            "{properties: {kp: 1.0, stopCfm: null}}",
+            {"properties": {"mu1": 0.5, "stopErp": 0.1, "serial": 7, "kp": 1}},
+        ),
+    ],
+)
+def test_a_tag_of_gazebo_is_patched_under_its_key_and_under_properties(tmp_path: Path, patch: str, left: object):
+    """An import writes under `properties` what would be spelled otherwise under its key."""
+    write(tmp_path, {"arm.robot.yaml": f"links: {{base: {{{GAZEBO}}}}}"})
+    override = f"links: {{base: {{gazebo: {patch}}}}}"
+    made = Changed(*assemble(f"modules: {{arm: {{use: arm.robot.yaml, override: {{{override}}}}}}}", folder=tmp_path))
+    assert not made.told
+    (block,) = made.at("links", "base", "gazebo")
+    assert {name: value for name, value in block.items() if value != {}} == left
+
+
 def test_frames_are_links_and_joints_by_then(change):
     made = change("links: {tool: {inertial: {mass: 1}}}\njoints: {tool_joint: {origin: [0, 0, 1]}}")
     assert made.at("links", "tool") == {"inertial": {"mass": 1}}

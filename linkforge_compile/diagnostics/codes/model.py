@@ -135,7 +135,7 @@ ATTRIBUTE_OF_OWNER = Code(
     "LF5701", _E, "'{name}' is an attribute of the element around it; those of {owner} go into 'extra_attributes'"
 )
 LIST_IN_LIST = Code("LF5702", _E, "a list repeats the tag '{field}', so it cannot hold another list")
-TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is said twice")
+TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is said twice; leave one out, in an override by 'null'")
 TAG_OF_TWO_BLOCKS = Code(
     "LF5780",
     _W,
