@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Diagnostics
@@ -14,10 +15,12 @@ from linkforge_compile.diagnostics.codes.repetition import (
     FOR_NAME_TAKEN,
     KEY_WITHOUT_NAME,
     LONG_FORM,
+    RESERVED_KEY,
 )
-from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression
+from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression, has_expression
 from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.values import describe
+from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import Shape
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
@@ -55,6 +58,28 @@ def occurrences(
         yield from _repeated(body, condition, repeated, thing, tree)
     else:
         yield tree, YamlFault(node.span)
+
+
+def without_words(node: YamlMap, shape: Shape, tree: TreeEvaluator) -> tuple[YamlMap, TreeEvaluator]:
+    """Return a map of names without those that are words of repetition, which are reported, and what computes it.
+
+    What such a `for` would have given a value is a fault to whoever uses it, and no unknown name.
+    """
+    names = {name: entry for name, entry in node.entries.items() if name not in WORDS}
+    example = next((name for name in names if has_expression(name)), next(iter(names), "…"))
+    for word in (entry.key for entry in node if entry.name in WORDS):
+        way_out = _WAYS_OUT.get(word.text, "").format(name=example)
+        tree.sink.report(RESERVED_KEY.at(word.span, name=word.text, owner=shape.things, way_out=way_out))
+    repeated = node.get("for")
+    lost = repeated.entries if isinstance(repeated, YamlMap) else {}
+    scope = tree.scope.inside(dict.fromkeys(lost, FAULT))
+    return YamlMap(names, node.span), replace(tree, scope=scope)
+
+
+_WAYS_OUT = {
+    "for": "; it stands inside what it repeats: '{name}: {{for: …}}'",
+    "when": "; it stands inside what it is about: '{name}: {{when: …}}'",
+}
 
 
 class _Thing(NamedTuple):

@@ -9,7 +9,6 @@ from dataclasses import field, replace
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TREE_TOO_LARGE
-from linkforge_compile.diagnostics.codes.repetition import RESERVED_KEY
 from linkforge_compile.expressions import (
     FAULT,
     Fault,
@@ -25,7 +24,7 @@ from linkforge_compile.expressions import (
 )
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.computed import judge_computed
-from linkforge_compile.modules.conditions import occurrences
+from linkforge_compile.modules.conditions import occurrences, without_words
 from linkforge_compile.modules.disabled import Disabled
 from linkforge_compile.modules.made_number import tell_made_number
 from linkforge_compile.modules.origins import ExpressionTrace, Setting
@@ -227,10 +226,11 @@ class TreeEvaluator:
 
     def entries(self, node: YamlMap, shape: Shape) -> Iterator[tuple[TreeEvaluator, YamlEntry]]:
         """Yield each entry of a map as often as it is there, as written, with what computes it."""
+        if shape.has_names and node.entries.keys() & WORDS:
+            node, tree = without_words(node, shape, self)
+            yield from tree.entries(node, shape)
+            return
         for written in node:
-            if shape.has_names and written.name in WORDS:
-                self.sink.report(RESERVED_KEY.at(written.key.span, name=written.name, owner=shape.things))
-                continue
             if not self.expressions.change(written.value):
                 yield self, written
                 continue

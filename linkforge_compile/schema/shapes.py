@@ -93,6 +93,10 @@ class Shape:
         """Whether a key says something raw in a map keyed by names, and is none."""
         return self._names is not None and key in RAW and key in mapping(self._names.get("properties", {}))
 
+    def reserves(self, key: str) -> bool:
+        """Whether a key in a map keyed by names is kept for repetition, and none can have it as a name."""
+        return self._names is not None and key in WORDS and key not in mapping(self._names.get("properties", {}))
+
     def _find(self, key: str) -> Shape:
         keys = mapping((self._object or self._names or {}).get("properties", {}))
         if key in keys and key not in WORDS:

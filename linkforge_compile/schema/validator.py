@@ -13,7 +13,7 @@ from linkforge_compile.schema.fit import fit_of
 from linkforge_compile.schema.json_types import Schema
 from linkforge_compile.schema.meant import Path
 from linkforge_compile.schema.registry import linked
-from linkforge_compile.schema.shapes import Shape
+from linkforge_compile.schema.shapes import FREE, Shape, shape_of
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity
 
@@ -34,7 +34,8 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     """
     if _is_right(tree, is_included):
         return tree
-    found = (judgement for error in _errors(tree, is_included) for judgement in explain(error, tree))
+    errors = (error for error in _errors(tree, is_included) if not _is_in_reserved_name(error))
+    found = (judgement for error in errors for judgement in explain(error, tree))
     # Each is explained with all that is near it: of the hundred thousand faults of a hostile file, those that are told.
     judgements = list(islice(found, MAX_TOLD + 1))
     return _told(tree, judgements, sink)
@@ -88,6 +89,19 @@ def _errors(tree: YamlMap, is_included: bool) -> Iterator[ValidationError]:
         if tree.get(name) is None:
             data.pop(name, None)
     return _validator(is_included).iter_errors(data)
+
+
+def _is_in_reserved_name(error: ValidationError) -> bool:
+    """Whether an error lies in what has `for` as its name: whoever reads the words tells of that, and it is all."""
+    shape = shape_of(linked())
+    for step in error.absolute_path:
+        if isinstance(step, int):
+            shape = shape.item or FREE
+        elif shape.reserves(step):
+            return True
+        else:
+            shape = shape.under(step)
+    return False
 
 
 def _with_units(node: YamlNode) -> YamlNode:

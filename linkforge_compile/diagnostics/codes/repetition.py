@@ -12,7 +12,9 @@ FOR_NAME_TAKEN = Code("LF3203", _E, "'{name}' means something here already, so '
 KEY_WITHOUT_NAME = Code(
     "LF3204", _E, "the key must mention '{name}' of its 'for', such as '{example}', to be another each time"
 )
-RESERVED_KEY = Code("LF3206", _E, "'{name}' cannot be a name among the {owner}: the word is kept for repetition")
+RESERVED_KEY = Code(
+    "LF3206", _E, "'{name}' cannot be a name among the {owner}: the word is kept for repetition{way_out}"
+)
 LONG_FORM = Code("LF3207", _E, "beside 'for' and 'when' goes 'value' and nothing else here, found {found}")
 COMPUTED_REPETITION = Code(
     "LF3208", _E, "'{name}' means nothing in what an expression makes; write it where the expression stands"
