@@ -28,7 +28,7 @@ MAY_IMPORT = {
     "checks": "source diagnostics core",
     "backends": "source diagnostics bounds units core resources",
     "writers": "source units syntax core modules",
-    "compare": "core",
+    "compare": "core backends",
     "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core roots stack",
     "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
     "launch": "diagnostics backends core pipeline",

@@ -59,7 +59,7 @@ def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -
     """
     require_writable(text)
     content = _parse(text, source, path)
-    if any(map(_is_text, content)):
+    if any(map(is_text, content)):
         raise RobotGeneratorError(f"raw XML must be elements, found text in {_shown(text)}")
     return Xml("\n".join(_lines(content)))
 
@@ -113,7 +113,7 @@ def _require_name(name: str) -> None:
         raise RobotGeneratorError(f"'{name}' cannot be the name of an XML element or attribute")
 
 
-def _is_text(item: Content) -> bool:
+def is_text(item: Content) -> bool:
     return isinstance(item, str) and not isinstance(item, Xml)
 
 
@@ -123,18 +123,18 @@ def _lines(content: Sequence[Content]) -> Iterator[str]:
             yield item
         elif not item.content:
             yield f"{item.start}/>"
-        elif any(map(_is_text, item.content)):
-            yield _inline(item)
+        elif any(map(is_text, item.content)):
+            yield inline(item)
         else:
             yield f"{item.start}>"
             yield from _lines(item.content)
             yield f"</{item.tag}>"
 
 
-def _inline(item: Content) -> str:
+def inline(item: Content) -> str:
     if isinstance(item, str):
         return item if isinstance(item, Xml) else verbatim_text(item)
-    return f"{item.start}>{''.join(map(_inline, item.content))}</{item.tag}>" if item.content else f"{item.start}/>"
+    return f"{item.start}>{''.join(map(inline, item.content))}</{item.tag}>" if item.content else f"{item.start}/>"
 
 
 def _shown(text: str) -> str:
@@ -189,8 +189,8 @@ class _Reader:
 
     def end(self, _: str) -> None:
         content = self._open.pop().content
-        if not self._keeps_space.pop() and all(not _is_text(item) or not str(item).strip() for item in content):
-            content[:] = [item for item in content if not _is_text(item)]
+        if not self._keeps_space.pop() and all(not is_text(item) or not str(item).strip() for item in content):
+            content[:] = [item for item in content if not is_text(item)]
 
     def characters(self, text: str) -> None:
         self._open[-1].content.append(text)

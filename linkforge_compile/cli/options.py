@@ -26,15 +26,7 @@ class Once(argparse.Action):
 
 
 def add_spec_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "-p",
-        "--parameter",
-        metavar="NAME=VALUE",
-        dest="parameters",
-        action="append",
-        default=[],
-        help="set a parameter of the spec, such as reach=0.7m; ROS's NAME:=VALUE works too, with or without -p",
-    )
+    add_parameter_option(parser, "set a parameter of the spec, such as reach=0.7m")
     parser.add_argument(
         "--variant",
         metavar="NAME",
@@ -48,6 +40,18 @@ def add_spec_options(parser: argparse.ArgumentParser) -> None:
         choices=("gz", "classic"),
         default="gz",
         help="the simulator that reads the sensors (gz unless said)",
+    )
+
+
+def add_parameter_option(parser: argparse.ArgumentParser, what: str) -> None:
+    parser.add_argument(
+        "-p",
+        "--parameter",
+        metavar="NAME=VALUE",
+        dest="parameters",
+        action="append",
+        default=[],
+        help=f"{what}; ROS's NAME:=VALUE works too, with or without -p",
     )
 
 
@@ -82,6 +86,11 @@ def packages_of(arguments: argparse.Namespace) -> dict[str, str]:
             raise UsageError(f"--package {pair}: there is no folder '{folder}'")
         packages[name] = folder
     return packages
+
+
+def name_set_by(pair: str) -> str:
+    """Return the name in `NAME=VALUE` or `NAME:=VALUE`."""
+    return pair.partition("=")[0].removesuffix(":").strip()
 
 
 def split_assignments(words: Iterable[str]) -> tuple[list[str], list[str]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Mapping, Sequence
 
-from linkforge_compile.compare.words import is_part, said_fields
+from linkforge_compile.compare.said import is_part, said_fields, said_value
 from linkforge_compile.core.models.interface import Interface
 
 NO_FIELDS: Mapping[type, Collection[str]] = {}
@@ -16,7 +16,7 @@ def likeness(value: object, without: Mapping[type, Collection[str]] = NO_FIELDS)
         return frozenset((name, likeness(held, without)) for name, held in value.items())
     if is_part(value):
         aside = without.get(type(value), ())
-        said = (likeness(getattr(value, name), without) for name in said_fields(value) if name not in aside)
+        said = (likeness(said_value(value, name), without) for name in said_fields(value) if name not in aside)
         return type(value).__name__, str(value) if isinstance(value, Interface) else "", *said
     if isinstance(value, Sequence) and not isinstance(value, str):
         return tuple(likeness(item, without) for item in value)

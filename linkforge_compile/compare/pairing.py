@@ -7,6 +7,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Seq
 from typing import NamedTuple
 
 from linkforge_compile.compare.likeness import likeness
+from linkforge_compile.compare.raw_parts import RawElement
 from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.link import Collision, Visual
@@ -41,7 +42,7 @@ def key_of(item: object) -> str:
             return item.link
         case Chain():
             return f"{item.base_link}/{item.tip_link}"
-        case Inside():
+        case Inside() | RawElement():
             return f"{item.tag}/{item.name}" if item.name else item.tag
     name: str | None = getattr(item, "name", None)
     return name or ""

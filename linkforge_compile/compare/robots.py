@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.renames import Renames, find_renames, under_new_names
+from linkforge_compile.compare.said import key_of_field, said_fields, said_value
 from linkforge_compile.compare.walk import TOLERANCE, How, stated_differences, walk
-from linkforge_compile.compare.words import key_of_field, said_fields
 from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
@@ -40,7 +40,7 @@ def _sections(before: Robot, after: Robot, renames: Renames, how: How, *, semant
         if field == "links":
             yield from _moved_links(before, after, renames)
         old, new = _section(before, field, renames), _section(after, field, Renames({}, {}))
-        yield from walk((key_of_field(field),), old, new, how)
+        yield from walk((key_of_field(field),), old, new, how.about_field(field))
         if field == "version":
             yield from stated_differences((), before, after, how)
 
@@ -51,9 +51,7 @@ def _section(robot: Robot, field: str, renames: Renames) -> object:
         # It bears the robot's name, which is told once.
         nameless = replace(said, robot_name="") if said.robot_name == robot.name else said
         return under_new_names(nameless, renames)
-    if field == "extra_attributes":
-        return dict(robot.extra_attributes)
-    held: object = getattr(robot, field)
+    held = said_value(robot, field)
     return under_new_names(tuple(held), renames) if isinstance(held, Index) else held
 
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.measures import BARE, Measure, change_told, measure_of, position_measure
-from linkforge_compile.compare.pairing import paired
+from linkforge_compile.compare.pairing import key_of, paired
 from linkforge_compile.compare.poses import pose_differences, tensor_differences
-from linkforge_compile.compare.words import is_part, key_of_field, plain, said_fields, told
+from linkforge_compile.compare.raw_parts import RawElement, number_in, say_the_same
+from linkforge_compile.compare.said import is_part, key_of_field, said_fields, said_value
+from linkforge_compile.compare.words import as_json, plain, shortened, texts_told, told
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.interface import Interface
@@ -28,6 +30,15 @@ TOLERANCE = 1e-6
 _FLOOR = 1e-6
 """Of the tolerance: what a number next to 0 may differ by, where a share means nothing."""
 
+_DIGITS = (6, 9, 13, 17)
+"""How many of a number are shown, the more the less it changed."""
+
+_LONGEST_STATE = 200
+"""Characters of the positions of a state that come or go as a whole."""
+
+_IN_XML = frozenset({"parameters", "properties", "extra_attributes", "extra_elements"})
+"""The fields whose texts are those of an author's XML."""
+
 Path: TypeAlias = tuple[str, ...]
 
 
@@ -36,7 +47,8 @@ class How(NamedTuple):
 
     Of each pair, one is of the robot before and one of that after: `sliding` are the names of the prismatic joints,
     `slides` whether the values at hand are about one of them, `measures` what these measure, `palettes` the materials
-    that the robots declare, whose differences are told at their declaration.
+    that the robots declare, whose differences are told at their declaration. `in_xml` is whether texts are those of an
+    author's XML, in which numbers are spelt in many ways.
     """
 
     tolerance: float = TOLERANCE
@@ -44,19 +56,38 @@ class How(NamedTuple):
     palettes: tuple[Mapping[str, Material], Mapping[str, Material]] = ({}, {})
     slides: tuple[bool, bool] = (False, False)
     measures: tuple[Measure, Measure] = (BARE, BARE)
+    in_xml: bool = False
 
     def told(self, before: object, after: object) -> tuple[str, str]:
-        """Return two values at hand in a few words each."""
-        one, other = (
-            told(value, measure, slides=slides)
-            for value, measure, slides in zip((before, after), self.measures, self.slides, strict=True)
+        """Return two different values at hand in a few words each, with as much as shows that they differ."""
+        if type(before) is str and type(after) is str:
+            return texts_told(before, after)
+        if isinstance(before or after, GroupState):
+            return self._state_told(before, self.sliding[0]), self._state_told(after, self.sliding[1])
+        both = tuple(zip((before, after), self.measures, self.slides, strict=True))
+        for digits in _DIGITS:
+            one, other = (told(value, measure, slides=slides, digits=digits) for value, measure, slides in both)
+            if one != other:
+                return one, other
+        return as_json(before), as_json(after)
+
+    def _state_told(self, state: object, sliding: Collection[str]) -> str:
+        if not isinstance(state, GroupState):
+            return told(state)
+        positions = (
+            f"{joint} {told(values, position_measure(slides=joint in sliding))}"
+            for joint, values in state.joint_values.items()
         )
-        return one, other
+        return shortened(", ".join(positions), _LONGEST_STATE) or told(state)
 
     def about_joint(self, name: str) -> How:
         """Return the same for values about the joint of a name."""
         before, after = (name in sliding for sliding in self.sliding)
         return self._replace(slides=(before, after))
+
+    def about_field(self, field: str) -> How:
+        """Return the same for what is in a field."""
+        return self._replace(in_xml=True) if field in _IN_XML else self
 
 
 def walk(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
@@ -97,8 +128,10 @@ def is_near(before: float, after: float, tolerance: float) -> bool:
 def _leaf(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
     if before == after and isinstance(before, bool) == isinstance(after, bool):
         return
+    if how.in_xml and isinstance(before, str) and isinstance(after, str) and say_the_same(before, after):
+        return
     was, now = how.told(before, after)
-    kind, text = Kind.CHANGED, f"{was} → {now}"
+    kind, text = Kind.CHANGED, _numbers_in_xml_told(before, after, how) or f"{was} → {now}"
     if before is None:
         kind, text = Kind.ADDED, now
     elif after is None:
@@ -108,6 +141,29 @@ def _leaf(path: Path, before: object, after: object, how: How) -> Iterator[Diffe
     yield Difference(kind, path, plain(before), plain(after), text)
 
 
+def _numbers_in_xml_told(before: object, after: object, how: How) -> str:
+    """Return how a number that is a text in XML changed, "" for what is none."""
+    numbers = [number_in(text) for text in (before, after) if how.in_xml and isinstance(text, str)]
+    match numbers:
+        case [float() as one, float() as other]:
+            return change_told(one, other, BARE)
+    return ""
+
+
+def _elements(path: Path, before: RawElement, after: RawElement, how: How) -> Iterator[Difference]:
+    """Yield what differs in an element of raw XML; those of one tag have an order, which others need not keep."""
+    yield from _mappings(path, before.attributes, after.attributes, how)
+    yield from _leaf(path, before.text, after.text, how)
+    for tag in dict.fromkeys(one.tag for one in (*after.inside, *before.inside)):
+        were, are = ([one for one in element.inside if one.tag == tag] for element in (before, after))
+        if len(were) != len(are):
+            yield from _members(path, were, are, how)
+            continue
+        for place, (one, other) in enumerate(zip(were, are, strict=True)):
+            name = key_of(other) if key_of(one) == key_of(other) else tag
+            yield from walk((*path, name, *([str(place)] if len(are) > 1 and name == tag else [])), one, other, how)
+
+
 def _part(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
     match before, after:
         case (Joint(), Joint()):
@@ -115,6 +171,9 @@ def _part(path: Path, before: object, after: object, how: How) -> Iterator[Diffe
         case (TransmissionJoint(), TransmissionJoint()):
             how = how.about_joint(after.name)
         case (Material(), Material()) if path[0] != "materials" and _is_declared(before, after, how):
+            return
+        case (RawElement(), RawElement()):
+            yield from _elements(path, before, after, how)
             return
         case (Transmission(), Transmission()):
             yield from _order(path, before, after)
@@ -135,8 +194,7 @@ def _fields(path: Path, before: object, after: object, how: How, without: tuple[
         if name in without:
             continue
         here = _about_field(how, before, name)
-        read_as = _READ_AS.get(name, _as_it_is)
-        old, new = read_as(getattr(before, name)), read_as(getattr(after, name))
+        old, new = said_value(before, name), said_value(after, name)
         yield from walk((*path, _key(name, old, new)), old, new, here)
     yield from stated_differences(path, before, after, how)
 
@@ -167,7 +225,7 @@ def _stated(part: object) -> tuple[str, ...]:
 
 def _about_field(how: How, part: object, field: str) -> How:
     before, after = (measure_of(type(part), field, slides=slides) for slides in how.slides)
-    return how._replace(measures=(before, after))
+    return how.about_field(field)._replace(measures=(before, after))
 
 
 def _number_told(before: float, after: float, how: How) -> str:
@@ -181,27 +239,6 @@ def _key(field: str, before: object, after: object) -> str:
     if field == "geometry" and type(before) is type(after):
         return str(getattr(before, "type", field))
     return key_of_field(field)
-
-
-def _as_it_is(value: object) -> object:
-    return value
-
-
-def _as_interfaces(names: object) -> object:
-    assert isinstance(names, tuple)
-    return tuple(map(Interface.of, names))
-
-
-def _as_mapping(pairs: object) -> object:
-    assert isinstance(pairs, Sequence)
-    return dict(pairs)
-
-
-_READ_AS: Mapping[str, Callable[[object], object]] = {
-    "command_interfaces": _as_interfaces,
-    "state_interfaces": _as_interfaces,
-    "extra_attributes": _as_mapping,
-}
 
 
 def _members(path: Path, before: Sequence[object], after: Sequence[object], how: How) -> Iterator[Difference]:

@@ -2,54 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, fields, is_dataclass
+from itertools import takewhile
 
 from linkforge_compile.compare.difference import Plain
 from linkforge_compile.compare.measures import ANGLE, BARE, LENGTH, Measure, measure_of, number_told
+from linkforge_compile.compare.raw_parts import RawElement
+from linkforge_compile.compare.said import is_part, key_of_field, said_fields, said_value
+from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
+from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.geometry import Mesh, Transform, Vector3
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.material import Color
+from linkforge_compile.core.models.planning import Chain, JointProperty
 from linkforge_compile.core.models.ros2_control import Ros2Control
 
 LONGEST = 70
 """Characters that a word of somebody else, such as raw XML, may take in a line."""
-
-_KEYS = {
-    "visuals": "visual",
-    "collisions": "collision",
-    "link_name": "link",
-    "resource": "file",
-    "ros2_controls": "ros2_control",
-    "gazebo_elements": "gazebo",
-    "extra_elements": "extra",
-}
-NO_PART_OF_IT = frozenset({"stated", "interfaces_stated", "version_stated"})
-"""Fields that say which others are written with their default, and are told as those."""
+_LEAD = 20
+"""How many of them stand before the place from which two long texts differ."""
 
 
-def key_of_field(field: str) -> str:
-    """Return the key under which the language has a field of the IR."""
-    return _KEYS.get(field, field.removesuffix("_info"))
-
-
-def said_fields(part: object) -> tuple[str, ...]:
-    """Return the fields of a part, or of an interface, that say something of the robot."""
-    if isinstance(part, Interface):
-        return "parameters", "extra_attributes", "extra_elements", "extra_inside"
-    assert is_dataclass(part)
-    own = (one.name for one in fields(part) if one.compare and not one.name.startswith("_"))
-    return tuple(name for name in own if name not in NO_PART_OF_IT)
-
-
-def is_part(value: object) -> bool:
-    """Whether a value has fields of its own."""
-    return isinstance(value, Interface) or (is_dataclass(value) and not isinstance(value, type))
-
-
-def told(value: object, measure: Measure = BARE, *, slides: bool = False) -> str:
+def told(value: object, measure: Measure = BARE, *, slides: bool = False, digits: int = 6) -> str:
     """Return a value in a few words; `slides` says that it is about a prismatic joint."""
     match value:
         case None:
@@ -57,27 +35,46 @@ def told(value: object, measure: Measure = BARE, *, slides: bool = False) -> str
         case bool():
             return "yes" if value else "no"
         case int() | float():
-            return number_told(value, measure)
+            return number_told(value, measure, digits)
         case Interface():
             return str(value)
         case str():
             return shortened(value) or "''"
         case Vector3() | Color():
-            numbers = value.to_tuple()
-            return f"{' '.join(number_told(number * measure.shown) for number in numbers)} {measure.unit}".rstrip()
+            bare = Measure("", measure.shown)
+            numbers = (number_told(number, bare, digits) for number in value.to_tuple())
+            return f"{' '.join(numbers)} {measure.unit}".rstrip()
         case Transform():
             return f"at {told(value.xyz, LENGTH)}, rpy {told(value.rpy, ANGLE)}"
         case Mapping():
             return ", ".join(f"{name} {told(one)}" for name, one in value.items()) or "nothing"
         case tuple() | list():
-            return " ".join(told(one, measure) for one in value) or "nothing"
+            return " ".join(told(one, measure, digits=digits) for one in value) or "nothing"
+        case RawElement():
+            return shortened(value.written)
     return _part_told(value, slides=slides)
 
 
-def shortened(text: str) -> str:
+def texts_told(before: str, after: str) -> tuple[str, str]:
+    """Return two different texts on a line each, long ones from shortly before they differ."""
+    one, other = (" ".join(text.split()) for text in (before, after))
+    if one == other:
+        one, other = as_json(before), as_json(after)
+    if max(len(one), len(other)) > LONGEST:
+        same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False)))
+        start = max(0, same - _LEAD)
+        one, other = (shortened(f"…{text[start:]}" if start else text) for text in (one, other))
+    return one or "''", other or "''"
+
+
+def as_json(value: object) -> str:
+    return json.dumps(plain(value), ensure_ascii=False)
+
+
+def shortened(text: str, longest: int = LONGEST) -> str:
     """Return a text on one line of bearable length."""
     line = " ".join(text.split())
-    return line if len(line) <= LONGEST else f"{line[: LONGEST - 1]}…"
+    return line if len(line) <= longest else f"{line[: longest - 1]}…"
 
 
 def _part_told(part: object, *, slides: bool) -> str:
@@ -86,6 +83,8 @@ def _part_told(part: object, *, slides: bool) -> str:
             return _link_told(part)
         case Joint():
             return f"{part.type}, {part.parent} → {part.child}"
+        case Chain() if not (part.extra_attributes or part.extra_elements or part.extra_inside):
+            return f"{part.base_link} → {part.tip_link}"
         case Mesh():
             return f"mesh {part.resource}" + (f" scaled {told(part.scale)}" if set(part.scale) != {1} else "")
         case Ros2Control():
@@ -109,7 +108,7 @@ def _hardware_told(hardware: Ros2Control) -> str:
     states = dict.fromkeys(str(name) for one in commanded for name in one.state_interfaces)
     states |= dict.fromkeys(str(name) for one in hardware.sensors for name in one.state_interfaces)
     return ", ".join(facts) + "".join(
-        f"; {verb} {' '.join(names)}" for verb, names in (("commands", commands), ("reads", states)) if names
+        f"; {verb} {shortened(' '.join(names))}" for verb, names in (("commands", commands), ("reads", states)) if names
     )
 
 
@@ -122,15 +121,33 @@ def _fields_told(part: object, *, slides: bool) -> Iterator[str]:
         yield f"{shape}"
     for one in fields(part) if is_dataclass(part) and not isinstance(part, type) else ():
         value: object = getattr(part, one.name)
-        if one.name == "name" or one.name not in said_fields(part) or _is_default(one, value):
+        if one.name in _IN_ITS_KEY.get(type(part), ("name",)) or one.name not in said_fields(part):
+            continue
+        if _is_default(one, value):
             continue
         key = key_of_field(one.name)
         if isinstance(value, tuple) and value and is_part(value[0]):
-            yield f"{len(value)} {key}"
+            yield _members_told(key, value)
         elif is_part(value) and not isinstance(value, Vector3 | Color | Transform):
             yield f"{key} ({told(value, slides=slides)})"
         else:
             yield f"{key} {told(value, measure_of(type(part), one.name, slides=slides))}"
+
+
+_IN_ITS_KEY: Mapping[type, Sequence[str]] = {
+    GazeboElement: ("reference",),
+    CollisionPair: ("link1", "link2"),
+    JointProperty: ("joint_name", "property_name"),
+    LinkSphereApproximation: ("link",),
+}
+"""The fields that the path of a part says; of all others its name."""
+
+
+def _members_told(key: str, members: Sequence[object]) -> str:
+    names = [name for one in members if isinstance(name := getattr(one, "name", None), str)]
+    if len(names) == len(members):
+        return shortened(f"{key} {' '.join(names)}")
+    return " ".join(_counted(((len(members), key.removesuffix("s")),)))
 
 
 def _is_default(field: Field[object], value: object) -> bool:
@@ -140,6 +157,8 @@ def _is_default(field: Field[object], value: object) -> bool:
 def plain(value: object) -> Plain:
     """Return a value as JSON can hold it: a part as an object of what it says, in the language's keys."""
     match value:
+        case RawElement():
+            return value.written
         case Interface():
             parts: dict[str, Plain] = {"name": str(value)}
             return {**parts, **_plain_fields(value)}
@@ -157,5 +176,5 @@ def plain(value: object) -> Plain:
 
 
 def _plain_fields(part: object) -> dict[str, Plain]:
-    values = {key_of_field(name): plain(getattr(part, name)) for name in said_fields(part)}
+    values = {key_of_field(name): plain(said_value(part, name)) for name in said_fields(part)}
     return {key: value for key, value in values.items() if value is not None and value not in ([], {})}

@@ -88,6 +88,27 @@ def test_of_two_variants_for_one_side_none_is_forgotten_in_silence(arms: Path):
     assert "argument --after-variant: may be given once, found 'a' and 'b'" in run.stderr
 
 
+def test_what_is_set_for_one_side_comes_before_the_rest_and_stands_in_the_heading(arms: Path):
+    (arms / "old.robot.yaml").write_text(f"{OLD}variants: {{long: {{reach: 2}}}}\n")
+    twice = ("diff", "old.robot.yaml", "old.robot.yaml")
+    run = linkforge(*twice, "--variant", "long", "-p", "reach=1", "--after", "reach=0.75 m", cwd=arms)
+    assert run.stdout.splitlines()[0] == "old.robot.yaml → old.robot.yaml (reach=0.75 m): 1 changed"
+    assert "moved by 250 mm (z -250 mm)" in run.stdout
+    run = linkforge(*twice, "--after-variant", "long", "--before", "reach=2", cwd=arms)
+    assert run.stdout == "old.robot.yaml (reach=2) and old.robot.yaml (variant long) are the same robot\n"
+
+
+def test_an_srdf_is_the_semantic_part_of_its_urdf(arms: Path):
+    linkforge("compile", "old.robot.yaml", "-o", ".", cwd=arms)
+    run = linkforge("diff", "old.urdf", "old.robot.yaml", "--before-srdf", "old.srdf", cwd=arms)
+    assert (run.returncode, run.stdout) == (0, "old.urdf (old.srdf) and old.robot.yaml are the same robot\n")
+    srdf = arms / "old.srdf"
+    srdf.write_text(srdf.read_text().replace('<joint name="elbow"', '<joint name="flange"'))
+    run = linkforge("diff", "old.urdf", "old.robot.yaml", "--before-srdf", "old.srdf", cwd=arms)
+    assert (run.returncode, run.stderr) == (1, "")
+    assert "  ~ groups/arm\n      + joints: elbow\n      - joints: flange\n" in run.stdout
+
+
 def test_a_xacro_takes_its_arguments(arms: Path):
     pytest.importorskip("xacro")
     (arms / "a.urdf.xacro").write_text(
@@ -120,6 +141,10 @@ def test_json_is_as_its_schema_says(arms: Path):
         (["-", "-"], "only one of the robots can come from standard input"),
         (["old.robot.yaml", "none.robot.yaml"], "none.robot.yaml"),
         (["old.robot.yaml", "none.urdf"], "none.urdf"),
+        (["a.urdf", "b.urdf", "reach:=1"], "nothing takes 'reach:=1': a URDF has no parameters"),
+        (["a.urdf", "b.urdf", "--variant", "long"], "nothing takes '--variant long': a URDF has no variants"),
+        (["a.urdf", "b.srdf"], "'b.srdf' is an SRDF; give it with its robot: --after-srdf b.srdf"),
+        (["a.urdf", "new.robot.yaml", "--after-srdf", "b.srdf"], "'new.robot.yaml' has 'semantic' for it"),
         (["old.robot.yaml", "new.robot.yaml", "--tolerance", "-1"], "takes a number from 0 to below 1"),
     ],
 )

@@ -75,11 +75,11 @@ def told(old: str, new: str) -> list[str]:
         ("reduction: 50", "reduction: 100", "changed transmissions/drive/joints/elbow/mechanical_reduction: 50 → 100 (+100 %)"),
         ("[position, velocity]", "[position]", "removed ros2_control/hw/joints/elbow/command_interfaces/velocity: velocity"),
         ("hw: {type: system, hardware", "hw: {type: actuator, hardware", "changed ros2_control/hw/type: system → actuator"),
-        ("maxContacts: 10", "maxContacts: 20", "changed gazebo/base/properties/maxContacts: 10 → 20"),
+        ("maxContacts: 10", "maxContacts: 20", "changed gazebo/base/properties/maxContacts: 10 → 20 (+100 %)"),
         ("joints: [elbow, rail]", "joints: [elbow]", "removed semantic/groups/arm/joints: rail"),
         ("home: {elbow: 0, rail: 0}", "home: {elbow: 90 deg, rail: 0}",
          "changed semantic/group_states/arm/home/elbow: 0 deg → 90 deg (+90 deg)"),
-        ("upper: Adjacent", "cart: Adjacent", "added semantic/disabled_collisions/base/cart: link1 base, link2 cart, reason Adjacent"),
+        ("upper: Adjacent", "cart: Adjacent", "added semantic/disabled_collisions/base/cart: reason Adjacent"),
     ],
 )  # fmt: skip
 def test_a_change_is_told_with_its_units_and_by_how_much(old: str, new: str, text: str):
@@ -102,6 +102,65 @@ def test_what_a_part_states_although_it_is_so_by_default_is_told_as_that_field(o
     there, back = (compare(*map(robot_of, pair)) for pair in ((was, now), (now, was)))
     assert [f"{one.kind} {'/'.join(one.path)}: {one.text}" for one in there] == [text]
     assert [one.path for one in back] == [one.path for one in there]
+
+
+RAW = """\
+extra: |
+  <self_filter ignore="a" scale="1.20"><link name="base"/> <link name="upper">0.50 1e-3</link></self_filter>
+extra_attributes: {stamp: "007", gain: "0.20"}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "texts"),
+    [
+        ('ignore="a" scale="1.20"', 'scale="1.2" ignore="a"', []),
+        ('stamp: "007", gain: "0.20"', 'gain: "0.2", stamp: "007"', []),
+        ("0.50 1e-3", "0.5  0.001", []),
+        ("/> <link", "/><!-- wide --><link", []),
+        ("maxContacts: 10", "maxContacts: 10.0", []),
+        ('stamp: "007"', 'stamp: "7"', ["changed extra_attributes/stamp: 007 → 7"]),
+        ("1.20", "1.5", ["changed extra/self_filter/scale: 1.2 → 1.5 (+25 %)"]),
+        ("0.50 1e-3", "0.50 2e-3", ["changed extra/self_filter/link/upper: 0.50 1e-3 → 0.50 2e-3"]),
+        ('name="base"', 'name="cart"', ["changed extra/self_filter/link/0/name: base → cart"]),
+        ('<link name="base"/> ', "", ['removed extra/self_filter/link/base: <link name="base"/>']),
+        ("</self_filter>", "</self_filter><new/>", ["added extra/new: <new/>"]),
+    ],
+)  # fmt: skip
+def test_raw_xml_is_compared_by_what_it_says_and_told_where_it_differs(old: str, new: str, texts: list[str]):
+    spec = SPEC + RAW
+    assert old in spec
+    there = compare(robot_of(spec), robot_of(spec.replace(old, new)))
+    assert [f"{one.kind} {'/'.join(one.path)}: {one.text}" for one in there] == texts
+
+
+def test_tags_of_one_kind_in_raw_xml_have_an_order():
+    path = "extra: <path><via>1 2</via><via>3 4</via><speed/></path>"
+    other = "extra: <path><speed/><via>3 4</via><via>1 2</via></path>"
+    texts = [f"{'/'.join(one.path)}: {one.text}" for one in compare(robot_of(SPEC + path), robot_of(SPEC + other))]
+    assert texts == ["extra/path/via/0: 1 2 → 3 4", "extra/path/via/1: 3 4 → 1 2"]
+
+
+def test_two_values_are_told_as_far_as_it_takes_to_see_that_they_differ():
+    note = "a note that is longer than what a line can bear, and says what matters at its very end, which is "
+    before, after = (
+        robot_of(
+            SPEC.replace("name: arm", f"name: arm\nmetadata: {{note: '{note}{end}', flag: {flag}}}").replace(
+                "0.2]", size
+            )
+        )
+        for end, flag, size in (("one", "true", "0.20000001]"), ("two", "'yes'", "0.20000002]"))
+    )
+    assert [one.text for one in compare(before, after, tolerance=1e-9)] == [
+        "… very end, which is one → … very end, which is two",
+        'true → "yes"',
+        "1 1 0.20000001 m → 1 1 0.20000002 m",
+    ]
+
+
+def test_a_state_that_is_new_is_told_with_its_positions_and_their_units():
+    text = "added semantic/group_states/arm/out: elbow 90 deg, rail 0.5 m"
+    assert told("home: {elbow: 0, rail: 0}", "home: {elbow: 0, rail: 0}, out: {elbow: 90 deg, rail: 0.5}") == [text]
 
 
 def test_a_joint_that_turned_and_slides_now_is_told_with_the_units_of_each():

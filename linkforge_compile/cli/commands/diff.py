@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkforge_compile.cli.differences import Side
 from linkforge_compile.cli.exits import OK, UsageError
-from linkforge_compile.cli.options import Once, add_spec_options, packages_of, split_assignments
+from linkforge_compile.cli.options import Once, add_spec_options, name_set_by, packages_of, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.compare import Difference, Vanished
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
 
@@ -24,14 +23,16 @@ DIFFERENT, NO_ROBOT = 1, 2
 _SIDES = ("before", "after")
 
 _EXAMPLES = """\
-A and B are specs or URDFs (.urdf, .xml, .xacro); `-p`, `--variant` and `--package` go to every spec among them,
-`--before` and `--after` to A or B alone. Beside a URDF the semantic part is left out, which is said. Only errors of
-theirs are told; `linkforge check` tells the rest.
+A and B are specs, URDFs (.urdf, .xml) or xacros; `-p`, `--variant` and `--package` go to all among them that take them,
+`--before` and `--after` to A or B alone, before what `-p` and a variant say. The semantic part of a URDF is its SRDF,
+which `--before-srdf` and `--after-srdf` name; without it that part is left out, which is said. Only errors
+of theirs are told; `linkforge check` tells the rest.
 Exit codes: 0 for the same robot, 1 for another one, 2 for wrong usage and for what is no robot.
 
 examples:
   linkforge diff old.robot.yaml new.robot.yaml
-  linkforge diff arm.urdf arm.robot.yaml --tolerance 1e-9
+  linkforge diff arm.urdf arm.robot.yaml --before-srdf arm.srdf
+  linkforge diff arm.urdf.xacro arm.robot.yaml --before reach:=0.7 --tolerance 1e-9
   linkforge diff arm.robot.yaml arm.robot.yaml --before reach=0.7m --after reach=0.9m
   linkforge diff arm.robot.yaml arm.robot.yaml --after-variant sim
   linkforge diff old.urdf new.urdf --json
@@ -61,6 +62,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(
             f"--{side}-variant", metavar="NAME", action=Once, help=f"the variant of the robot {side} alone"
         )
+        parser.add_argument(
+            f"--{side}-srdf", metavar="SRDF", action=Once, help=f"the SRDF of the robot {side}, which is a URDF"
+        )
     add_spec_options(parser)
     add_telling_options(parser)
 
@@ -71,44 +75,76 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(f"takes two robots, found {len(words)}")
     if words == ["-", "-"]:
         raise UsageError("only one of the robots can come from standard input")
+    sides = [_side(side, word, arguments) for side, word in zip(_SIDES, words, strict=True)]
+    common = [*arguments.parameters, *assignments]
+    _refuse_what_none_takes(sides, common, arguments.variant)
     before, after = (
-        _robot(word, assignments, _for_side(side, word, arguments)) for side, word in zip(_SIDES, words, strict=True)
+        _robot(side, _for_side(name, side, common, arguments)) for name, side in zip(_SIDES, sides, strict=True)
     )
     if before is None or after is None:
         return NO_ROBOT
+    from linkforge_compile.cli.differences import Comparison, json_of, lines_of
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.compare import TOLERANCE, compare, vanished
 
     tolerance = TOLERANCE if arguments.tolerance is None else arguments.tolerance
-    semantic = not any(map(_is_urdf, words))
+    semantic = not any(map(_has_no_semantic, sides))
     differences = compare(before, after, tolerance=tolerance, semantic=semantic)
     gone = vanished(before, after, semantic=semantic)
+    comparison = Comparison(sides[0], sides[1], tolerance, semantic, differences, gone)
     if arguments.json:
-        write_to_stdout(_json_text(words, tolerance, semantic, differences, gone))
+        write_to_stdout(json_of(comparison))
     else:
-        lines = (*_lines(words, differences, gone), *_left_out(words, (before, after)))
+        lines = (*lines_of(comparison), *_left_out(sides, (before, after)))
         write_to_stdout("".join(f"{line}\n" for line in lines))
     return DIFFERENT if differences else OK
 
 
-def _for_side(side: str, word: str, arguments: argparse.Namespace) -> argparse.Namespace:
-    """Return the arguments as they are for the robot of one side."""
+def _side(name: str, word: str, arguments: argparse.Namespace) -> Side:
+    """Return the robot of one side and what is set for it alone; UsageError for what it cannot have."""
+    values = vars(arguments)
+    parameters: list[str] = values[name]
+    variant: str | None = values[f"{name}_variant"]
+    srdf: str | None = values[f"{name}_srdf"]
+    if word.lower().endswith((".srdf", ".srdf.xacro")):
+        raise UsageError(f"'{word}' is an SRDF; give it with its robot: --{name}-srdf {word}")
+    if _is_urdf(word) and (variant or (parameters and not _takes_parameters(Side(word, {}, None, srdf)))):
+        raise UsageError(f"'{word}' has no {'variants' if variant else 'parameters'}")
+    if srdf and not _is_urdf(word):
+        raise UsageError(f"--{name}-srdf goes with a URDF; '{word}' has 'semantic' for it")
+    return Side(word, {name_set_by(pair): pair.partition("=")[2] for pair in parameters}, variant, srdf)
+
+
+def _refuse_what_none_takes(sides: Sequence[Side], common: Sequence[str], variant: str | None) -> None:
+    if common and not any(map(_takes_parameters, sides)):
+        raise UsageError(f"nothing takes '{common[0]}': a URDF has no parameters")
+    if variant and all(_is_urdf(side.word) for side in sides):
+        raise UsageError(f"nothing takes '--variant {variant}': a URDF has no variants")
+
+
+def _takes_parameters(side: Side) -> bool:
+    return not _is_urdf(side.word) or any(_is_xacro(file) for file in (side.word, side.srdf) if file)
+
+
+def _for_side(name: str, side: Side, common: Iterable[str], arguments: argparse.Namespace) -> argparse.Namespace:
+    """Return the arguments as they are for the robot of one side: what is set for it alone comes before the rest."""
     from argparse import Namespace
 
-    parameters: list[str] = getattr(arguments, side)
-    variant: str | None = getattr(arguments, f"{side}_variant")
-    if _is_urdf(word) and (variant or (parameters and not _is_xacro(word))):
-        raise UsageError(f"'{word}' has no {'variants' if variant else 'parameters'}")
     ours = Namespace(**vars(arguments))
-    ours.parameters = [*arguments.parameters, *parameters]
-    ours.variant = variant or arguments.variant
+    ours.parameters = [*(pair for pair in common if name_set_by(pair) not in side.parameters), *vars(arguments)[name]]
+    ours.variant = side.variant or arguments.variant
     return ours
 
 
-def _left_out(words: Sequence[str], robots: Sequence[Robot]) -> Iterator[str]:
+def _has_no_semantic(side: Side) -> bool:
+    return _is_urdf(side.word) and side.srdf is None
+
+
+def _left_out(sides: Sequence[Side], robots: Sequence[Robot]) -> Iterator[str]:
     """Yield the line that says that the semantic part is not compared, where one of the robots has one."""
-    if any(robot.says_semantic for robot in robots) and any(map(_is_urdf, words)):
-        yield f"the semantic part is left out: {' and '.join(filter(_is_urdf, words))} has none"
+    without = [side.word for side in sides if _has_no_semantic(side)]
+    if without and any(robot.says_semantic for robot in robots):
+        yield f"the semantic part is left out: {' and '.join(without)} has none"
 
 
 def _tolerance(text: str) -> float:
@@ -131,24 +167,25 @@ def _is_xacro(word: str) -> bool:
     return Path(word).suffix.lower() == ".xacro"
 
 
-def _robot(word: str, assignments: list[str], arguments: argparse.Namespace) -> Robot | None:
-    if _is_urdf(word):
+def _robot(side: Side, arguments: argparse.Namespace) -> Robot | None:
+    if _is_urdf(side.word):
         from linkforge_compile.importing import import_urdf
         from linkforge_compile.pipeline import compile_text
 
         imported = import_urdf(
-            word,
-            arguments=[*arguments.parameters, *assignments] if _is_xacro(word) else (),
+            side.word,
+            srdf=side.srdf,
+            arguments=arguments.parameters if _takes_parameters(side) else (),
             packages=packages_of(arguments),
             allow_outside=arguments.allow_outside,
         )
         if tell((*_errors(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
             return None
-        compilation = compile_text(imported.text, name=word, folder=Path(word).parent)
+        compilation = compile_text(imported.text, name=side.word, folder=Path(side.word).parent)
     else:
         from linkforge_compile.cli.one_spec import compile_spec
 
-        compilation = compile_spec(word, assignments, arguments)
+        compilation = compile_spec(side.word, [], arguments)
     return None if tell(_errors(compilation.diagnostics), arguments) else compilation.robot
 
 
@@ -156,70 +193,3 @@ def _errors(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
     from linkforge_compile.diagnostics import Severity
 
     return [diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR]
-
-
-def _lines(words: Sequence[str], differences: Sequence[Difference], gone: Sequence[Vanished]) -> Iterator[str]:
-    if not differences:
-        yield f"{words[0]} and {words[1]} are the same robot"
-        return
-    yield f"{words[0]} → {words[1]}: {_count(differences)}"
-    if gone:
-        yield from ("", "breaking: names that are gone, on which others may rely")
-        width = max(len(name.kind) for name in gone)
-        yield from (f"  {name.kind:{width}}  {name.name}" + (f", now {name.now}" if name.now else "") for name in gone)
-    for section, members in groupby(differences, key=lambda difference: difference.path[0]):
-        yield from ("", section)
-        for name, group in groupby(members, key=lambda difference: difference.path[1 : _DEPTH.get(section, 2)]):
-            yield from _part_lines("/".join(name), list(group))
-
-
-_DEPTH = {"semantic": 3}
-"""How many steps of a path lead to what stands in a line of its own."""
-
-_SIGNS = {"added": "+", "removed": "-", "renamed": ">", "moved": ">", "changed": "~"}
-
-
-def _part_lines(name: str, differences: Sequence[Difference]) -> Iterator[str]:
-    """Yield the lines about one part: what became of it as a whole, then what of it differs."""
-    steps = name.count("/") + 2 if name else 1
-    whole = [difference for difference in differences if len(difference.path) <= steps]
-    for difference in whole:
-        yield f"  {_SIGNS[difference.kind]} {name}: {difference.text}" if name else f"  {difference.text}"
-    inner = [difference for difference in differences if len(difference.path) > steps]
-    if inner and not whole:
-        yield f"  ~ {name}"
-    for difference in inner:
-        sign = "" if difference.kind == "changed" else f"{_SIGNS[difference.kind]} "
-        yield f"      {sign}{'/'.join(difference.path[steps:])}: {difference.text}"
-
-
-def _count(differences: Sequence[Difference]) -> str:
-    kinds = [difference.kind for difference in differences]
-    return ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds), key=list(_SIGNS).index))
-
-
-def _json_text(
-    words: Sequence[str], tolerance: float, semantic: bool, differences: Sequence[Difference], gone: Sequence[Vanished]
-) -> str:
-    import json
-
-    whole = {
-        "version": 1,
-        "before": words[0],
-        "after": words[1],
-        "tolerance": tolerance,
-        "semantic_compared": semantic,
-        "same": not differences,
-        "breaking": [name._asdict() for name in gone],
-        "differences": [
-            {
-                "kind": difference.kind,
-                "path": "/".join(difference.path),
-                "before": difference.before,
-                "after": difference.after,
-                "text": difference.text,
-            }
-            for difference in differences
-        ],
-    }
-    return json.dumps(whole, ensure_ascii=False, indent=2) + "\n"
