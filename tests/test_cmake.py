@@ -180,11 +180,22 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ("FORMAT urdf", "it has no argument 'FORMAT;urdf'"),
+        ("FORMAT urdf", "it has no argument 'FORMAT'; it takes PARAMS, VARIANT,"),
+        ("PARAMS reach:=1 FORMAT urdf", "PARAMS takes NAME:=VALUE, found 'FORMAT'"),
         ("FORMATS sdf", "FORMATS takes urdf and srdf, found 'sdf'"),
+        ("GAZEBO ignition", "GAZEBO takes gz or classic, found 'ignition'"),
         ("VARIANT", "nothing is said behind VARIANT"),
         ("DESTINATION urdf", "DESTINATION is of INSTALL, which is not there"),
         ("PACKAGES arm", "PACKAGES takes NAME=FOLDER, found 'arm'"),
+        ("PACKAGES arm=nowhere", "PACKAGES arm=nowhere: there is no folder '"),
+        (
+            ")\nlinkforge_add_robot(arm.robot.yaml",
+            "another one makes arm.urdf already; call the files of this one by NAME",
+        ),
+        (
+            ")\nlinkforge_add_robot(arm.robot.yaml NAME b TARGET robot_arm",
+            "there is a target 'robot_arm' already; call that of this one by TARGET",
+        ),
     ],
 )
 def test_wrong_arguments_are_told_when_cmake_configures(tmp_path: Path, arguments: str, said: str):
@@ -194,9 +205,39 @@ def test_wrong_arguments_are_told_when_cmake_configures(tmp_path: Path, argument
     assert f"linkforge_add_robot(arm.robot.yaml): {said}" in " ".join(run.stderr.split())
 
 
+def test_a_spec_that_is_not_there_is_told_when_cmake_configures_unless_the_build_makes_it(tmp_path: Path):
+    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
+    add = "linkforge_add_robot(amr.robot.yaml)"
+    run = script(tmp_path, f"{find}\n{add}", "-DLINKFORGE_EXECUTABLE=true")
+    assert "linkforge_add_robot(amr.robot.yaml): there is no spec '" in " ".join(run.stderr.split())
+    makes = "set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/amr.robot.yaml PROPERTIES GENERATED TRUE)"
+    assert script(tmp_path, f"{find}\n{makes}\n{add}", "-DLINKFORGE_EXECUTABLE=true").returncode == 0
+
+
+def test_what_is_said_comes_to_the_command_as_it_was_said(tmp_path: Path):
+    echo = tmp_path / "echo words"
+    echo.write_text("#!/bin/sh\nprintf '%s\\n' \"$@\"\ntouch arm.urdf\n")
+    echo.chmod(0o755)
+    (tmp_path / "parts").mkdir()
+    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
+    add = 'PARAMS "name:=two words; and more" "axes:=[1;2]" VARIANT sim GAZEBO classic PACKAGES parts=parts INSTALL'
+    text = f"{find}\nlinkforge_add_robot(arm.robot.yaml {add} DESTINATION robots)"
+    assert script(tmp_path, text, f"-DLINKFORGE_EXECUTABLE={echo}").returncode == 0
+    build = subprocess.run(
+        [program("cmake"), "--build", tmp_path / "b"], capture_output=True, text=True, check=True, timeout=60
+    )
+    said = build.stdout.splitlines()
+    assert said[said.index("-p") : said.index("-o")] == [
+        *("-p", "name:=two words; and more", "-p", "axes:=[1;2]", "--package", f"parts={tmp_path / 'parts'}"),
+        *("--variant", "sim", "--gazebo", "classic", "--installed-in", str(tmp_path / "robots")),
+    ]
+
+
 def test_cmake_names_files_after_the_spec_as_the_command_does(tmp_path: Path):
     parts = ("robot.yaml", "yaml", "robot.yml", "yml", "urdf.xacro", "xacro", "urdf", "urdf.robot.yaml", "xacro.yaml")
     specs = [f"arm{number}.{part}" for number, part in enumerate(parts)]
+    for spec in specs:
+        (tmp_path / spec).touch()
     text = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)\n'
     text += "".join(f'linkforge_add_robot({spec} OUTPUT made)\nmessage("made ${{made}}")\n' for spec in specs)
     run = script(tmp_path, text, "-DLINKFORGE_EXECUTABLE=true")

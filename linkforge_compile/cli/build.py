@@ -45,7 +45,8 @@ def targets_for(robot: Robot, targets: Targets) -> Targets | None:
 
 def compile_order(order: Order, arguments: argparse.Namespace) -> Compilation:
     """Compile the spec, as the options of `linkforge compile` say."""
-    return compile_spec(order.spec, order.assignments, arguments, order.targets.folder)
+    folder = order.targets.folder if arguments.installed_in is None else Path(arguments.installed_in)
+    return compile_spec(order.spec, order.assignments, arguments, folder)
 
 
 def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespace) -> int:

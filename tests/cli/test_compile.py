@@ -123,6 +123,9 @@ def test_meshes_beside_the_spec_are_told_where_the_urdf_goes_elsewhere(pendulum:
     )
     assert f"rod.robot.yaml:4:24: warning: {expected}" in told
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "robot.urdf", cwd=pendulum).stderr
+    words = ("compile", "rod.robot.yaml", "-o", "build/", "--installed-in")
+    assert "LF7006" not in linkforge(*words, ".", cwd=pendulum).stderr
+    assert "leads nowhere from 'urdf', where the URDF goes" in linkforge(*words, "urdf", cwd=pendulum).stderr
     (pendulum / "build" / "meshes").symlink_to(pendulum / "meshes")
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
 

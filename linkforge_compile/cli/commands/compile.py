@@ -50,6 +50,11 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--depfile", metavar="FILE", help="write what the output was made from, as a rule of Make, for a build to read"
     )
+    parser.add_argument(
+        "--installed-in",
+        metavar="FOLDER",
+        help="where the URDF will lie beside what it names, that of -o unless said: meshes are looked for from there",
+    )
     add_spec_options(parser)
     add_telling_options(parser)
 
