@@ -131,9 +131,10 @@ class _Parse:
         self._open = [_Open("", {}, 0)]
         self._elements = 0
         self._last_end = -1
+        self._parsed = parsed = _without_declaration(file.text)
         # What expat counts in bytes of UTF-8 is counted in characters here, from the last place that was asked for.
-        self._is_ascii = file.text.isascii()
-        self._bytes = b"" if self._is_ascii else file.text.encode("utf-8", "surrogatepass")
+        self._is_ascii = parsed.isascii()
+        self._bytes = b"" if self._is_ascii else parsed.encode("utf-8", "surrogatepass")
         self._known = (0, 0)
         self._parser = parser = expat.ParserCreate("utf-8")
         parser.buffer_text = True
@@ -150,7 +151,7 @@ class _Parse:
             place = self._span(found.start(), 1)
             raise _RefusedError(NO_CHARACTER_OF_A_SPEC.at(place, character=code_point(found[0])))
         try:
-            self._parser.Parse(_without_declaration(self._text), True)
+            self._parser.Parse(self._parsed, True)
         except expat.ExpatError as error:
             at = self._offset(self._parser.ErrorByteIndex)
             reason = expat.ErrorString(error.code)

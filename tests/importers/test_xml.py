@@ -81,6 +81,7 @@ def test_a_comment_follows_what_ends_on_its_line():
         '<?xml version="1.1" encoding="latin-1" standalone="no" ?>\n',
         '\n\n<?xml version="1.0" encoding="utf-8"?>\n',
         '<!-- made by a script\n--><?xml version="2.0" ?>',
+        '<?xml version="größer"?>',
     ],
 )
 def test_a_declaration_may_be_late_and_of_any_version(start: str):
