@@ -53,8 +53,16 @@ def check_second_parents(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         first, *others = [joint for joint in joints if hanging(joint).user not in closing] or joints[:1]
         note = hanging(first).note(f"joint '{first.name}' hangs '{first.child}' on '{first.parent}'")
         for joint in others:
-            facts = {"link": joint.child, "first": first.name, "parent": first.parent}
+            facts = {"link": joint.child, "joint": joint.name, "parent": joint.parent, "first": first.name}
+            facts |= {"other": first.parent, "way_out": _way_to_one_parent(joint, first)}
             yield hanging(joint).told(SECOND_PARENT, notes=[note], **facts)
+
+
+def _way_to_one_parent(joint: Joint, first: Joint) -> str:
+    source, other = joint.source, first.source
+    if source and other and source.key and (source.key, source.trail) == (other.key, other.trail):
+        return "'child' must name what 'for' counts, to be another each time"
+    return "correct the 'child' of one"
 
 
 def check_link_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

@@ -68,7 +68,12 @@ MOUNT_AND_JOINT = Code(
 
 # LF54xx: the tree of links
 NO_LINKS = Code("LF5401", _E, "robot '{robot}' has no links; a robot has at least one")
-SECOND_PARENT = Code("LF5402", _E, "link '{link}' has two parents: joint '{first}' hangs it on '{parent}' already")
+SECOND_PARENT = Code(
+    "LF5402",
+    _E,
+    "link '{link}' has two parents: joint '{joint}' hangs it on '{parent}', joint '{first}' on '{other}' already; "
+    "{way_out}",
+)
 LINK_CIRCLE = Code("LF5403", _E, "links hang on one another in a circle: {path}")
 SEVERAL_ROOTS = Code(
     "LF5404", _E, "{count} links are no joint's child: {roots}; only one may be the root, so hang {strays} on '{root}'"
