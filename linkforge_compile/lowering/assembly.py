@@ -16,11 +16,13 @@ from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.asked_names import tell_unknown_names
 from linkforge_compile.lowering.clashes import Clash, told_of_clashes
 from linkforge_compile.lowering.duplicates import tell_duplicate
+from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.file import LoweredFile, gaps_of, lower_file
 from linkforge_compile.lowering.joint import position_measure
 from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.lowering.module_joint import ModuleJoint, lower_module_joint, module_fields
 from linkforge_compile.lowering.mount import handed_on, hang_on_world, hung_by, only_mount
+from linkforge_compile.lowering.positions import SAY_POSITIONS, judge_positions_elsewhere
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.modules.module_entry import joint_name_of
 from linkforge_compile.source import SourceRef
@@ -91,6 +93,10 @@ def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids) -> Lower
     for module in instance.modules:
         fold.add(module, _lowered(module, sink, meshes))
     lowered = fold.finished(hangs_alone=instance.entry is None)
+    if instance.modules and lowered.robot and not instance.tree.entries.keys().isdisjoint(SAY_POSITIONS):
+        joints: dict[str, Joint | None] = {joint.name: joint for joint in lowered.robot.joints}
+        joints |= {lowered.mount.name: lowered.mount.joint} if lowered.mount else {}
+        judge_positions_elsewhere(Fields(instance.tree, "robot", sink, instance.trail), joints)
     if instance.references and lowered.robot:
         tell_unknown_names(instance.references, lowered.robot, lowered.gaps_alone, sink)
     return lowered

@@ -35,8 +35,8 @@ def test_a_second_parent_is_told_at_the_second_joint():
     subject.joints += (fixed("first", "left", "hand"), fixed("second", "right", "hand"))
     (diagnostic,) = check(subject, Gaps())
     assert diagnostic.message == (
-        "joint 'second': link 'hand' has two parents: joint 'second' hangs it on 'right', joint 'first' on 'left' already; "
-        "correct the 'child' of one"
+        "joint 'second': link 'hand' has two parents: joint 'second' hangs it on 'right', joint 'first' on 'left' "
+        "already; correct the 'child' of one"
     )
     assert [note.message for note in diagnostic.notes] == ["joint 'first' hangs 'hand' on 'left'"]
 
