@@ -85,7 +85,8 @@ def check_states_taken_over(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
 def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[object, ...]) -> Iterator[Diagnostic]:
     count, expected = VALUES_IN_A_STATE.get(joint.type, (len(values), ""))
     if len(values) != count:
-        yield use.told(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=_counted(values))
+        found = _counted(values) + ("" if count else "; leave it out")
+        yield use.told(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=found)
     elif isinstance(joint, Joint) and values and isinstance(position := values[0], int | float):
         unit = unit_in(use.place.text) if use.place else None
         span = missed_range(joint, position, position, unit)
@@ -94,9 +95,13 @@ def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[objec
 
 
 def _counted(values: tuple[object, ...]) -> str:
-    """Return "none", or how many values there are and the first of them: "2: [0, 0.5]"."""
+    """Return "none", "the value 1", or how many values there are and the first of them: "2 values, [0, 0.5]"."""
     shown = [f"{value:.6g}" if isinstance(value, int | float) else str(value) for value in values[:SHOWN]]
-    return f"{len(values)}: [{', '.join((*shown, *(['…'] if len(values) > SHOWN else [])))}]" if values else "none"
+    if len(values) == 1:
+        return f"the value {shown[0]}"
+    return (
+        f"{len(values)} values, [{', '.join((*shown, *(['…'] if len(values) > SHOWN else [])))}]" if values else "none"
+    )
 
 
 def check_states_of_mimics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

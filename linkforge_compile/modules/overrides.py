@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 from linkforge_compile.diagnostics import Code, Diagnostics, Note, Removed
 from linkforge_compile.diagnostics.codes.repetition import (
@@ -15,6 +15,7 @@ from linkforge_compile.diagnostics.codes.repetition import (
     POSITIONS_AND_KEYS,
     SAME_AS_BEFORE,
 )
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.gazebo_tags import with_tags_as_patched
 from linkforge_compile.modules.normal_form import (
@@ -27,9 +28,12 @@ from linkforge_compile.modules.normal_form import (
 )
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import Shape, shapes
+from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import Change, PatchedSpan, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, parse_quantity
+
+_SHOWN_NAMES = 8
 
 _AXES: Mapping[str, tuple[int, int, int]] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
@@ -48,7 +52,7 @@ class Override:
         collision pairs and its spheres.
         """
         whole = with_frames_as_joints(tree)
-        patched = _Patch(self.sink, missing, _names(whole, "mount")).map(whole, self.patch, shapes(), "the module")
+        patched = _Patch(self.sink, missing, whole).map(whole, self.patch, shapes(), "the module")
         return _without_links(patched, set(_names(whole, "links")) - set(_names(patched, "links")))
 
     def deleted(self, before: YamlMap, after: YamlMap) -> Iterator[tuple[str, Note]]:
@@ -76,10 +80,11 @@ def refuse_empty(node: YamlNode, shape: Shape, sink: Diagnostics, field: str = "
 class _Patch:
     """One patch over one tree; what is wrong with it is reported where it stands, and the tree left as it was there."""
 
-    def __init__(self, sink: Diagnostics, missing: Removed, mounts: Container[str]) -> None:
+    def __init__(self, sink: Diagnostics, missing: Removed, whole: YamlMap) -> None:
+        """`whole` is the module, where a name may be that is missed in one of its sections."""
         self._sink = sink
         self._missing = missing
-        self._mounts = mounts
+        self._whole = whole
 
     def map(self, base: YamlMap, patch: YamlMap, shape: Shape, field: str) -> YamlMap:
         """Return an object or a map of names as its patch leaves it."""
@@ -169,11 +174,23 @@ class _Patch:
         name = change.name
         if "$(" in name or any("$(" in other for other in base.entries):
             return
-        if name in self._mounts and shape is shapes().under("joints"):
+        if name in _names(self._whole, "mount") and shape is shapes().under("joints"):
             self._report(MOUNT_IS_NO_JOINT, change)
             return
         notes = self._missing.why(name)
-        self._report(NOTHING_TO_OVERRIDE, change, near=() if notes else base.entries, notes=notes, owner=shape.things)
+        hint = "" if notes else self._hint(name, base, shape)
+        near = () if notes or hint else base.entries
+        self._report(NOTHING_TO_OVERRIDE, change, near=near, notes=notes, owner=shape.things, hint=hint)
+
+    def _hint(self, name: str, base: YamlMap, shape: Shape) -> str:
+        """Return where a missing name is, or which names there are, where none of them is like it."""
+        for section in _SECTIONS if any(shape is shapes().under(section) for section in _SECTIONS) else ():
+            if name in _names(self._whole, section):
+                return f"; write '{section}: {{{name}: …}}', for it is one of the {shapes().under(section).things}"
+        names = [f"'{other}'" for other in base.entries]
+        if not 0 < len(names) <= _SHOWN_NAMES or nearest(name, base.entries):
+            return ""
+        return f"; there {'is' if len(names) == 1 else 'are'} {alternatives(names, 'and')}"
 
     def _report(
         self,

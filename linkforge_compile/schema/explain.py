@@ -82,7 +82,7 @@ def _unknown_key(entry: YamlEntry, schema: Schema) -> Diagnostic:
     owner, known = str(schema["title"]), mapping(schema.get("properties", {}))
     own = [name for name in known if name not in COMMON_KEYS]
     near = [*known]
-    hint = _HINTS_FOR_OWNER.get((owner, key.text)) or _HINTS.get(key.text, "")
+    hint = _HINTS_FOR_OWNER.get((owner, key.text)) or _HINTS.get(key.text) or _hint_for_path(key.text, known)
     parts = {name: part for name, part in known.items() if name not in _NOT_HOMES}
     if not hint and (homes := [f"'{name}'" for name, part in parts.items() if key.text in _keys_within(part)]):
         hint = f"it belongs under {alternatives(homes)}"
@@ -95,6 +95,15 @@ def _unknown_key(entry: YamlEntry, schema: Schema) -> Diagnostic:
         hint = f"its keys are {alternatives(own, 'and')}"
     hinted = f"; {hint}" if hint else ""
     return UNKNOWN_KEY.at(key.span, name=key.text, owner=owner, hint=hinted, near=() if hint else near)
+
+
+def _hint_for_path(key: str, known: Schema) -> str:
+    """Return how a way to a value is written that stands in one key, as 'explain' and YAML's queries write it."""
+    first, *steps = re.split(r"[/.]", key)
+    if first not in known or not steps or not all(steps):
+        return ""
+    inside = "".join(f"{{{step}: " for step in steps)
+    return f"write '{first}: {inside}…{'}' * len(steps)}'"
 
 
 _HINTS_FOR_OWNER = {

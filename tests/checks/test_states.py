@@ -62,9 +62,11 @@ def test_a_value_for_each_coordinate_of_the_joint():
     state = GroupState("s", "all", {"world_joint": (0.0, 0.0), "left_shoulder": (0.0, 0.0), "left_wrist": 0})
     assert told(two_arms(virtual_joints=(virtual,), groups=(group,), group_states=(state,))) == [
         "LF5605 state 's' of group 'all': state of planar joint 'world_joint' takes 3 values: x, y and angle, "
-        "found 2: [0, 0]",
-        "LF5605 state 's' of group 'all': state of revolute joint 'left_shoulder' takes 1 value, found 2: [0, 0]",
-        "LF5605 state 's' of group 'all': state of fixed joint 'left_wrist' takes no value, found 1: [0]",
+        "found 2 values, [0, 0]",
+        "LF5605 state 's' of group 'all': state of revolute joint 'left_shoulder' takes 1 value, "
+        "found 2 values, [0, 0]",
+        "LF5605 state 's' of group 'all': state of fixed joint 'left_wrist' takes no value, "
+        "found the value 0; leave it out",
     ]
 
 

@@ -143,7 +143,7 @@ def test_expressions_and_repetition_see_the_overriding_files_names(change):
         "joints: {wrist: {when: false, axis: y}, lid: {origin: {when: $(heavy > 9), rpy: [0, 0, 0]}}}",
         "{heavy: 3}",
     )
-    assert made.told == ["there is no 'test_' among the links to override"]
+    assert made.told == ["there is no 'test_' among the links to override; there are 'base', 'cover' and 'tool'"]
     assert made.at("links", "base", "inertial") == {"mass": 3}
     assert made.at("joints", "wrist", "axis") == "x"
 

@@ -63,7 +63,9 @@ MOUNT_SAYS_ENDS = Code(
 MOUNT_NOT_AT_ROOT = Code("LF5322", _E, "mount '{joint}' holds '{link}', but the root of this file is '{root}'")
 TWO_MOUNTS = Code("LF5323", _E, "a robot hangs by one joint, and '{joint}' is a second mount beside '{first}'")
 MOUNT_AND_JOINT = Code(
-    "LF5324", _E, "{owner} hangs by its own mount '{joint}'; leave 'joint' out, or change the mount with 'override'"
+    "LF5324",
+    _E,
+    "{owner} hangs by its own mount '{joint}'; leave 'joint' out, or write 'override: {{mount: {{{joint}: …}}}}'",
 )
 
 # LF54xx: the tree of links

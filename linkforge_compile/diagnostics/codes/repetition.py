@@ -24,7 +24,7 @@ COMPUTED_REPETITION = Code(
 REPEATED_DEFAULT = Code("LF3211", _E, "a default is no entry and cannot have 'for'")
 
 # LF322x: `override`
-NOTHING_TO_OVERRIDE = Code("LF3221", _E, "there is no '{name}' among the {owner} to override")
+NOTHING_TO_OVERRIDE = Code("LF3221", _E, "there is no '{name}' among the {owner} to override{hint}")
 NO_SUCH_POSITION = Code("LF3222", _E, "there is no item {name} in '{field}', which has {length}; the first is 0")
 PATCH_OF_SEVERAL = Code(
     "LF3223", _E, "'{field}' is a list of {length}; say which item by its position, such as '{{0: …}}', or write a list"
