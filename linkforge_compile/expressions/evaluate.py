@@ -8,7 +8,7 @@ from functools import partial
 from typing import TypeAlias, TypeVar
 
 from linkforge_compile.bounds import Limit
-from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.access import field, item
 from linkforge_compile.expressions.comparisons import COMPARISONS
@@ -101,7 +101,7 @@ def _evaluate(evaluation: _Evaluation) -> Value | Fault:
     scope.budget.spend(Limit.STEPS, len(expression.text) // _CHARACTERS_A_STEP + 1, expression.place.span)
     unknown = [name for name in expression.names if name.id not in scope]
     for name in unknown:
-        evaluation.sink.report(codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, near=[*scope, *CONSTANTS]))
+        evaluation.sink.report(_unknown_name(name, expression, scope))
     if unknown:
         return FAULT
     try:
@@ -109,6 +109,17 @@ def _evaluate(evaluation: _Evaluation) -> Value | Fault:
     except _FaultError:
         scope.budget.spend(Limit.STEPS, _STEPS_OF_A_FAULT, expression.place.span)
         return FAULT
+
+
+def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagnostic:
+    if name.id in _PYTHON_MODULES:
+        instead = "constants and functions are called by their names alone, pi"
+        return codes.NOT_IN_EXPRESSIONS.at(expression.span(name), what=f"'{name.id}'", instead=instead)
+    return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, near=[*scope, *CONSTANTS])
+
+
+_PYTHON_MODULES = ("math", "numpy", "np")
+"""What Python programs write before pi and sin."""
 
 
 class _FaultError(Exception):

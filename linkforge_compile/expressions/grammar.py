@@ -164,7 +164,8 @@ def _name_fault(node: ast.Name, expression: Expression) -> Diagnostic | None:
 def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
     span = expression.span(call.func)
     if not isinstance(call.func, ast.Name):
-        instead = "the functions are called by their names alone, sqrt(x)"
+        known = SIGNATURES.get(call.func.attr) if isinstance(call.func, ast.Attribute) else None
+        instead = f"the functions are called by their names alone, {known.signature if known else 'sqrt(x)'}"
         return codes.NOT_IN_EXPRESSIONS.at(span, what=f"a call of '{expression.written(call.func)}'", instead=instead)
     name = call.func.id
     function = SIGNATURES.get(name)

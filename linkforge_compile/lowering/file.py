@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.constants import IR_VERSION
@@ -88,6 +88,7 @@ def lower_file(
     )
     lost = [name for parts in (links, joints) for name, part in parts.items() if part is None]
     lost += _without_mimic(tree.get("joints"))
+    lost += [name for node in (tree, tree.get("semantic")) for name in _under_unknown_keys(node)]
     gaps = gaps_of([*lost, *(semantic.lost if semantic else ())])
     if is_part or _has_lost(tree, _SECTIONS_OF_NAMES) or _has_lost(tree.get("semantic"), _SECTIONS_OF_SEMANTIC_NAMES):
         gaps |= Gaps(prefixes=("",))
@@ -98,6 +99,14 @@ def _without_mimic(joints: YamlNode | None) -> list[str]:
     """Return the joints that follow another, but whose `mimic` has a fault, so that nobody knows which."""
     entries = joints if isinstance(joints, YamlMap) else ()
     return [entry.name for entry in entries if _has_lost(entry.value, ("mimic",))]
+
+
+def _under_unknown_keys(node: YamlNode | None) -> Iterator[str]:
+    """Yield the names that may be written under keys which a map does not have: `shoulder: {type: fixed, …}`."""
+    for entry in node if isinstance(node, YamlMap) else ():
+        if isinstance(entry.value, YamlFault) and entry.value.keys:
+            yield entry.name
+            yield from entry.value.keys
 
 
 def _has_lost(node: YamlNode | None, sections: tuple[str, ...]) -> bool:

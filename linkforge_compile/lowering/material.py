@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from linkforge_compile.core.models.material import Color, Material
-from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL
+from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL, OUT_OF_RANGE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.lowering.extra import NO_EXTRAS, extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import ZERO_TO_ONE, Measure
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlMap
+from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
+
+_BYTE = 255
+_LEAST_BYTE = 10
+"""The brightest part of a color that was meant in bytes is at least so large; 2 is a slip for 0.2."""
 
 
 def lower_materials(file: Fields, scope: FileScope) -> dict[str, Material | None]:
@@ -30,7 +35,8 @@ def lower_visual_material(visual: Fields, scope: FileScope) -> Material | None:
     if name is None:
         return None
     if name not in scope.materials and name not in scope.lost_materials:
-        visual.tell(UNKNOWN_MATERIAL, node, near=scope.materials, name=name)
+        hint = "" if nearest(name, scope.materials) else "; declare it in 'materials', or write '{color: [r, g, b]}'"
+        visual.tell(UNKNOWN_MATERIAL, node, near=scope.materials, name=name, hint=hint)
     return scope.materials.get(name)
 
 
@@ -51,8 +57,23 @@ def _color(fields: Fields) -> Color | None:
     node = fields.node.get("color")
     long = fields.map_at(node, "color") if isinstance(node, YamlMap) else None
     numbers = node if long is None else long.said("rgba", "[0.6, 0.6, 0.65]")
+    if isinstance(numbers, YamlList) and (meant := _of_bytes(numbers)):
+        seen = f"[{', '.join(item.text for item in numbers if isinstance(item, YamlScalar))}]; write '{meant}'"
+        fields.tell(OUT_OF_RANGE, numbers, field="color", bound=ZERO_TO_ONE.words, found=seen)
+        return None
     rgba = None if numbers is None else fields.numbers_at(numbers, "color", Measure((), ZERO_TO_ONE), 3, 4)
     if node is None or rgba is None:
         return None
     extras = extras_of(long) if long else NO_EXTRAS
     return fields.build(lambda: Color(*rgba, source=SourceRef(node, None, fields.trail), **extras))
+
+
+def _of_bytes(numbers: YamlList) -> str | None:
+    """Return the color whose parts are written from 0 to 255, each from 0 to 1; None for any other list."""
+    parts = [item.value if isinstance(item, YamlScalar) else None for item in numbers]
+    whole = [part for part in parts if isinstance(part, int) and 0 <= part <= _BYTE]
+    if len(whole) not in (3, 4) or len(whole) != len(parts) or max(whole[:3]) < _LEAST_BYTE:
+        return None
+    *rgb, opacity = whole if len(whole) == 4 else (*whole, _BYTE)
+    opacity = _BYTE if opacity == 1 else opacity  # many tools count opacity from 0 to 1 all the same
+    return f"[{', '.join(f'{part / _BYTE:.3g}' for part in (*rgb, opacity))}]"

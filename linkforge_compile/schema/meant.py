@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.expressions import forgotten_expression
 from linkforge_compile.schema.json_types import Schema, branches, mapping
-from linkforge_compile.schema.words import expected, is_number
+from linkforge_compile.schema.words import expected, is_number, shown
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 
@@ -22,21 +23,51 @@ class Misfit(NamedTuple):
     schema: Schema
     file: YamlMap
 
+    @property
+    def field(self) -> str | int:
+        """The key or position that it stands at; "" for the whole file."""
+        return self.path[-1] if self.path else ""
+
+    @property
+    def titles(self) -> set[str]:
+        """What the schema calls the things that it takes."""
+        return {str(branch.get("title")) for branch in branches(self.schema)}
+
+    def takes(self, kind: str) -> bool:
+        """Whether the schema takes something of JSON Schema's kind."""
+        return any(kind in str(branch.get("type")) for branch in branches(self.schema))
+
 
 def way_out(misfit: Misfit) -> str:
     """Return what to write for a value of a wrong kind, as the end of a sentence; "" where it does not show."""
-    node, path, schema, _ = misfit
-    if isinstance(node, YamlScalar):
-        truth = TRUTHS_OF_YAML_1_1.get(node.text.lower())
-        if truth and "true, false" in expected(schema):
-            return f"; write {truth}"
-        if meant := meant_expression(misfit):
-            return f"; write '{meant}'"
-    if path and path[-1] in _EXAMPLES:
-        return _EXAMPLES[str(path[-1])]
-    if isinstance(node, YamlList) and any("additionalProperties" in branch for branch in branches(schema)):
-        return _by_name(misfit)
-    return _as_urdf(misfit)
+    match misfit.node:
+        case YamlScalar() as scalar:
+            meant = next(filter(None, (find(scalar, misfit) for find in _OF_SCALARS)), "")
+        case YamlList() as listed:
+            meant = next(filter(None, (find(listed, misfit) for find in _OF_LISTS)), "")
+        case YamlMap() as written:
+            meant = next(filter(None, (find(written, misfit) for find in _OF_MAPS)), "")
+        case _:
+            meant = ""
+    return f"; write {meant}" if meant else ""
+
+
+def is_row(node: YamlNode) -> bool:
+    """Whether it is text of several numbers with spaces or commas between them, but no decimal comma."""
+    return isinstance(node, YamlScalar) and len(_numbers(node)) > 1
+
+
+def word_meant(misfit: Misfit, words: Sequence[str]) -> str:
+    """Return what to write for a word that is none of those taken, as the end of a sentence; "" for no idea."""
+    word = misfit.node.text.lower() if isinstance(misfit.node, YamlScalar) else ""
+    meant = _WORDS_MEANT.get(word)
+    meant = meant if meant in words else meant_expression(misfit)
+    if meant:
+        return f"; write '{meant}'"
+    return _NO_SUCH_JOINT if word in ("ball", "spherical") and "revolute" in words else ""
+
+
+# Expressions
 
 
 def meant_expression(misfit: Misfit) -> str | None:
@@ -44,8 +75,11 @@ def meant_expression(misfit: Misfit) -> str | None:
     node, path, _, file = misfit
     if not isinstance(node, YamlScalar) or not isinstance(node.value, str):
         return None
-    return forgotten_expression(node.text, node.span, _names_at(path, file))
+    return forgotten_expression(_MODULE.sub("", node.text), node.span, _names_at(path, file))
 
+
+_MODULE = re.compile(r"\b(?:math|numpy|np)\.")
+"""What Python programs write before pi and sin."""
 
 _DECLARING = ("parameters", "variables", "data")
 _ALWAYS_THERE = frozenset({"name", "prefix", "standalone"})
@@ -61,61 +95,234 @@ def _names_at(path: Path, file: YamlMap) -> frozenset[str]:
     return _ALWAYS_THERE | {entry.name for each in maps if isinstance(each, YamlMap) for entry in each}
 
 
-def _by_name(misfit: Misfit) -> str:
-    """Return how things are written whose list says their names, or has none: a map by name."""
-    first = next(iter(misfit.node), None) if isinstance(misfit.node, YamlList) else None
-    key = _NAMED_BY.get(str(misfit.path[-1]), "name") if misfit.path else "name"
-    said: YamlNode | None = first
-    if isinstance(first, YamlMap):
-        said = first.get(key) or (next(iter(first)).key if len(first) == 1 else None)
+# Text and numbers: each returns what to write, "" where it was not meant
+
+
+def _example(_: YamlNode, misfit: Misfit) -> str:
+    return _EXAMPLES.get(str(misfit.field), "")
+
+
+def _truth(node: YamlScalar, misfit: Misfit) -> str:
+    return TRUTHS_OF_YAML_1_1.get(node.text.lower(), "") if "true, false" in expected(misfit.schema) else ""
+
+
+def _color(node: YamlScalar, misfit: Misfit) -> str:
+    """A color by its name, or as it stands in a style sheet."""
+    rgb = _COLORS.get(node.text.lower()) or _of_hex_digits(node.text)
+    if rgb and ("a color" in misfit.titles or misfit.field == "rgba"):
+        return f"'{rgb}'"
+    return f"'{{color: {rgb}}}'" if rgb and "a material" in misfit.titles else ""
+
+
+def _of_hex_digits(text: str) -> str | None:
+    found = re.fullmatch(r"(?:#|0x)((?:[0-9a-fA-F]{2}){3,4})", text)
+    return None if found is None else f"[{', '.join(f'{part / 255:.3g}' for part in bytes.fromhex(found[1]))}]"
+
+
+def _expression(node: YamlScalar, misfit: Misfit) -> str:
+    meant = None if is_row(node) else meant_expression(misfit)
+    return f"'{meant}'" if meant else ""
+
+
+def _row(node: YamlScalar, misfit: Misfit) -> str:
+    """The numbers of one attribute of URDF, '0 0 1'."""
+    numbers = _numbers(node)
+    if len(numbers) == 6 and misfit.field == "origin":
+        return _pose(numbers)
+    if len(numbers) < 2 or not (misfit.takes("array") or isinstance(misfit.field, int)):
+        return ""
+    listed = ", ".join(numbers)
+    return f"'[{listed}]'" if misfit.takes("array") else f"'{listed}'"
+
+
+def _numbers(node: YamlScalar) -> Sequence[str]:
+    if not isinstance(node.value, str) or _DECIMAL_COMMA.fullmatch(node.text):
+        return ()
+    words = re.split(r"[\s,]+", node.text.strip())
+    return words if all(map(is_number, words)) else ()
+
+
+def _number(node: YamlScalar, misfit: Misfit) -> str:
+    """A number with a decimal comma, or in quotes."""
+    if not misfit.takes("number") or not isinstance(node.value, str):
+        return ""
+    if comma := _DECIMAL_COMMA.fullmatch(node.text.strip()):
+        return f"'{comma[1]}.{comma[2]}{comma[3]}'"
+    return f"{node.text} without quotes" if is_number(node.text) else ""
+
+
+_DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+)(\s*[^\d\s,]\S*|)")
+
+
+def _leader(node: YamlScalar, misfit: Misfit) -> str:
+    return f"'{{joint: {node.text}}}'" if misfit.field == "mimic" and isinstance(node.value, str) else ""
+
+
+def _item(node: YamlScalar, misfit: Misfit) -> str:
+    """One thing where a list of them belongs."""
+    if not isinstance(node.value, str):
+        return ""
+    if "a group" in misfit.titles:
+        return f"'{{joints: [{node.text}]}}'"
+    lists = (branch["items"] for branch in branches(misfit.schema) if isinstance(branch.get("items"), dict))
+    kinds = (kind for items in lists for kind in branches(mapping(items)))
+    texts = (kind for kind in kinds if "string" in str(kind.get("type", "string")))
+    fits = any(re.search(str(kind.get("pattern", "")), node.text) for kind in texts)
+    return f"'[{node.text}]'" if fits else ""
+
+
+# Lists
+
+
+def _object_in_order(node: YamlList, misfit: Misfit) -> str:
+    """The values of an object's fields without their keys."""
+    titles = misfit.titles
+    if titles & {"a material", "a visual's material"} and len(node) in (3, 4):
+        return f"'{{color: {shown(node)}}}'"
+    if "a group" in titles:
+        return f"'{{joints: {shown(node)}}}'"
+    keys = next((_IN_ORDER[title] for title in titles if title in _IN_ORDER), ())
+    if not 0 < len(node) <= len(keys):
+        return ""
+    return f"'{{{', '.join(f'{key}: {shown(item)}' for key, item in zip(keys, node, strict=False))}}}'"
+
+
+def _six_of_a_pose(node: YamlList, misfit: Misfit) -> str:
+    return _pose([shown(item) for item in node]) if misfit.field == "origin" and len(node) == 6 else ""
+
+
+def _pose(numbers: Sequence[str]) -> str:
+    return f"'{{xyz: [{', '.join(numbers[:3])}], rpy: [{', '.join(numbers[3:])}]}}'"
+
+
+def _by_name(node: YamlList, misfit: Misfit) -> str:
+    """Things whose list says their names, or has none, where they stand in a map by name."""
+    if not any("additionalProperties" in branch for branch in branches(misfit.schema)):
+        return ""
+    said: YamlNode | None = next(iter(node), None)
+    if isinstance(said, YamlMap):
+        only = next(iter(said)).key if len(said) == 1 else None
+        said = said.get(_NAMED_BY.get(str(misfit.field), "name")) or only
     name = said.text if isinstance(said, YamlScalar) else "NAME"
-    return f"; write each under its name, without '-': '{name}: …'"
+    return f"each under its name, without '-': '{name}: …'"
 
 
-_NAMED_BY = {"group_states": "group", "disabled_collisions": "link1", "enabled_collisions": "link1"}
-"""What says in SRDF under which name of ours a thing stands, where that is not its own."""
+# Maps
 
 
-def _as_urdf(misfit: Misfit) -> str:
-    """Return what to write for a value that is as URDF has it: '0 0 1' in one attribute, or `{link: base}`."""
-    node, path, schema, _ = misfit
-    takes_list = any("array" in str(branch.get("type")) for branch in branches(schema))
-    if isinstance(node, YamlScalar) and is_row(node) and takes_list:
-        return f"; write '[{', '.join(node.text.split())}]'"
-    if isinstance(node, YamlScalar) and isinstance(node.value, str) and _is_item(node.text, schema):
-        return f"; write '[{node.text}]'"
-    if isinstance(node, YamlScalar) and is_row(node) and path and isinstance(path[-1], int):
-        return f"; write '{', '.join(node.text.split())}'"
-    if isinstance(node, YamlScalar) and isinstance(node.value, str) and path and path[-1] == "mimic":
-        return f"; write '{{joint: {node.text}}}'"
-    entries = tuple(node) if isinstance(node, YamlMap) else ()
-    if entries and len(path) > 1 and path[-2] in _INTERFACES:
-        return f"; write a map in place of the list: '{path[-2]}: {{{entries[0].name}: …}}'"
-    if len(entries) == 1 and entries[0].name in _ATTRIBUTES and isinstance(entries[0].value, YamlScalar):
-        key = f"{path[-1]}: " if path and isinstance(path[-1], str) else ""
-        return f"; write '{key}{entries[0].value.text}'"
+def _interfaces(node: YamlMap, misfit: Misfit) -> str:
+    """An interface with parameters in a list, of which it makes a map."""
+    around = misfit.path[-2] if len(misfit.path) > 1 else ""
+    first = next(iter(node), None)
+    return f"a map in place of the list: '{around}: {{{first.name}: …}}'" if first and around in _INTERFACES else ""
+
+
+def _parts(node: YamlMap, misfit: Misfit) -> str:
+    """The numbers of a list by the names of their axes."""
+    named = [entry.name for entry in node] == ["x", "y", "z"]
+    return _of_field(misfit, [shown(entry.value) for entry in node]) if named and misfit.takes("array") else ""
+
+
+def _attribute(node: YamlMap, misfit: Misfit) -> str:
+    """An element of URDF with its one attribute, `{link: base}`."""
+    only = next(iter(node)) if len(node) == 1 else None
+    if only is None or only.name not in _ATTRIBUTES:
+        return ""
+    if isinstance(only.value, YamlScalar):
+        numbers = _numbers(only.value) if misfit.takes("array") else ()
+        return _of_field(misfit, numbers if len(numbers) > 1 else only.value.text)
+    if isinstance(only.value, YamlList) and misfit.takes("array"):
+        return _of_field(misfit, [shown(item) for item in only.value])
     return ""
 
 
-def _is_item(text: str, schema: Schema) -> bool:
-    """Whether a schema takes a list in which the text could stand."""
-    items = (mapping(branch["items"]) for branch in branches(schema) if isinstance(branch.get("items"), dict))
-    kinds = (kind for item in items for kind in branches(item) if "string" in str(kind.get("type", "string")))
-    return any(re.search(str(kind.get("pattern", "")), text) for kind in kinds)
+def _of_field(misfit: Misfit, value: str | Sequence[str]) -> str:
+    key = f"{misfit.field}: " if isinstance(misfit.field, str) and misfit.field else ""
+    return f"'{key}{value}'" if isinstance(value, str) else f"'{key}[{', '.join(value)}]'"
 
+
+_OF_SCALARS: tuple[Callable[[YamlScalar, Misfit], str], ...] = (
+    _truth,
+    _color,
+    _expression,
+    _example,
+    _row,
+    _number,
+    _leader,
+    _item,
+)
+_OF_LISTS: tuple[Callable[[YamlList, Misfit], str], ...] = (_example, _object_in_order, _six_of_a_pose, _by_name)
+_OF_MAPS: tuple[Callable[[YamlMap, Misfit], str], ...] = (_interfaces, _parts, _attribute)
+
+_EXAMPLES = {"for": "'{side: [left, right]}'"}
+"""What to write under keys of which it is easily forgotten."""
 
 _INTERFACES = ("command_interfaces", "state_interfaces")
 """The lists that become maps where an item has parameters."""
 
-_ATTRIBUTES = ("link", "value", "name", "joint")
+_NAMED_BY = {"group_states": "group", "disabled_collisions": "link1", "enabled_collisions": "link1"}
+"""What says in SRDF under which name of ours a thing stands, where that is not its own."""
+
+_ATTRIBUTES = ("link", "value", "name", "joint", "xyz", "rgba", "size")
 """Attributes of URDF that hold the whole of their element."""
 
+_IN_ORDER: Mapping[str, Sequence[str]] = {
+    "a cylinder": ("radius", "length"),
+    "a capsule": ("radius", "length"),
+    "a joint's limits": ("lower", "upper", "effort", "velocity"),
+    "a joint's dynamics": ("damping", "friction"),
+    "a chain": ("base_link", "tip_link"),
+    "an inertia tensor": ("ixx", "iyy", "izz"),
+}
+"""Objects whose fields have an order that everybody thinks of."""
 
-def is_row(node: YamlNode) -> bool:
-    """Whether it is text of several numbers with spaces between them."""
-    words = node.text.split() if isinstance(node, YamlScalar) and isinstance(node.value, str) else []
-    return len(words) > 1 and all(is_number(word) for word in words)
+_COLORS = {
+    "black": "[0, 0, 0]",
+    "blue": "[0, 0, 1]",
+    "brown": "[0.6, 0.3, 0.1]",
+    "cyan": "[0, 1, 1]",
+    "gray": "[0.5, 0.5, 0.5]",
+    "green": "[0, 1, 0]",
+    "grey": "[0.5, 0.5, 0.5]",
+    "magenta": "[1, 0, 1]",
+    "orange": "[1, 0.5, 0]",
+    "pink": "[1, 0.75, 0.8]",
+    "purple": "[0.5, 0, 0.5]",
+    "red": "[1, 0, 0]",
+    "silver": "[0.75, 0.75, 0.75]",
+    "white": "[1, 1, 1]",
+    "yellow": "[1, 1, 0]",
+}
+"""Red, green and blue of what people call by its name."""
 
+_NO_SUCH_JOINT = "; URDF has no such joint: write three revolute ones that share a place"
 
-_EXAMPLES = {"for": "; write '{side: [left, right]}'"}
-"""What to write under keys of which it is easily forgotten."""
+_WORDS_MEANT = {
+    "float": "number",
+    "double": "number",
+    "int": "integer",
+    "str": "string",
+    "bool": "boolean",
+    "path": "file",
+    "array": "list",
+    "dict": "map",
+    "hinge": "revolute",
+    "rotary": "revolute",
+    "rotational": "revolute",
+    "rotation": "revolute",
+    "slider": "prismatic",
+    "slide": "prismatic",
+    "linear": "prismatic",
+    "translational": "prismatic",
+    "rigid": "fixed",
+    "weld": "fixed",
+    "static": "fixed",
+    "free": "floating",
+    "depth": "depth_camera",
+    "gpu_ray": "gpu_lidar",
+    "laser": "lidar",
+    "+x": "x",
+    "+y": "y",
+    "+z": "z",
+}
+"""Words of other languages and formats for those of this one."""

@@ -14,7 +14,7 @@ from linkforge_compile.schema.json_types import Schema
 from linkforge_compile.schema.meant import Path
 from linkforge_compile.schema.registry import linked
 from linkforge_compile.schema.shapes import FREE, Shape, shape_of
-from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, fault_of
 from linkforge_compile.units import Quantity
 
 if TYPE_CHECKING:
@@ -134,12 +134,12 @@ def _plain(node: YamlNode) -> object:
 
 
 def _pruned(tree: YamlMap, judgements: Iterable[Judgement]) -> YamlMap:
-    faulty = {judgement.path for judgement in judgements}
+    faulty = {path for judgement in judgements for path in (judgement.path, *judgement.also)}
     touched = {path[:length] for path in faulty for length in range(len(path) + 1)}
 
     def pruned(node: YamlNode, path: Path) -> YamlNode:
         if path in faulty:
-            return YamlFault(node.span)
+            return fault_of(node)
         if path not in touched:
             return node
         if isinstance(node, YamlList):

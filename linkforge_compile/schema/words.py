@@ -13,6 +13,7 @@ COMMON_KEYS = frozenset({*WORDS, *RAW})
 
 _SHOWN_KEYS = 4
 _SHOWN_TEXT = 40
+_SHOWN_ITEMS = 6
 
 _SCALAR_KINDS = {type(None): "null", str: "string", bool: "boolean", int: "number", float: "number"}
 
@@ -98,6 +99,18 @@ def shortened(text: str) -> str:
     """Return the text as it fits in a sentence: its first line, not too long."""
     line = text.partition("\n")[0]
     return line if line == text and len(line) <= _SHOWN_TEXT else f"{line[:_SHOWN_TEXT].rstrip()}…"
+
+
+def shown(node: YamlNode) -> str:
+    """Return a value as it may be written on one line, "…" for one that is too long for a sentence."""
+    match node:
+        case YamlScalar(text=text):
+            written = text
+        case YamlList(items=items) if len(items) <= _SHOWN_ITEMS:
+            written = f"[{', '.join(map(shown, items))}]"
+        case _:
+            return "…"
+    return "…" if len(written) > _SHOWN_TEXT or "\n" in written else written
 
 
 def field(path: Sequence[str | int]) -> str:

@@ -20,6 +20,7 @@ _IN_QUOTES = re.compile(r"'[^']*'|\"[^\"]*\"")
 _LINE = re.compile(r"[^\r\n]+")
 _MARK_OF_COMMENT = re.compile(r"(?<!\S)#")
 _COMMENT = re.compile(r"(?:^|\s)#.*")
+_COMMENT_AS_VALUE = re.compile(r"[:,\[][ \t]{1,9}(#[^\s#,\]}]+)[^\r\n]*")
 _KEY_STUCK_TO_VALUE = re.compile(r"\s*(?:-\s+)?([^\s:'\"]+:(?!//)[^\s:]\S*)")
 _WORD = re.compile(r"\w[\w$().-]*")
 _ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
@@ -215,7 +216,19 @@ def _bracket_expected(trouble: _Trouble) -> Diagnostic:
         return _xacro_expression(xacro, trouble.marks)
     opening = trouble.marks.part(trouble.began, 1)
     closing = "]" if "sequence" in trouble.construct else "}"
+    if comment := _comment_with(closing, trouble):
+        return codes.COMMENT_TAKES_BRACKET.at(comment, text=comment.text, closing=closing)
     return codes.UNCLOSED_BRACKET.at(trouble.here, closing=closing, notes=[Note("opened here", opening)])
+
+
+def _comment_with(closing: str, trouble: _Trouble) -> Span | None:
+    """Return the first word of a comment that was meant as a value, such as #ff0000, and holds a bracket."""
+    for comment in _COMMENT_AS_VALUE.finditer(trouble.marks.text, trouble.began, trouble.at):
+        span = trouble.marks.part(comment.start(1), len(comment[1]))
+        before = _IN_QUOTES.sub("", span.file.line(span.line)[: span.column - 1])
+        if closing in comment[0] and not re.search("['\"]", before):
+            return span
+    return None
 
 
 def _unclosed_quote(trouble: _Trouble) -> Diagnostic:
@@ -225,12 +238,16 @@ def _unclosed_quote(trouble: _Trouble) -> Diagnostic:
 def _unknown_escape(trouble: _Trouble) -> Diagnostic:
     text = trouble.marks.text
     backslash = text.rfind("\\", trouble.began, trouble.at + 1)
-    if backslash < 0:  # One of a tag, such as !caf%E9.
-        start = max(text.rfind("!", 0, trouble.at + 1), 0)
-        tag = text[start : trouble.at + 1].split("\n")[0]
-        return codes.TAG.at(trouble.marks.part(start, max(len(tag), 1)), tag=tag)
     span = trouble.marks.part(backslash, 2)
     return codes.UNKNOWN_ESCAPE.at(span, text=span.text)
+
+
+def _broken_tag(trouble: _Trouble) -> Diagnostic:
+    """Tell a tag with a broken escape in it, such as !caf%E9, as the tag that it is."""
+    text = trouble.marks.text
+    start = max(text.rfind("!", 0, trouble.at + 1), 0)
+    tag = text[start : trouble.at + 1].split("\n")[0]
+    return codes.TAG.at(trouble.marks.part(start, max(len(tag), 1)), tag=tag)
 
 
 def _value_expected(trouble: _Trouble) -> Diagnostic:
@@ -258,6 +275,7 @@ _SENTENCES: tuple[tuple[str, Callable[[_Trouble], Diagnostic]], ...] = (
     (r"expected key|expected '-' indicator|expected <block end>", _entry_expected),
     (r"expected ',' or", _bracket_expected),
     (r"unexpected (end of stream|document)", _unclosed_quote),
+    (r"URI|UTF-8 octet", _broken_tag),
     (r"escape|hexdecimal|hexadecimal", _unknown_escape),
     (r"node content", _value_expected),
     (r"<document start>", _document_ended),

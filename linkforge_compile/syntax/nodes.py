@@ -113,9 +113,13 @@ class YamlMap:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class YamlFault:
-    """Something stood here and its fault has been reported: who meets it stays silent and goes on."""
+    """Something stood here and its fault has been reported: who meets it stays silent and goes on.
+
+    `keys` are those of the map that it was, and of all maps in it: names that somebody may look for.
+    """
 
     span: Span
+    keys: frozenset[str] = frozenset()
 
     def child(self, key: str | int) -> None:
         return None
@@ -128,6 +132,20 @@ class YamlFault:
 
 
 YamlNode: TypeAlias = YamlScalar | YamlList | YamlMap | YamlFault
+
+
+def fault_of(node: YamlNode) -> YamlFault:
+    """Return what takes the place of a node that is at fault."""
+    return YamlFault(node.span, frozenset(_keys_in(node)))
+
+
+def _keys_in(node: YamlNode) -> Iterator[str]:
+    if isinstance(node, YamlMap):
+        yield from node.entries
+    for inner in node if isinstance(node, YamlList) else ():
+        yield from _keys_in(inner)
+    for entry in node if isinstance(node, YamlMap) else ():
+        yield from _keys_in(entry.value)
 
 
 def is_null(node: YamlNode) -> bool:

@@ -61,7 +61,11 @@ def test_habits_from_elsewhere_are_told_what_is_written_here(text: str, place: s
         ("$(count is not 3)", "is not", f"'is not' {CANNOT}; values are compared with '!='"),
         ("$(True)", "True", f"'True' {CANNOT}; it is written 'true'"),
         ("$(sizes[1:2])", "1:2", f"a slice {CANNOT}; items are taken one by one, list[0]"),
-        ("$(m.sin(1))", "m.sin", f"a call of 'm.sin' {CANNOT}; the functions are called by their names alone, sqrt(x)"),
+        (
+            "$(m.sin(1))",
+            "m.sin",
+            f"a call of 'm.sin' {CANNOT}; the functions are called by their names alone, sin(angle)",
+        ),
         ("$(ä + count)", "ä", "no parameter, variable or 'for' name 'ä' here"),
         ("$(rech)", "rech", "no parameter, variable or 'for' name 'rech' here; did you mean 'reach'?"),
         ("$(1 if on else rech)", "rech", "no parameter, variable or 'for' name 'rech' here; did you mean 'reach'?"),

@@ -31,7 +31,7 @@ def sentences(text: str) -> list[str]:
 
 SENTENCES = {
     "links: {arm: {visuals: {}}}": "'visuals' is not a key of a link; did you mean 'visual'?",
-    "links: {arm: {mass: 3}}": "'mass' is not a key of a link; it belongs under 'inertial'",
+    "links: {arm: {mass: 3}}": "'mass' is not a key of a link; write 'inertial: {mass: 3}'",
     "links: {arm: {box: [1, 1, 1]}}": "'box' is not a key of a link; it belongs under 'visual' or 'collision'",
     "links: {arm: {name: arm}}": "'name' is not a key of a link; its name is the key that it stands under",
     "links: {arm: {visual: {geometry: {}}}}": (
@@ -41,7 +41,7 @@ SENTENCES = {
         "'stick' is not a key of a joint's dynamics; its keys are damping and friction"
     ),
     "sensor: {}": "'sensor' is not a key of a robot; did you mean 'sensors'?",
-    "sensors: {eye: {width: 640}}": "'width' is not a key of a sensor; it belongs under 'camera'",
+    "sensors: {eye: {width: 640}}": "'width' is not a key of a sensor; write 'camera: {width: 640}'",
     "sensors: {eye: {type: lidar, lidar: {noise: 3}}}": (
         "'noise' takes a map of type, mean, stddev, bias_mean and bias_stddev, found 3"
     ),
@@ -56,7 +56,7 @@ SENTENCES = {
     "links: {arm: {inertial: {mass: [3]}}}": "'mass' takes a number [kg] or a quantity such as '3 kg', found a list",
     "links: {arm: {inertial: {mass: true}}}": "'mass' takes a number [kg] or a quantity such as '3 kg', found true",
     "links: {arm: {inertial: {mass: '3'}}}": (
-        "'mass' takes a number [kg] or a quantity such as '3 kg', found the text '3'"
+        "'mass' takes a number [kg] or a quantity such as '3 kg', found the text '3'; write 3 without quotes"
     ),
     "joints: {a: {limits: {upper: far}}}": (
         "'upper' takes a number [rad or m] or a quantity such as '90 deg' or '40 mm', found 'far'"

@@ -31,6 +31,9 @@ XACRO_EXPRESSION = Code("LF1020", Severity.ERROR, "'{text}' is xacro's; write '{
 XACRO_IN_FREE_TEXT = Code(
     "LF1075", Severity.WARNING, "'{text}' is xacro's and goes on as it stands; write '{ours}' if its value is meant"
 )
+COMMENT_TAKES_BRACKET = Code(
+    "LF1047", Severity.ERROR, "'{text}' begins a comment, which takes the '{closing}' with it; put it in quotes"
+)
 BRACKET_TOO_MANY = Code("LF1076", Severity.ERROR, "one '{bracket}' too many: what it could close is closed already")
 
 DUPLICATE_KEY = Code("LF1101", Severity.ERROR, "the key '{key}' is written twice")

@@ -1,0 +1,245 @@
+"""What was meant by the keys that an object does not have: where they belong, or what is written instead."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
+from typing import NamedTuple
+
+from linkforge_compile.diagnostics import MAX_TOLD
+from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
+from linkforge_compile.schema.repetition import has_names
+from linkforge_compile.schema.words import COMMON_KEYS, alternatives, shown
+from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode, YamlScalar, is_null
+
+_SHOWN_KEYS = 10
+"""More keys than that help nobody who wrote another one."""
+
+
+class UnknownKeys(NamedTuple):
+    """One slip: the keys that belong together, and what to write; `near` are the keys one of which may be meant."""
+
+    entries: Sequence[YamlEntry]
+    hint: str
+    near: Sequence[str] = ()
+
+
+def unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
+    """Yield the keys of a map that its schema does not know; those that one place takes together, as one slip."""
+    known, patterns = mapping(schema.get("properties", {})), mapping(schema.get("patternProperties", {}))
+    unknown = (
+        entry
+        for entry in node
+        if entry.name not in known and not any(re.search(pattern, entry.name) for pattern in patterns)
+    )
+    together: dict[str, list[YamlEntry]] = {}
+    for entry in islice(unknown, MAX_TOLD + 1):  # a hostile map has a hundred thousand
+        together.setdefault(_whole(entry, schema) or f"{entry.name}:", []).append(entry)
+    for whole, entries in together.items():
+        if whole in known:
+            yield UnknownKeys(entries, _in_its_home(whole, entries, node))
+        else:
+            yield _unknown_key(entries, node, schema)
+
+
+def _whole(entry: YamlEntry, schema: Schema) -> str | None:
+    """Return what several keys make together: the one key under which they belong, or the list that they are."""
+    owner, name = str(schema["title"]), entry.name
+    if name in _PARTS.get(owner, {}):
+        return _PARTS[owner][name]
+    known = mapping(schema.get("properties", {}))
+    if (owner, name) in _HINTS_FOR_OWNER or name in _HINTS or _is_other_number(name, known):
+        return None
+    homes = _homes(name, known)
+    return homes[0] if len(homes) == 1 else None
+
+
+def _in_its_home(home: str, entries: Sequence[YamlEntry], node: YamlMap) -> str:
+    """Say how keys are written under the one where they belong; that of which is there already, where it is."""
+    if node.get(home) is not None:
+        others = alternatives([f"'{entry.name}'" for entry in entries[1:]], "and") if len(entries) > 1 else ""
+        return f"it belongs under '{home}'" + (f", as {others}" if others else "")
+    written = ", ".join(f"{entry.name}: {shown(entry.value)}" for entry in entries)
+    return f"write '{home}: {{{written}}}'"
+
+
+def _unknown_key(entries: Sequence[YamlEntry], node: YamlMap, schema: Schema) -> UnknownKeys:
+    """Say what is written instead, else which key was meant, else which there are."""
+    entry, owner = entries[0], str(schema["title"])
+    known = mapping(schema.get("properties", {}))
+    own, name = [key for key in known if key not in COMMON_KEYS], entry.name
+    hint = (
+        _PARTS.get(owner, {}).get(name)
+        or _HINTS_FOR_OWNER.get((owner, name))
+        or _HINTS.get(name)
+        or _way_in_one_key(name, known)
+        or _decimal_comma(entry, node)
+        or _place(entry, known)
+    )
+    if hint:
+        return UnknownKeys(entries, hint)
+    meant = nearest(name, known)
+    if owner == "an override" and meant is None and _says_nothing(entry.value):
+        return UnknownKeys(entries, f"write it in its section, such as 'links: {{{name}: …}}'")
+    if meant is None and 0 < len(own) <= _SHOWN_KEYS:
+        listed = alternatives(own, "and")
+        return UnknownKeys(entries, f"its keys are {listed}" if len(own) > 1 else f"its key is {listed}")
+    return UnknownKeys(entries, "", [*known])
+
+
+def _way_in_one_key(key: str, known: Mapping[str, Json]) -> str:
+    """Return how a way to a value is written that stands in one key, as 'explain' and YAML's queries write it."""
+    first, *steps = re.split(r"[/.]", key)
+    if first not in known or not steps or not all(steps):
+        return ""
+    inside = "".join(f"{{{step}: " for step in steps)
+    return f"write '{first}: {inside}…{'}' * len(steps)}'"
+
+
+def _place(entry: YamlEntry, known: Mapping[str, Json]) -> str:
+    """Say where a key belongs, or what stands under it; empty where that is not plain."""
+    if _is_other_number(entry.name, known):
+        return ""
+    if homes := _homes(entry.name, known):
+        return "it belongs under " + alternatives([f"'{home}'" for home in homes])
+    parts = {name: part for name, part in known.items() if name not in _NOT_HOMES}
+    if sections := [name for name, part in parts.items() if _is_entry_of(entry.value, part)]:
+        return "write " + alternatives([f"'{name}: {{{entry.name}: …}}'" for name in sections])
+    inner = entry.value.entries if isinstance(entry.value, YamlMap) else {}
+    if inner and all(name in known and name not in COMMON_KEYS for name in inner):
+        return "write what is in it without a map around it"
+    entries = [one.value for one in inner.values() if not _says_nothing(one.value)]
+    sections = [name for name, part in parts.items() if entries and all(_is_entry_of(one, part) for one in entries)]
+    # A mount is a joint as well, and nobody calls it by another word.
+    meant = [f"'{name}'" for name in sections if name != "mount"]
+    return f"write {alternatives(meant)}" if meant else ""
+
+
+def _homes(name: str, known: Mapping[str, Json]) -> list[str]:
+    """Return the keys of an object under which another one belongs."""
+    return [home for home, part in known.items() if home not in _NOT_HOMES and name in _keys_within(part)]
+
+
+def _is_other_number(name: str, known: Mapping[str, Json]) -> bool:
+    """Whether a key is known in the plural, or in the singular."""
+    return f"{name}s" in known or name.removesuffix("s") in known
+
+
+def _decimal_comma(entry: YamlEntry, node: YamlMap) -> str:
+    """Say how `1,5` is written, which in braces is an entry and the key `5`."""
+    if not (entry.name.isdecimal() and is_null(entry.value)):
+        return ""
+    names = list(node.entries)
+    before = node.entries[names[max(names.index(entry.name) - 1, 0)]].value
+    is_whole = isinstance(before, YamlScalar) and re.fullmatch(r"[+-]?\d+", before.text)
+    return f"write '{shown(before)}.{entry.name}'" if is_whole else ""
+
+
+def _keys_within(schema: Json) -> set[str]:
+    keys = {key for branch in branches(mapping(schema)) for key in mapping(branch.get("properties", {}))}
+    return keys - COMMON_KEYS - {"name"}
+
+
+def _says_nothing(node: YamlNode) -> bool:
+    return is_null(node) or (isinstance(node, YamlMap) and not node.entries)
+
+
+def _is_entry_of(said: YamlNode, section: Json) -> bool:
+    """Whether a section keyed by names has entries that may say all of what is said."""
+    keys = {entry.name for entry in said} if isinstance(said, YamlMap) else set()
+    entries = [mapping(part["additionalProperties"]) for part in branches(mapping(section)) if has_names(part)]
+    known = {key for part in entries for branch in branches(part) for key in mapping(branch.get("properties", {}))}
+    return bool(keys) and keys <= known
+
+
+_NOT_HOMES = {"defaults", "override"}
+"""What holds keys only to change those of other places."""
+
+_XYZ, _RPY = "write 'xyz: [x, y, z]'", "write 'rpy: [roll, pitch, yaw]'"
+_SIZE = "write its size as one list, 'box: [x, y, z]'"
+
+_PARTS = {
+    "an origin": {**dict.fromkeys("xyz", _XYZ), **dict.fromkeys(("roll", "pitch", "yaw"), _RPY)},
+    "a box": dict.fromkeys(("x", "y", "z", "width", "depth", "height", "length"), _SIZE),
+    "a color": dict.fromkeys(("r", "g", "b", "a"), "write 'color: [r, g, b, a]', each from 0 to 1"),
+}
+"""Keys that other formats have for the numbers of one list."""
+
+_POSE = "write 'origin: {xyz: [x, y, z], rpy: [roll, pitch, yaw]}'"
+
+_HINTS_FOR_OWNER = {
+    ("an override", "frames"): "a frame is a link and a joint here: write what is to change under 'links' or 'joints'",
+    ("an override", "parameters"): "parameters are set by 'with'",
+    ("a module", "parameters"): "parameters are set by 'with'",
+    ("a module", "args"): "parameters are set by 'with'",
+    ("a module", "file"): "write 'use'",
+    ("a link", "origin"): "it belongs under 'visual', 'collision' or 'inertial'; a joint's 'origin' places its child",
+    ("a link", "pose"): "its place is the 'origin' of the joint whose 'child' it is",
+    ("a link", "xyz"): "its place is the 'origin' of the joint whose 'child' it is",
+    ("a link", "rpy"): "its place is the 'origin' of the joint whose 'child' it is",
+    ("a link", "parent"): "a joint says what it hangs on: 'joints: {NAME: {type: fixed, parent: …, child: …}}'",
+    ("a link", "color"): "write it in the visual, 'material: {color: [r, g, b, a]}'",
+    ("a visual", "filename"): "write 'mesh'",
+    ("a collision", "filename"): "write 'mesh'",
+    ("a collision", "material"): "only a visual has one; for friction write 'gazebo: {mu1: …, mu2: …}' in the link",
+    ("an inertial", "com"): "write 'origin: [x, y, z]', with 'inertia' about it",
+    ("an inertial", "center_of_mass"): "write 'origin: [x, y, z]', with 'inertia' about it",
+    ("a sphere", "diameter"): "write 'radius', which is half of it",
+    ("a cylinder", "diameter"): "write 'radius', which is half of it",
+    ("a cylinder", "height"): "write 'length'",
+    ("a capsule", "height"): "write 'length', of the cylinder without its two caps",
+    ("a material", "rgba"): "write 'color: [r, g, b, a]'",
+    ("a material", "rgb"): "write 'color: [r, g, b]'",
+    ("a joint", "parent_link"): "write 'parent'",
+    ("a joint", "child_link"): "write 'child'",
+    ("a joint", "range"): "write 'limits: {lower: …, upper: …, effort: …, velocity: …}'",
+    ("a joint's limits", "min"): "write 'lower'",
+    ("a joint's limits", "max"): "write 'upper'",
+    ("a joint's limits", "torque"): "write 'effort'",
+    ("a joint's limits", "force"): "write 'effort'",
+    ("a joint's limits", "speed"): "write 'velocity'",
+    ("a virtual joint", "parent"): "write 'parent_frame'",
+    ("a virtual joint", "child"): "write 'child_link'",
+    ("a frame", "link"): "write 'parent'",
+    ("a sensor", "parent"): "write 'link'",
+    **{("a mesh", name): "write 'file'" for name in ("filename", "uri", "url", "path")},
+    ("a gazebo block", "mu"): "write 'mu1', and 'mu2' for the second direction",
+    ("a ros2_control block", "plugin"): "write 'hardware_plugin'",
+    ("a ros2_control block", "hardware"): "write its plugin as 'hardware_plugin', its params as 'parameters'",
+    ("a ros2_control block", "joint"): "joints stand under 'joints', by name",
+    ("a laser scanner's rays", "samples"): "write 'horizontal_samples'",
+    ("a laser scanner's rays", "resolution"): "write 'horizontal_resolution'",
+    ("a laser scanner's rays", "min_angle"): "write 'horizontal_min_angle'",
+    ("a laser scanner's rays", "max_angle"): "write 'horizontal_max_angle'",
+    ("a laser scanner's rays", "range"): "write 'range_min', 'range_max' and 'range_resolution'",
+    ("a laser scanner's rays", "scan"): "write 'horizontal_samples' and the like, without a map around them",
+    ("a laser scanner's rays", "horizontal"): "write 'horizontal_samples' and the like",
+    ("a laser scanner's rays", "vertical"): "write 'vertical_samples' and the like",
+    ("a camera's picture", "image"): "write 'width', 'height' and 'format'",
+    ("a camera's picture", "clip"): "write 'near_clip' and 'far_clip'",
+    **{
+        (owner, name): _POSE
+        for owner in ("a visual", "a collision", "a joint", "a sensor", "a frame", "a module", "an inertial")
+        for name in ("pose", "transform")
+    },
+}
+"""What is meant by keys that other objects have, or URDF and SDFormat at this place."""
+
+_HINTS = {
+    "geometry": "write the shape itself, such as 'box: [1, 1, 1]'",
+    "name": "its name is the key that it stands under",
+    "if": "write 'when', such as 'when: $(simulated)'",
+    "unless": "write 'when', such as 'when: $(not simulated)'",
+    "args": "what a user may set stands under 'parameters'",
+    "properties": "what is computed stands under 'variables'",
+    "macros": "what is used several times is a file of its own, used under 'modules'",
+    "xacro:arg": "what a user may set stands under 'parameters'",
+    "xacro:property": "what is computed stands under 'variables'",
+    "xacro:macro": "what is used several times is a file of its own, used under 'modules'",
+    "xacro:include": "files that are one robot stand under 'include', those of its parts under 'modules'",
+    "xacro:if": "write 'when', such as 'when: $(simulated)'",
+    "xacro:unless": "write 'when', such as 'when: $(not simulated)'",
+}
+"""Habits from URDF and xacro, which put these words where this language has none."""
