@@ -51,7 +51,7 @@ class _Text(Substitution):  # type: ignore[misc]  # the launch package has no ty
     def perform(self, context: LaunchContext) -> str:
         from linkforge_compile.backends import render_srdf, render_urdf
 
-        robot = self._robot.compiled(context, is_telling=not self._semantic)
+        robot = self._robot.compiled(context)
         return render_srdf(robot) if self._semantic else render_urdf(robot, gazebo=self._robot.gazebo)
 
 
@@ -84,6 +84,7 @@ class RobotDescription:
         Raises:
             CompileError: The parameters of the spec cannot be listed.
             TypeError: A value is nothing that a launch file can give.
+            ValueError: The spec has no such variant.
 
         """
         self.spec, self.gazebo = Path(spec), gazebo
@@ -94,10 +95,12 @@ class RobotDescription:
         listing, diagnostics = parameters_of(self.spec, allow_outside=allow_outside)
         if listing is None:
             raise CompileError(diagnostics)
+        self._listing = listing
         # Of a variant that is known at a launch only, the defaults that show are those of the spec.
-        sets = listing.variants.get(variant, {}) if isinstance(variant, str) else {}
+        sets = self._sets_of(variant) if isinstance(variant, str) else {}
         self._defaults = {one.name: sets.get(one.name, one.default) for one in listing.parameters}
         self.arguments = [self._argument(one) for one in listing.parameters if one.name not in self._given]
+        self._compiled: tuple[LaunchContext, object, Robot] | None = None
         self.urdf, self.srdf = _Text(self, semantic=False), _Text(self, semantic=True)
         # Without a type, ROS would read the text as YAML.
         self.description = {"robot_description": ParameterValue(self.urdf, value_type=str)}
@@ -116,29 +119,63 @@ class RobotDescription:
             self._prefix + parameter.name, default_value=default, description=description, choices=choices
         )
 
-    def compiled(self, context: LaunchContext, *, is_telling: bool) -> Robot:
-        """Compile the spec with the values that hold in a launch; `is_telling` logs warnings.
+    def compiled(self, context: LaunchContext) -> Robot:
+        """Compile the spec with the values that hold in a launch, once for all texts; tell of it in the launch's log.
 
         Raises:
-            SubstitutionFailure: The spec has errors.
+            SubstitutionFailure: The spec has errors, a parameter no value, or it has no such variant.
 
         """
+        variant, values = self._variant_of(context), self._assignments(context)
+        self._require_values(variant, values)
+        asked = (variant, values)
+        if self._compiled is None or self._compiled[0] is not context or self._compiled[1] != asked:
+            self._compiled = (context, asked, self._compile(variant, values))
+        return self._compiled[2]
+
+    def _compile(self, variant: str | None, values: Mapping[str, Told]) -> Robot:
         compilation = compile_file(
             self.spec,
-            parameters=self._assignments(context),
+            parameters=values,
             packages=self._packages,
-            variant=self._variant_of(context),
+            variant=variant,
             gazebo=self.gazebo,
             allow_outside=self._allow_outside,
         )
+        from linkforge_compile.diagnostics import Severity
         from linkforge_compile.diagnostics.render import render_text
 
-        told = render_text(compilation.diagnostics)
         if compilation.robot is None:
-            raise SubstitutionFailure(f"{self.spec} has errors:\n{told}")
-        if told and is_telling:
-            launch.logging.get_logger("linkforge").warning(told)
+            raise SubstitutionFailure(f"{self.spec} has errors:\n{render_text(compilation.diagnostics)}")
+        logger = launch.logging.get_logger("linkforge")
+        for severity, log in ((Severity.WARNING, logger.warning), (Severity.NOTE, logger.info)):
+            if told := tuple(one for one in compilation.diagnostics if one.severity is severity):
+                log(render_text(told))
         return compilation.robot
+
+    def _require_values(self, variant: str | None, values: Mapping[str, Told]) -> None:
+        """Refuse what the compiler would tell as its commands do, which have no launch arguments."""
+        try:
+            sets = self._sets_of(variant)
+        except ValueError as error:
+            raise SubstitutionFailure(str(error)) from None
+        set_ = values.keys() | sets.keys()
+        missed = [one.name for one in self._listing.parameters if one.is_required and one.name not in set_]
+        if missed:
+            names = ", ".join(f"'{self._prefix}{name}'" for name in missed)
+            raise SubstitutionFailure(
+                f"{self.spec} needs launch arguments that have no value: {names}; "
+                "the 'arguments' of RobotDescription, put into the launch description, declare them"
+            )
+
+    def _sets_of(self, variant: str | None) -> Mapping[str, str]:
+        """Return what a variant sets; ValueError for one that the spec does not have."""
+        variants = self._listing.variants
+        if variant is not None and variant not in variants:
+            from linkforge_compile.diagnostics.suggest import did_you_mean
+
+            raise ValueError(f"{self.spec} has no variant named '{variant}'{did_you_mean(variant, variants)}")
+        return {} if variant is None else variants[variant]
 
     def _variant_of(self, context: LaunchContext) -> str | None:
         return None if self._variant is None else str(perform_substitutions(context, self._variant)) or None

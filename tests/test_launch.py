@@ -187,16 +187,49 @@ def test_a_value_that_no_launch_file_has_is_told_with_its_parameter(ros: Ros, sp
         ros.ours.RobotDescription(spec, {"reach": {"a": 1}})
 
 
-def test_a_warning_is_logged_once(ros: Ros, spec: Path, caplog: pytest.LogCaptureFixture):
-    spec.write_text(SPEC.replace("sphere: 0.1", "capsule: {radius: 0.1, length: 1}"))
+def test_a_launch_compiles_once_and_logs_what_is_told(
+    ros: Ros, spec: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+):
+    warned = SPEC.replace("sphere: 0.1", "capsule: {radius: 0.1, length: 1}")
+    spec.write_text(f"{warned}# linkforge: ignore LF6003\n")  # nothing there, which is a note
+    compile_file, compiled = ros.ours.compile_file, []
+    monkeypatch.setattr(
+        ros.ours, "compile_file", lambda *words, **more: compiled.append(1) or compile_file(*words, **more)
+    )
     robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
     context = launched(ros, robot)
-    with caplog.at_level(logging.WARNING):
-        robot.urdf.perform(context)
-        robot.srdf.perform(context)
-    assert len(caplog.messages) == 1, caplog.messages
-    assert "arm.robot.yaml:14:" in caplog.messages[0]
-    assert "[LF7002]" in caplog.messages[0]
+    with caplog.at_level(logging.INFO):
+        for _ in range(2):
+            robot.srdf.perform(context)
+            robot.urdf.perform(context)
+    assert len(compiled) == 1
+    told = {record.levelname: record.message for record in caplog.records}
+    assert len(caplog.records) == len(told) == 2, caplog.messages
+    assert "arm.robot.yaml:14:" in told["WARNING"]
+    assert "[LF7002]" in told["WARNING"]
+    assert "note: " in told["INFO"]
+    assert ": note: " not in told["WARNING"]
+    robot.urdf.perform(launched(ros, robot))
+    assert len(compiled) == 2, "another launch may meet another spec"
+
+
+def test_a_variant_that_is_not_there_is_told_where_it_is_said(ros: Ros, spec: Path):
+    with pytest.raises(ValueError, match=r"arm.robot.yaml has no variant named 'lnog'; did you mean 'long'\?$"):
+        ros.ours.RobotDescription(spec, variant="lnog")
+    substitutions = importlib.import_module("launch.substitutions")
+    robot = ros.ours.RobotDescription(spec, {"serial": "A1"}, variant=substitutions.LaunchConfiguration("size"))
+    with pytest.raises(substitutions.SubstitutionFailure, match="no variant named 'logn'; did you mean 'long'"):
+        robot.urdf.perform(launched(ros, robot, size="logn"))
+
+
+def test_an_argument_without_a_value_is_told_as_one_of_a_launch(ros: Ros, spec: Path):
+    robot = ros.ours.RobotDescription(spec, argument_prefix="left_")
+    failure = importlib.import_module("launch.substitutions").SubstitutionFailure
+    with pytest.raises(failure, match=r"launch arguments that have no value: 'left_serial'; the 'arguments' of"):
+        robot.urdf.perform(ros.launch.LaunchContext())
+    spec.write_text(SPEC.replace("long: {reach: 1 m}", "long: {reach: 1 m, serial: A1}"))
+    robot = ros.ours.RobotDescription(spec, variant="long")
+    assert 'name="A1"' in robot.urdf.perform(ros.launch.LaunchContext())
 
 
 def test_a_spec_that_cannot_be_read_stops_the_launch_file(ros: Ros, tmp_path: Path):
