@@ -102,6 +102,56 @@ def test_a_file_that_is_used_no_more_is_watched_no_more(watch: Callable[..., lis
     assert told[-3:] == ["cell.robot.yaml changed", "wrote out/cell.urdf", "watching cell.robot.yaml; Ctrl-C ends"]
 
 
+def test_an_output_that_somebody_deletes_is_made_again(cell: Path, watch: Callable[..., list[str]]):
+    told = watch(removes("out/cell.urdf"), nothing)
+    assert told[2:] == ["out/cell.urdf is gone", "wrote out/cell.urdf", WATCHING]
+    assert (cell / "out" / "cell.urdf").exists()
+
+
+def test_an_output_that_the_command_takes_away_is_not_missed(cell: Path, watch: Callable[..., list[str]]):
+    assert watch(nothing, nothing, words=("--then", "mv out/cell.urdf robot.urdf")) == ["wrote out/cell.urdf", WATCHING]
+
+
+def beside_and_over(folder: Path, text: str) -> None:
+    """Save as most editors do: a new file, moved over the old one."""
+    (folder / ".arm.tmp").write_text(text)
+    (folder / ".arm.tmp").replace(folder / "arm.robot.yaml")
+
+
+def aside_and_anew(folder: Path, text: str) -> None:
+    """Save as vim does: the old file becomes the backup, and a new one is written."""
+    (folder / "arm.robot.yaml").rename(folder / "arm.robot.yaml~")
+    (folder / "arm.robot.yaml").write_text(text)
+
+
+def with_the_same_time(folder: Path, text: str) -> None:
+    """Save as a tool that keeps times, with as many bytes as before."""
+    path = folder / "arm.robot.yaml"
+    times = path.stat()
+    (folder / "new").write_text(text)
+    os.utime(folder / "new", ns=(times.st_atime_ns, times.st_mtime_ns))
+    (folder / "new").replace(path)
+
+
+@pytest.mark.parametrize("save", [beside_and_over, aside_and_anew, with_the_same_time])
+def test_a_fault_and_its_mending_are_seen_however_an_editor_saves(
+    cell: Path, watch: Callable[..., list[str]], save: Callable[[Path, str], None]
+):
+    told = watch(lambda folder: save(folder, ARM.replace("hand", "$and")), lambda folder: save(folder, ARM))
+    assert told[2] == "arm.robot.yaml changed"
+    assert any("'$and'" in line for line in told)
+    assert told[-3:] == ["arm.robot.yaml changed", "out/cell.urdf is up to date", WATCHING]
+
+
+def test_a_folder_of_modules_that_moves_away_and_back_is_one(cell: Path, watch: Callable[..., list[str]]):
+    (cell / "parts").mkdir()
+    (cell / "arm.robot.yaml").rename(cell / "parts" / "arm.robot.yaml")
+    (cell / "cell.robot.yaml").write_text(CELL.replace("arm.robot.yaml", "parts/arm.robot.yaml"))
+    told = watch(lambda _: (cell / "parts").rename(cell / "away"), lambda _: (cell / "away").rename(cell / "parts"))
+    assert any("there is no file 'parts/arm.robot.yaml'" in line for line in told)
+    assert told[-3:] == ["parts/arm.robot.yaml changed", "out/cell.urdf is up to date", WATCHING]
+
+
 def test_files_that_change_together_are_one_change(watch: Callable[..., list[str]]):
     def both(folder: Path) -> None:
         sets("cell.robot.yaml", CELL + "\n")(folder)

@@ -14,6 +14,7 @@ from linkforge_compile.cli.telling import say, say_failure, to_stderr
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Sequence
 
 _SECONDS = 0.3
 """Between two looks at the files: less than a person takes from the editor to the other window."""
@@ -51,7 +52,13 @@ def run(arguments: argparse.Namespace) -> int:
         if exit_code == OK and arguments.then is not None:
             _run_then(arguments)
         say(f"watching {_listed(stamps.paths)}; Ctrl-C ends", arguments)
-        say(f"{_listed(_changed(stamps))} changed", arguments)
+        # What the command of --then takes away is not missed.
+        outputs = [path for path in order.targets.paths.values() if path and path.exists()] if exit_code == OK else []
+        changed, gone = _wait(stamps, outputs)
+        if changed:
+            say(f"{_listed(changed)} changed", arguments)
+        if gone:
+            say(f"{_listed(gone)} is gone", arguments)
         exit_code = _build_again(order, stamps, arguments)
 
 
@@ -72,17 +79,19 @@ def _build_again(order: Order, stamps: Stamps, arguments: argparse.Namespace) ->
         return WRONG_USAGE
 
 
-def _changed(stamps: Stamps) -> tuple[Path, ...]:
-    """Wait until something changes and nothing more does, and return what did."""
+def _wait(stamps: Stamps, outputs: Sequence[Path]) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
+    """Wait until something changes, or an output is gone, and nothing more does; return what did, and what is gone."""
     changed: tuple[Path, ...] = ()
-    while not changed:
+    gone: tuple[Path, ...] = ()
+    while not changed and not gone:
         time.sleep(_SECONDS)
         changed = stamps.look()
+        gone = tuple(path for path in outputs if not path.exists())
     while True:
         time.sleep(_SETTLED)
         more = stamps.look()
         if not more:
-            return changed
+            return changed, gone
         changed = tuple(dict.fromkeys((*changed, *more)))
 
 
