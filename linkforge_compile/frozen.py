@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from dataclasses import MISSING, Field, FrozenInstanceError, fields
 from operator import attrgetter
 from reprlib import recursive_repr
+from types import MemberDescriptorType
 from typing import TYPE_CHECKING, Final, TypeVar
 
 if TYPE_CHECKING:
@@ -80,14 +81,15 @@ def _methods(cls: type, slots: bool, eq: bool) -> dict[str, object]:
 
 def _init(cls: type) -> Callable[..., None]:
     """Return `__init__`, compiled, since every object passes through it."""
-    known: dict[str, object] = {"_set": object.__setattr__, "_MADE": _MADE}
+    known: dict[str, object] = {"_MADE": _MADE}
     positional, keyword = ["self"], list[str]()
     body = []
     for field in fields(cls):
         name = field.name
         (keyword if field.kw_only else positional).append(_parameter(field, known))
         value = name if field.default_factory is MISSING else f"_make_{name}() if {name} is _MADE else {name}"
-        body.append(f"_set(self, {name!r}, {value})")
+        known[f"_set_{name}"] = _setter(cls, name)
+        body.append(f"_set_{name}(self, {value})")
     if hasattr(cls, "__post_init__"):
         body.append("self.__post_init__()")
     parameters = ", ".join([*positional, *(("*", *keyword) if keyword else ())])
@@ -97,6 +99,14 @@ def _init(cls: type) -> Callable[..., None]:
     made.__qualname__ = f"{cls.__qualname__}.__init__"
     made.__annotations__ = {field.name: field.type for field in fields(cls)} | {"return": None}
     return made
+
+
+def _setter(cls: type, name: str) -> Callable[[object, object], None]:
+    """Return what sets a field: its slot itself, which need not look for it by name; a slotless class has none."""
+    slot = next((vars(base)[name] for base in cls.__mro__ if name in vars(base)), None)
+    if isinstance(slot, MemberDescriptorType):
+        return slot.__set__
+    return lambda one, value: object.__setattr__(one, name, value)
 
 
 def _parameter(field: Field[object], known: dict[str, object]) -> str:

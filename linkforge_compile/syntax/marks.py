@@ -27,6 +27,7 @@ class Marks:
     def __init__(self, file: SourceFile, text: str) -> None:
         self.file = file
         self.text = text
+        self._last_index = len(text)
 
     def event(self, event: Event, last: Event | None = None) -> Span:
         """Return the span from the start of an event to its end, or to that of the last one."""
@@ -34,10 +35,11 @@ class Marks:
         assert start is not None, "the parser marks every event"
         assert end is not None, "the parser marks every event"
         # libyaml ends every file with a line break, be there one or not, and marks what comes behind it.
-        last_index = len(self.text)
+        last_index = self._last_index
         if end.index >= last_index:
             return self.part(min(start.index, last_index), last_index - min(start.index, last_index))
-        return Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
+        # There is one for each event, and the constructor of a named tuple takes twice as long.
+        return tuple.__new__(Span, (self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1))
 
     def part(self, index: int, length: int) -> Span:
         """Return the span of `length` characters, or as many as there are, from the one at `index`."""

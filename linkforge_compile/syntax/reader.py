@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
 import yaml
 from yaml import events
 
 from linkforge_compile.bounds import Budget, Limit
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
+from linkforge_compile.syntax.entries import STUCK, entries_of, kind_of
 from linkforge_compile.syntax.malformed import explain_cut, explain_every, is_cut_expression
 from linkforge_compile.syntax.marks import Marks
-from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import ScalarValue, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import is_overflow, scalar_value
 
 MAX_DEPTH = 100
@@ -32,8 +32,6 @@ PARSER: Parser = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 Tags: TypeAlias = Mapping[str, Callable[[YamlScalar], YamlNode]]
 """What a scalar with a tag becomes, by the tag; a fault of it is for the function to report."""
-
-_STUCK = re.compile(r"[A-Za-z_]\w*:\S.*")
 
 
 def read(file: SourceFile, sink: Diagnostics, budget: Budget | None = None) -> YamlMap | None:
@@ -89,10 +87,10 @@ def _document(marks: Marks, sink: Diagnostics, budget: Budget, tags: Tags | None
 def _report_top_level(root: YamlNode, sink: Diagnostics) -> None:
     if isinstance(root, YamlScalar) and root.value is None:
         sink.report(codes.EMPTY_DOCUMENT.at(root.span.file.whole))
-    elif isinstance(root, YamlScalar) and _STUCK.fullmatch(root.text):
+    elif isinstance(root, YamlScalar) and STUCK.fullmatch(root.text):
         sink.report(codes.SPACE_AFTER_COLON.at(root.span, text=root.text))
     elif not isinstance(root, YamlFault):
-        sink.report(codes.TOP_LEVEL_NOT_MAP.at(root.span, found=_kind(root)))
+        sink.report(codes.TOP_LEVEL_NOT_MAP.at(root.span, found=kind_of(root)))
 
 
 class _UnreadableError(Exception):
@@ -125,6 +123,7 @@ class _Reader:
         self._sink = sink
         self._tags = tags
         self._parser = parser(marks.text)
+        self._values: dict[str, ScalarValue] = {}  # of plain texts: the same numbers come again and again
         self._anchors: dict[str, _Anchor | None] = {}  # None while the anchored node is still being read
         self._deepest, self._is_any_cut = 0, False
         self._latest = marks.file.whole  # what was read last: with it end the block lists and maps around it
@@ -148,13 +147,14 @@ class _Reader:
 
     def _node(self, event: events.Event, depth: int, flow: bool) -> YamlNode:
         """Read the node that begins with `event`; `flow` is whether it stands inside [..] or {..}."""
+        if isinstance(event, events.ScalarEvent) and event.anchor is None and event.tag is None:
+            return self._scalar(event, flow)  # nine nodes of ten
         if isinstance(event, events.AliasEvent):
             return self._alias(event, depth)
         assert isinstance(event, events.ScalarEvent | events.CollectionStartEvent)
-        self._count(1, event)
         if event.anchor is None:
             return self._untagged(event, depth, flow)
-        size_before, deepest_outside = self.size - 1, self._deepest
+        size_before, deepest_outside = self.size, self._deepest
         self._anchors[event.anchor] = None
         self._deepest = depth
         node = self._untagged(event, depth, flow)
@@ -218,15 +218,20 @@ class _Reader:
 
     def _scalar(self, event: events.ScalarEvent, flow: bool) -> YamlScalar | YamlFault:
         # Raw XML takes as much as so many nodes.
-        self._count(event.value.count("<"), event)
+        self._count(1 + event.value.count("<"), event)
         node = self._text(event, flow)
         if event.style or isinstance(node, YamlFault):
             return node
-        value = scalar_value(node.text)
-        if is_overflow(node.text, value):
-            self._sink.report(codes.NUMBER_TOO_LARGE.at(node.span))
-            return YamlFault(node.span)
-        return YamlScalar(node.text, value, node.span)
+        text, span = node.text, node.span
+        if text not in self._values:
+            self._values[text] = scalar_value(text)
+        value = self._values[text]
+        if value is text:
+            return node
+        if value.__class__ is float and is_overflow(text, value):
+            self._sink.report(codes.NUMBER_TOO_LARGE.at(span))
+            return YamlFault(span)
+        return YamlScalar(text, value, span)
 
     def _text(self, event: events.ScalarEvent, flow: bool) -> YamlScalar | YamlFault:
         """Read a scalar as what quotes make of any, and keys are: text."""
@@ -245,6 +250,7 @@ class _Reader:
 
     def _list(self, start: events.SequenceStartEvent, depth: int) -> YamlNode:
         begin, flow = self._marks.event(start), bool(start.flow_style)
+        self._count(1, start)
         self._descend(depth, begin)
         items: list[YamlNode] = []
         while not isinstance(event := self._next(), events.SequenceEndEvent):
@@ -256,6 +262,7 @@ class _Reader:
 
     def _map(self, start: events.MappingStartEvent, depth: int) -> YamlNode:
         begin, flow = self._marks.event(start), bool(start.flow_style)
+        self._count(1, start)
         self._descend(depth, begin)
         entries: list[tuple[YamlNode, YamlNode]] = []
         while not isinstance(event := self._next(), events.MappingEndEvent):
@@ -264,8 +271,7 @@ class _Reader:
         span = self._until(event, begin, flow)
         if self._is_any_cut and any(isinstance(node, _CutExpression) for entry in entries for node in entry):
             return YamlFault(span)
-        named = [entry for key, value in entries for entry in self._entry(key, value, flow)]
-        return YamlMap(self._merged(self._unique(named, is_top=depth == 1)), span)
+        return YamlMap(entries_of(entries, self._sink, flow=flow, is_top=depth == 1), span)
 
     def _key(self, event: events.Event, depth: int, flow: bool) -> YamlNode:
         if isinstance(event, events.ScalarEvent) and event.anchor is None and event.tag is None:
@@ -277,73 +283,10 @@ class _Reader:
         """Return the span of a collection: up to its bracket, or in block style up to the last thing in it."""
         if flow:
             self._latest = self._marks.event(end)
-        return begin._replace(end_line=self._latest.end_line, end_column=self._latest.end_column)
-
-    def _entry(self, key: YamlNode, value: YamlNode, flow: bool) -> Iterator[YamlEntry]:
-        """Yield the entry, or report what is wrong with its key."""
-        if isinstance(key, YamlFault):
-            return
-        if not isinstance(key, YamlScalar):
-            self._sink.report(codes.KEY_NOT_SCALAR.at(key.span, found=_kind(key)))
-        elif flow and value.span.start == value.span.end == key.span.end and _STUCK.fullmatch(key.span.text or ""):
-            self._sink.report(codes.SPACE_AFTER_COLON.at(key.span, text=key.text))
-            name = key.text.partition(":")[0]
-            yield YamlEntry(YamlScalar(name, name, key.span), YamlFault(key.span))
-        else:
-            yield YamlEntry(key, value)
-
-    def _unique(self, entries: Iterable[YamlEntry], *, is_top: bool = False) -> dict[str, YamlEntry]:
-        """Return the entries by name; which of two is meant nobody knows, so that what they say is a fault.
-
-        Two sections of one name, at the top, are one with the entries of both, since others use the names in them.
-        """
-        unique: dict[str, YamlEntry] = {}
-        again: dict[str, list[YamlEntry]] = {}
-        for entry in entries:
-            if entry is not (kept := unique.setdefault(entry.name, entry)):
-                note = Note("first written here", kept.key.span)
-                self._sink.report(codes.DUPLICATE_KEY.at(entry.key.span, key=entry.name, notes=[note]))
-                again.setdefault(entry.name, [kept]).append(entry)
-        for name, (first, *others) in again.items():
-            value: YamlNode = YamlFault(first.value.span)
-            maps = [one.value for one in (first, *others) if isinstance(one.value, YamlMap)]
-            if is_top and len(maps) == len(others) + 1:
-                value = YamlMap(self._unique(entry for each in maps for entry in each), first.value.span)
-            unique[name] = YamlEntry(first.key, value)
-        return unique
-
-    def _merged(self, entries: dict[str, YamlEntry]) -> dict[str, YamlEntry]:
-        """Lay what `<<` names where it stands; the map's own entries win, then those of the earlier map."""
-        merge = entries.get("<<")
-        if merge is None or merge.key.span.text != "<<":  # in quotes it is a key as any other
-            return entries
-        merged: dict[str, YamlEntry] = {}
-        for entry in entries.values():
-            for one in self._merge_sources(merge.value) if entry is merge else (entry,):
-                merged.setdefault(one.name, entries.get(one.name, one))
-        return merged
-
-    def _merge_sources(self, value: YamlNode) -> Iterator[YamlEntry]:
-        """Yield the entries of the map or maps that `<<` names, and report what is none."""
-        for source in value if isinstance(value, YamlList) else (value,):
-            if isinstance(source, YamlMap):
-                yield from source
-            elif not isinstance(source, YamlFault):
-                self._sink.report(codes.MERGE_NOT_MAP.at(source.span, found=_kind(source)))
+        return Span(begin.file, begin.line, begin.column, self._latest.end_line, self._latest.end_column)
 
 
 class _CutExpression(YamlFault):
     """An expression that a comma cut in pieces: they are no items, the flow list or map around them is at fault."""
 
     __slots__ = ()
-
-
-def _kind(node: YamlNode) -> str:
-    match node:
-        case YamlMap():
-            return "a map"
-        case YamlList():
-            return "a list"
-        case YamlScalar(value=None):
-            return "nothing"
-    return "text" if isinstance(node, YamlScalar) and isinstance(node.value, str) else "a plain value"
