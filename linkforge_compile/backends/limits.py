@@ -75,7 +75,7 @@ def check_attributes(parts: Sequence[Held], robot: Robot, render: Callable[[], s
     Which attributes an element has, only its rendering knows; so where there are extra ones at all, it is tried.
     The same goes for what `extra_inside` speaks of.
     """
-    extended = [part for part, _, _ in parts if _is_extended(part)]
+    extended = [part for part, *_ in parts if _is_extended(part)]
     if not (robot.extra_attributes or extended):
         return
     try:

@@ -106,6 +106,11 @@ def restored(text: str) -> str:
     return text.replace(_LINE_END, "\n").replace(_LESS_THAN, "<")
 
 
+def is_writable(text: str) -> bool:
+    """Whether XML can hold all of a text."""
+    return _UNWRITABLE.search(text) is None
+
+
 def require_writable(text: str) -> None:
     """Refuse a character that XML 1.0 cannot hold.
 

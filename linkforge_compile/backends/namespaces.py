@@ -20,7 +20,7 @@ def undeclared_prefixes(root: Extended, parts: Iterable[Held]) -> Iterator[Diagn
     """Yield a warning for each prefix in a root element or its parts that is not declared around it."""
     known = _OF_XML | _declared_by(_names(root))
     yield from _in_extras(root, known, root.source)
-    for part, where, around in parts:
+    for part, where, around, _ in parts:
         if part.extra_attributes or part.extra_elements:
             names = (name for holder in (*around, part) for name in _names(holder))
             yield from _in_extras(part, known | _declared_by(names), where)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache
 from typing import NamedTuple, TypeAlias
@@ -19,11 +19,15 @@ Part: TypeAlias = Element | Link | Interface
 
 
 class Held(NamedTuple):
-    """A part, where it was written, else what holds it, and the parts around it, outermost first."""
+    """A part, where it was written, else what holds it, and the parts around it, outermost first.
+
+    `said` are its fields with more in them than a number, by name, without those that every part has.
+    """
 
     part: Part
     where: SourceRef | None
     around: tuple[Part, ...]
+    said: list[tuple[str, object]]
 
 
 def parts_in(value: object) -> list[Held]:
@@ -36,30 +40,32 @@ def parts_in(value: object) -> list[Held]:
 def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], found: list[Held]) -> None:
     if isinstance(value, Part):
         where = value.source or where
-        found.append(Held(value, where, around))
+        said = _said(value)
+        found.append(Held(value, where, around, said))
         around = (*around, value)
-        _gather(inside_of(value), where, around, found)
-        for _, inner in content(value):
-            if type(inner) is not str:
+        if inside := inside_of(value):
+            _gather(inside, where, around, found)
+        for _, inner in said:
+            if inner.__class__ is not str:
                 _gather(inner, where, around, found)
+    elif isinstance(value, str):
+        return
     elif isinstance(value, Mapping):
         for inner in value.values():
             _gather(inner, where, around, found)
-    elif isinstance(value, Sequence) and not isinstance(value, str):
+    elif isinstance(value, Sequence):
         for inner in value:
             _gather(inner, where, around, found)
 
 
 # Nine fields of ten; they hold neither parts nor text.
-_NUMBERS = (float, int, Vector3, type(None))
+_NUMBERS = frozenset({float, int, bool, Vector3, type(None)})
 
 
-def content(part: Part) -> Iterator[tuple[str, object]]:
-    """Yield the fields of a part that hold more than numbers, without those that every part has."""
-    kind: type = type(part)
-    for name in _names_of(kind):
-        if not isinstance(value := getattr(part, name), _NUMBERS):
-            yield name, value
+def _said(part: Part) -> list[tuple[str, object]]:
+    kind: type = part.__class__
+    values = [(name, getattr(part, name)) for name in _names_of(kind)]
+    return [(name, value) for name, value in values if value.__class__ not in _NUMBERS and value]
 
 
 @cache

@@ -6,9 +6,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
 from linkforge_compile.backends.element import Extended, attributes, raw_texts
-from linkforge_compile.backends.markup import escaped
-from linkforge_compile.backends.parts import Held, Part, content
+from linkforge_compile.backends.markup import is_writable, require_writable
+from linkforge_compile.backends.parts import Held, Part
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.backends import UNWRITABLE
 from linkforge_compile.source import SourceRef
@@ -16,12 +17,13 @@ from linkforge_compile.source import SourceRef
 
 def unwritable_texts(parts: Iterable[Held]) -> Iterator[Diagnostic]:
     """Yield an error for each text in parts of a robot that cannot be written as XML."""
-    for part, where, _ in parts:
+    for part, where, _, said in parts:
         if part.extra_attributes:
             yield from refused(partial(attributes, part), where, "extra_attributes")
         yield from unwritable_raw(part, where)
-        for name, value in content(part):
-            yield from _in_field(part, name, value, where)
+        for name, value in said:
+            if name == "raw_xml" or not (isinstance(value, str) and is_writable(value)):
+                yield from _in_field(part, name, value, where)
 
 
 def unwritable_raw(part: Extended, where: SourceRef | None) -> Iterator[Diagnostic]:
@@ -51,7 +53,10 @@ def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> 
 def _in_value(value: object, where: SourceRef | None, *path: str) -> Iterator[Diagnostic]:
     """Look at texts, and those in collections; parts in them are looked at for themselves."""
     if isinstance(value, str):
-        yield from refused(lambda: escaped(value), where, *path)
+        if not is_writable(value):
+            yield from refused(partial(require_writable, value), where, *path)
+    elif isinstance(value, Element):
+        return
     elif isinstance(value, Mapping):
         for key, inner in value.items():
             yield from _in_value(key, where, *path)

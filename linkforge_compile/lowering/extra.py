@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from linkforge_compile.lowering.fields import Fields
 
 
-EXTRA_KEYS = ("extra", "extra_attributes", "extra_inside")
+EXTRA_KEYS = frozenset({"extra", "extra_attributes", "extra_inside"})
 
 
 class Extras(TypedDict):
@@ -34,17 +34,20 @@ class OuterExtras(TypedDict):
 NO_EXTRAS = Extras(extra_elements=(), extra_attributes=(), extra_inside=())
 """Of what is written in a short form, which has no place for them."""
 
+_NO_OUTER_EXTRAS = OuterExtras(extra_elements=(), extra_attributes=())
+
 
 def extras_of(fields: Fields) -> Extras:
     """Read what an object says raw. Whether it is XML, the backend judges, who knows how it would be written."""
-    entries = fields.node.entries
-    if not any(key in entries for key in EXTRA_KEYS):
+    if EXTRA_KEYS.isdisjoint(fields.node.entries):
         return NO_EXTRAS
     return Extras(**outer_extras_of(fields), extra_inside=tuple(_insides(fields)))
 
 
 def outer_extras_of(fields: Fields) -> OuterExtras:
     """Read what a link or a robot says raw."""
+    if EXTRA_KEYS.isdisjoint(fields.node.entries):
+        return _NO_OUTER_EXTRAS
     from linkforge_compile.lowering.free_part import free_texts
 
     texts = ((fields.text_at(node, "extra"), SourceRef(node, None, fields.trail)) for node in fields.items("extra"))

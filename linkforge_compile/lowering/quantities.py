@@ -100,11 +100,13 @@ class Refusal:
 def si_number(node: YamlNode, measure: Measure) -> float | Refusal:
     """Return the number that a node says, in SI units, or why it says none that the measure admits."""
     value = node.value if isinstance(node, YamlScalar) else None
+    if isinstance(value, float):
+        return _in_bound(node, value, measure)
     if isinstance(value, str):
         value = parse_quantity(value)
     if isinstance(value, Quantity):
         return _of_quantity(node, value, measure)
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if isinstance(value, bool) or not isinstance(value, int):
         return _no_number(node, measure)
     return _in_bound(node, as_float(value), measure)
 
@@ -119,10 +121,10 @@ def as_float(value: float) -> float:
 
 def doubt(node: YamlNode, number: float, measure: Measure) -> Code | None:
     """Return the warning for a number that is likely meant in degrees or millimetres, None for every other."""
-    bare = isinstance(node, YamlScalar) and isinstance(node.value, int | float)
-    if measure.dimensions == (Dimension.ANGLE,) and bare and abs(number) > WIDEST_ANGLE:
-        return WIDE_ANGLE
-    if measure.dimensions == (Dimension.LENGTH,) and abs(number) > _LONGEST_LENGTH and not measure.may_be_far:
+    size = abs(number)
+    if size > WIDEST_ANGLE and measure.dimensions == (Dimension.ANGLE,):
+        return WIDE_ANGLE if isinstance(node, YamlScalar) and isinstance(node.value, int | float) else None
+    if size > _LONGEST_LENGTH and measure.dimensions == (Dimension.LENGTH,) and not measure.may_be_far:
         return LONG_LENGTH
     return None
 

@@ -75,15 +75,17 @@ class Expressions:
             return False
         changing = self._changing.get(node)
         if changing is None:
-            if isinstance(node, YamlList):
-                changing = any(map(self.change, node.items))
-            else:
-                changing = any(
-                    name in WORDS or has_expression(name) or self.change(entry.value)
-                    for name, entry in node.entries.items()
-                )
+            changing = any(map(self.change, node.items)) if isinstance(node, YamlList) else self._changes_in(node)
             self._changing[node] = changing
         return changing
+
+    def _changes_in(self, node: YamlMap) -> bool:
+        for name, entry in node.entries.items():
+            value = entry.value
+            inside = has_expression(value.text) if isinstance(value, YamlScalar) else self.change(value)
+            if inside or name in WORDS or has_expression(name):
+                return True
+        return False
 
     def size(self, node: YamlNode) -> tuple[int, int]:
         """Return how many nodes a node is, tags of raw XML among them, and how many characters its scalars have."""

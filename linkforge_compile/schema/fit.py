@@ -60,8 +60,9 @@ class Fit:
         self._scalars = frozenset[type]().union(*(_SCALARS[kind] for kind in kinds if kind not in _COLLECTIONS))
         self._words = frozenset(_words(schema["enum"])) if "enum" in schema else None
         self._pattern = re.compile(str(schema["pattern"])) if "pattern" in schema else None
+        self._is_constant = "const" in schema
         self._union = [fit_of(branch) for branch in branches(schema)] if "anyOf" in schema else None
-        self._required = _texts(schema.get("required"))
+        self._required = frozenset(_texts(schema.get("required")))
         self._known = mapping(schema.get("properties", {}))
         self._patterns = {re.compile(text): part for text, part in mapping(schema.get("patternProperties", {})).items()}
         if any(pattern.search(name) for pattern in self._patterns for name in self._known):
@@ -88,7 +89,7 @@ class Fit:
             return False
         if self._words is not None and value not in self._words:
             return False
-        if "const" in self._schema and (isinstance(value, bool) or value != self._schema["const"]):
+        if self._is_constant and (isinstance(value, bool) or value != self._schema["const"]):
             return False
         return self._union is None or any(branch._takes_value(value) for branch in self._union)
 
@@ -96,14 +97,23 @@ class Fit:
         """Whether jsonschema finds a branch for the node, or would tell nothing of the one by which it is judged."""
         if self._union is None:
             return True
-        meant = None if heeds_null else branch_meant(self._schema, node)
+        meant = None if heeds_null else self._meant(node)
         if meant is not None and self._union[meant].takes(node):
             return True
         return any(branch.takes(node, heeds_null=True) for branch in self._union)
 
+    def _meant(self, node: YamlMap | YamlList) -> int | None:
+        # Of lists all are judged alike; of a map its keys may tell.
+        return branch_meant(self._schema, node) if isinstance(node, YamlMap) else self._meant_by_lists
+
+    @cached_property
+    def _meant_by_lists(self) -> int | None:
+        fits = (branch._takes_list or "type" not in branch._schema for branch in self._union or ())
+        return next((position for position, is_taken in enumerate(fits) if is_taken), None)
+
     def _takes_entries(self, node: YamlMap, heeds_null: bool) -> bool:
         entries = node.entries
-        if not all(name in entries for name in self._required):
+        if self._required and not self._required <= entries.keys():
             return False
         for name, entry in entries.items():
             judge = self._keys.get(name) or self._other_key(name)
@@ -119,8 +129,10 @@ class Fit:
 
     def _other_key(self, name: str) -> Fit | None:
         """Return what judges the value of a key that is not known; None where there may be no such key."""
-        patterns = (part for pattern, part in self._patterns.items() if pattern.search(name))
-        return next((fit_of(mapping(part)) for part in patterns), self._others)
+        for pattern, part in self._patterns.items():
+            if pattern.search(name):
+                return fit_of(mapping(part))
+        return self._others
 
     @cached_property
     def _others(self) -> Fit | None:

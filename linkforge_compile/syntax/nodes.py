@@ -91,7 +91,10 @@ class YamlMap:
     def get(self, key: str) -> YamlNode | None:
         """Return what is said under `key`, None where nothing is: a value of null is as if not written."""
         entry = self.entries.get(key)
-        return None if entry is None or is_null(entry.value) else entry.value
+        if entry is None:
+            return None
+        value = entry.value
+        return None if isinstance(value, YamlScalar) and value.value is None else value
 
     def child(self, key: str | int) -> YamlNode | None:
         entry = self.entries.get(str(key))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from numbers import Integral
 
 
@@ -16,6 +17,11 @@ def number_text(value: float) -> str:
         if isinstance(value, Integral):
             return str(int(value))
         value = float(value)
+    return _text_of_double(value)
+
+
+@lru_cache(maxsize=4096)  # a robot says the same numbers again and again
+def _text_of_double(value: float) -> str:
     if value == 0:
         return "0"
     digits, marker, exponent = float.__repr__(value).partition("e")
