@@ -25,7 +25,7 @@ MAY_IMPORT = {
     "modules": "source diagnostics bounds units syntax schema expressions importers roots",
     "core": "source units",
     "lowering": "source diagnostics bounds units syntax modules core",
-    "checks": "source diagnostics core",
+    "checks": "source diagnostics units core",
     "backends": "source diagnostics bounds units core resources",
     "writers": "source units syntax core modules",
     "compare": "core backends",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.checks.references import SHOWN, Use, listed
 from linkforge_compile.checks.tree import hanging, parent_joints
@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     MERGED_LINK_NAMED,
     TINY_MASS,
 )
+from linkforge_compile.units import number_text
 
 if TYPE_CHECKING:
     from linkforge_compile.core.frozen_map import FreePart
@@ -111,27 +112,87 @@ def check_merged_links(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
                     yield use.told(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
 
 
+class _Tag(NamedTuple):
+    """A tag of Gazebo that holds one value: what it is about, and the object and field that say it.
+
+    `told_in` is the object in which a tag that is said twice is an error, told when it was read.
+    """
+
+    reference: str
+    name: str
+    text: str
+    source: SourceRef | None
+    path: tuple[str, ...]
+    told_in: SourceRef | None
+
+    def is_as(self, other: _Tag) -> bool:
+        """Whether Gazebo reads the same value from both."""
+        return _as_gazebo_reads(self.text) == _as_gazebo_reads(other.text)
+
+    def is_told_with(self, first: _Tag) -> bool:
+        whole = first.told_in.node.span if first.told_in else None
+        return whole is not None and self.source is not None and self.source.node.span.lies_in(whole)
+
+
 def check_tags_of_several_blocks(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """The Gazebo blocks of a link or joint say a thing in one way.
+    """The Gazebo blocks of a link or joint, and a link's `physics`, say a thing in one way.
 
     Of a tag that stands in two of them Gazebo takes the last, and says so in its log at best. Write it once.
     """
-    said: dict[tuple[str | None, str], tuple[str, SourceRef | None]] = {}
+    said: dict[tuple[str, str], _Tag] = {}
+    for tag in (*_tags_of_physics(robot), *_tags_of_blocks(robot)):
+        first = said.setdefault((tag.reference, tag.name), tag)
+        if not tag.is_as(first) and not tag.is_told_with(first):
+            notes = [Note("the other block is here", first.source.at(*first.path))] if first.source else []
+            facts = {"tag": tag.name, "owner": tag.reference, "found": tag.text, "first": first.text}
+            yield TAG_OF_TWO_BLOCKS.at(tag.source, *tag.path, notes=notes, **facts)
+
+
+def _tags_of_physics(robot: Robot) -> Iterator[_Tag]:
+    """Yield what the physics of links with blocks say."""
+    from linkforge_compile.core.models.link import PHYSICS_TAGS
+
+    with_blocks = {block.reference for block in robot.gazebo_elements}
+    for link in [link for link in robot.links if link.name in with_blocks]:
+        physics = link.physics
+        for field, tag in PHYSICS_TAGS.items():
+            if physics.is_written(field):
+                yield _Tag(link.name, tag, _text(getattr(physics, field)), physics.source, (field,), link.source)
+
+
+def _tags_of_blocks(robot: Robot) -> Iterator[_Tag]:
+    """Yield the tags of the blocks; what holds elements, such as a sensor, may stand twice."""
+    from linkforge_compile.core.models.gazebo import ELEMENT_TAGS
+
     for block in robot.gazebo_elements:
-        for tag, text in dict(_tags(block)).items():
-            first, where = said.setdefault((block.reference, tag), (text, block.source))
-            if block.reference and text != first:
-                notes = [Note("the other block is here", where.span)] if where else []
-                path = (tag,) if block.source and block.source.node.child(tag) else ("properties", tag)
-                facts = {"tag": tag, "owner": block.reference, "found": text, "first": first}
-                yield TAG_OF_TWO_BLOCKS.at(block.source, *path, notes=notes, **facts)
+        about, source = block.reference, block.source
+        if about is None:
+            continue
+        for field, tag in ELEMENT_TAGS.items():
+            if (value := getattr(block, field)) is not None:
+                yield _Tag(about, tag, _text(value), source, (field,), source)
+        for tag, text in block.properties.items():
+            is_key = source is not None and source.node.child(tag) is not None
+            if isinstance(text, str):
+                yield _Tag(about, tag, text, source, (tag,) if is_key else ("properties", tag), source)
 
 
-def _tags(block: GazeboElement) -> Iterator[tuple[str, str]]:
-    """Yield the tags of a block that hold one value; one that holds elements, such as a sensor, may stand twice."""
-    fields = ("material", "static", "stop_cfm", "stop_erp", "provide_feedback", "implicit_spring_damper")
-    yield from ((name, f"{value}") for name in fields if (value := getattr(block, name)) is not None)
-    yield from ((tag, text) for tag, text in block.properties.items() if isinstance(text, str))
+def _text(value: str | bool | float) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return value if isinstance(value, str) else number_text(value)
+
+
+def _as_gazebo_reads(text: str) -> str | float:
+    """Return a number for text that is one, 1 or 0 for a truth, to be compared: '1', '1.0' and 'true' are one."""
+    word = text.strip().lower()
+    try:
+        return _TRUTHS[word] if word in _TRUTHS else float(word)
+    except ValueError:
+        return text.strip()
+
+
+_TRUTHS = {"true": 1.0, "yes": 1.0, "false": 0.0, "no": 0.0}
 
 
 def _merged_joints(robot: Robot) -> Iterator[Joint]:
