@@ -13,6 +13,8 @@ from linkforge_compile.diagnostics.codes.physics import NO_SIMULATOR_PLUGIN
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboPlugin
+    from linkforge_compile.core.part import Part
+    from linkforge_compile.source import Span
 
 SIMULATED_HARDWARE = {
     "gz_ros2_control": "gz_ros2_control-system",
@@ -31,7 +33,15 @@ def check_plugin_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """
     for plugin in _plugins(robot):
         uses = _named_joints(plugin)
-        yield from unknown(uses, UNKNOWN_PLUGIN_JOINT, robot.joints.names, gaps, plugin=plugin.name)
+        offered = [joint.name for joint in robot.joints if _trail(joint) == _trail(plugin)]
+        yield from unknown(
+            uses, UNKNOWN_PLUGIN_JOINT, robot.joints.names, gaps, offered=offered or None, plugin=plugin.name
+        )
+
+
+def _trail(part: Part) -> tuple[Span, ...]:
+    """Return the uses that brought a part in: a plugin of one arm means no joint of the other."""
+    return part.source.trail if part.source else ()
 
 
 def _plugins(robot: Robot) -> Iterator[GazeboPlugin]:

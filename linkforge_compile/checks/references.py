@@ -78,16 +78,28 @@ MOST_OFFERED = 100
 """So many wrong names are one bad rename: nobody reads more offers, and each costs a look at every name there is."""
 
 
-def unknown(uses: Iterable[Use], code: Code, known: Iterable[str], gaps: Gaps, **facts: object) -> Iterator[Diagnostic]:
-    """Tell every use of a name that is neither known nor known to be missing, in the words of the file that uses it."""
+def unknown(
+    uses: Iterable[Use],
+    code: Code,
+    known: Iterable[str],
+    gaps: Gaps,
+    *,
+    offered: Iterable[str] | None = None,
+    **facts: object,
+) -> Iterator[Diagnostic]:
+    """Tell every use of a name that is neither known nor known to be missing, in the words of the file that uses it.
+
+    `offered` are the names that may be meant, all that are known unless said.
+    """
     told = 0
     names = dict.fromkeys(known)
+    candidates = names if offered is None else dict.fromkeys(offered)
     for use in uses:
         if use.name not in names and use.name not in gaps:
             prefix = use.prefix
             why = gaps.removed.why(use.name)
             is_offered = not why and told < MOST_OFFERED
-            near = [name.removeprefix(prefix) for name in names if name.startswith(prefix)] if is_offered else []
+            near = [name.removeprefix(prefix) for name in candidates if name.startswith(prefix)] if is_offered else []
             yield use.told(code, name=use.name.removeprefix(prefix), near=near, notes=why, **facts)
             told += 1
 

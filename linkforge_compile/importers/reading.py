@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
 from linkforge_compile.importers.draft import DeclinedError, Draft
+from linkforge_compile.importers.prefixed import raw_with_prefix
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
@@ -229,7 +230,9 @@ class Reading:
         }
 
     def _raw(self, child: XmlElement) -> YamlNode:
-        node = self.draft.text(tidy(without_instructions(child.raw)), child.span)
+        written = self.draft.text(tidy(without_instructions(child.raw)), child.span).text
+        text = raw_with_prefix(written, self.element.tag)
+        node = YamlScalar(text, text, child.span)
         self.draft.raw.add(child)
         self.draft.made(node, child)
         return node

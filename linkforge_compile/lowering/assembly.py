@@ -307,7 +307,7 @@ def _passed_on(robot: Robot, instance: Instance) -> PassedOn | None:
         return None
     from linkforge_compile.lowering.unprefixed import passed_on
 
-    return passed_on(robot, instance.tree, {use.file for use in instance.trail})
+    return passed_on(robot, instance.tree, instance.prefix, {use.file for use in instance.trail})
 
 
 def _parts(robot: Robot) -> Iterator[tuple[PartKey, SourceRef | None]]:

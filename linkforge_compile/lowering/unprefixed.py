@@ -1,4 +1,4 @@
-"""What a module's prefix does not reach: names that plugins read in parameters or raw XML, and absolute topics."""
+"""What a module's prefix does not reach: names that plugins read, in parameters or raw XML, and absolute topics."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import NamedTuple
 from linkforge_compile.core.frozen_map import FreePart
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic
-from linkforge_compile.diagnostics.codes.model import ABSOLUTE_TOPIC, UNPREFIXED_NAME
+from linkforge_compile.diagnostics.codes.model import ABSOLUTE_TOPIC, UNPREFIXED_NAME, UNPREFIXED_TOPICS
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
@@ -22,11 +22,22 @@ _NAMED_FOR_ITSELF = ("visual", "collision", "material")
 _FORMATS_WITHOUT_EXPRESSIONS = (".urdf", ".xacro")
 
 
+_SAYS_TOPIC_OR_FRAME = re.compile(r"(?:topic|frame|namespace|remapping)(?:_?(?:name|id|prefix))?s?$", re.IGNORECASE)
+"""The end of a key, a tag or an attribute that plugins give topics and frames by: `imageTopicName`, `frame_id`."""
+
+# In a force-torque sensor, `frame` is one of three words.
+_IS_NO_NAME = re.compile(r"[-+.\d\s]*|true|false|child|parent|sensor", re.IGNORECASE)
+_MOST_SHOWN = 5
+
+_WRITTEN_WHOLE = frozenset(("parameters", "properties", "extra"))
+
+
 class Text(NamedTuple):
-    """A text that is passed on as it is, and where it was written."""
+    """A text that is passed on as it is, where it was written, and the key, tag or attribute that it is said by."""
 
     text: str
     where: Span
+    key: str = ""
 
 
 class PassedOn(NamedTuple):
@@ -34,17 +45,20 @@ class PassedOn(NamedTuple):
 
     plugin_texts: tuple[Text, ...]
     absolute_topics: tuple[Text, ...]
+    tree: YamlNode
+    prefix: str
+    """Of this use alone, without those of the files around it."""
 
 
-def passed_on(robot: Robot, tree: YamlNode, users: Collection[SourceFile]) -> PassedOn:
+def passed_on(robot: Robot, tree: YamlNode, prefix: str, users: Collection[SourceFile]) -> PassedOn:
     """Find what no prefix reaches in the robot of one file and in its tree, before its modules join it.
 
     What an override wrote in a file that uses this one (`users`) has the names of that file: final ones here.
     """
     texts = [
-        Text(text, source.at("parameters", *path))
-        for source, parameters in _parameters(robot)
-        for path, text in _texts(parameters)
+        Text(text, source.at(*path), _key_of(path))
+        for source, field, parameters in _parameters(robot)
+        for path, text in _texts(parameters, field)
         if source
     ]
     topics = (
@@ -53,33 +67,90 @@ def passed_on(robot: Robot, tree: YamlNode, users: Collection[SourceFile]) -> Pa
         if sensor.source and sensor.topic and sensor.topic.startswith("/")
     )
     own = (text for text in (*texts, *_raw_texts(tree)) if text.where.file not in users)
-    return PassedOn(tuple(own), tuple(topics))
+    return PassedOn(tuple(own), tuple(topics), tree, prefix)
 
 
 def warnings_under_a_prefix(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
     """Yield what there is to tell once the file takes a prefix; the robot is the file with its modules."""
+    paths: dict[Span, tuple[str, ...]] = {}
     for kind, names in (("link", robot.links), ("joint", robot.joints)):
         # A raw text may say one name often.
-        for text, where in dict.fromkeys(passed.plugin_texts):
-            if text in names:
-                remedy = f"write '$({kind}('{text}'))'"
-                if where.file.name.lower().endswith(_FORMATS_WITHOUT_EXPRESSIONS):
-                    remedy = "change it with 'override' where this file is used"
-                yield UNPREFIXED_NAME.at(where, name=text, kind=kind, remedy=remedy)
-    for topic, where in passed.absolute_topics:
+        for text, where in dict.fromkeys((text.text, text.where) for text in passed.plugin_texts):
+            if text not in names:
+                continue
+            remedy = f"write '$({kind}('{text}'))'"
+            if _has_no_expressions(where):
+                paths = paths or dict(_paths(passed.tree))
+                remedy = f"change it by 'override: {_override(paths.get(where, ()))}' where this file is used"
+            yield UNPREFIXED_NAME.at(where, name=text, kind=kind, remedy=remedy)
+    for topic, where, _ in passed.absolute_topics:
         yield ABSOLUTE_TOPIC.at(where, topic=topic)
+    yield from _topics_and_frames(passed, robot)
 
 
-def _parameters(robot: Robot) -> Iterator[tuple[SourceRef | None, FreePart]]:
+def _override(path: tuple[str, ...]) -> str:
+    """Return the override that reaches what stands under a path, but for the value."""
+    said = "..."
+    for key in reversed(path):
+        said = f"{{{key}: {said}}}"
+    return said
+
+
+def _paths(node: YamlNode, *path: str) -> Iterator[tuple[Span, tuple[str, ...]]]:
+    """Yield the place of each scalar with the keys and positions by which an override reaches it.
+
+    A list in a free part, and raw XML, can only be written anew as a whole.
+    """
+    if isinstance(node, YamlScalar):
+        yield node.span, path
+    elif isinstance(node, YamlMap):
+        for entry in node:
+            yield from _paths(entry.value, *path, entry.name)
+    elif isinstance(node, YamlList):
+        is_whole = not _WRITTEN_WHOLE.isdisjoint(path)
+        for number, item in enumerate(node):
+            yield from _paths(item, *path, *(() if is_whole else (str(number),)))
+
+
+def _topics_and_frames(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
+    """Yield once for a file that was written elsewhere which topics and frames its plugins name."""
+    found: dict[str, Span] = {}
+    for text, where, key in passed.plugin_texts:
+        is_told = text in robot.links or text in robot.joints
+        has_prefix = bool(passed.prefix) and passed.prefix in text
+        if _has_no_expressions(where) and _names_topic_or_frame(key, text) and not (is_told or has_prefix):
+            found.setdefault(text, where)
+    if found:
+        shown = [f"'{name}'" for name in found][:_MOST_SHOWN]
+        more = f" and {len(found) - _MOST_SHOWN} more" if len(found) > _MOST_SHOWN else ""
+        yield UNPREFIXED_TOPICS.at(next(iter(found.values())), names=", ".join(shown) + more)
+
+
+def _names_topic_or_frame(key: str, text: str) -> bool:
+    return bool(_SAYS_TOPIC_OR_FRAME.search(key)) and not _IS_NO_NAME.fullmatch(text)
+
+
+def _has_no_expressions(where: Span) -> bool:
+    return where.file.name.lower().endswith(_FORMATS_WITHOUT_EXPRESSIONS)
+
+
+def _parameters(robot: Robot) -> Iterator[tuple[SourceRef | None, str, FreePart]]:
+    """Yield what plugins read: where its owner was written, and under which key of that it stands."""
+    yield from ((block.source, "properties", block.properties) for block in robot.gazebo_elements)
     plugins = [plugin for block in robot.gazebo_elements for plugin in block.plugins]
     plugins += [sensor.plugin for sensor in robot.sensors if sensor.plugin]
-    yield from ((plugin.source, plugin.parameters) for plugin in plugins)
-    yield from ((transmission.source, transmission.parameters) for transmission in robot.transmissions)
+    yield from ((plugin.source, "parameters", plugin.parameters) for plugin in plugins)
+    yield from ((transmission.source, "parameters", transmission.parameters) for transmission in robot.transmissions)
     for control in robot.ros2_controls:
-        yield control.source, control.parameters
-        yield from ((joint.source, joint.parameters) for joint in control.joints)
-        yield from ((sensor.source, sensor.parameters) for sensor in control.sensors)
-        yield from ((gpio.source, gpio.parameters) for gpio in control.gpios)
+        yield control.source, "parameters", control.parameters
+        yield from ((joint.source, "parameters", joint.parameters) for joint in control.joints)
+        yield from ((sensor.source, "parameters", sensor.parameters) for sensor in control.sensors)
+        yield from ((gpio.source, "parameters", gpio.parameters) for gpio in control.gpios)
+
+
+def _key_of(path: tuple[str | int, ...]) -> str:
+    """Return the tag or attribute at the end of a path; that of the element for its text, or one of several."""
+    return next((str(key) for key in reversed(path) if isinstance(key, str) and key != "_text"), "")
 
 
 def _texts(part: FreePart, *path: str | int) -> Iterator[tuple[tuple[str | int, ...], str]]:
@@ -100,20 +171,20 @@ def _raw_texts(node: YamlNode) -> Iterator[Text]:
                 continue
             for item in entry.value.items if isinstance(entry.value, YamlList) else (entry.value,):
                 if isinstance(item, YamlScalar):
-                    yield from (Text(text, item.span) for text in _said_in(item.text))
+                    yield from (Text(text, item.span, key) for key, text in _said_in(item.text))
     elif isinstance(node, YamlList):
         for inner in node:
             yield from _raw_texts(inner)
 
 
-def _said_in(raw: str) -> Iterator[str]:
-    """Yield the texts and attributes of raw XML, in time that grows with its length, whatever it is."""
+def _said_in(raw: str) -> Iterator[tuple[str, str]]:
+    """Yield the texts and attributes of raw XML by their names, in time that grows with its length, whatever it is."""
     for piece in raw.split("<")[1:]:
         start, end, behind = piece.partition(">")
         tag = _RAW_NAME.match(start)
         if not (tag and end):
             continue
-        yield behind.partition(">")[0].strip()
+        yield tag[0], behind.partition(">")[0].strip()
         for name, double, single in _RAW_VALUE.findall(start, tag.end()):
             if name != "name" or tag[0] not in _NAMED_FOR_ITSELF:
-                yield double or single
+                yield name, double or single

@@ -135,8 +135,8 @@ def test_what_a_reader_forgets_is_a_loss_and_strict_fails(
 def test_a_loss_that_is_only_counted_is_counted_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     monkeypatch.setattr(sink, "MAX_TOLD", 2)
     urdf = tmp_path / "r.urdf"
-    links = "".join(f'<link name="l{i}">stray</link>\n' for i in range(5))
-    urdf.write_text(f'<robot name="r">{links}</robot>', "utf-8")
+    shapes = '<visual>stray<geometry><sphere radius="1"/></geometry></visual>\n' * 5
+    urdf.write_text(f'<robot name="r"><link name="a">{shapes}</link></robot>', "utf-8")
     more, *losses = import_urdf(urdf).diagnostics
     assert [one.code.id for one in losses] == ["LF8101"] * 2
     assert more.message.startswith("3 more")

@@ -332,10 +332,9 @@ def test_gazebo_blocks_stand_beside_what_they_are_about(read):
             gazebo:
               - mu1: 0.2
                 material: Gazebo/Red
-                properties: {mu2: 0.20}
+                properties: {mu2: 0.20, sensor: {_name: $(prefix)eye, _type: camera}}
                 plugins:
                   p: {filename: p.so, parameters: {ros: {namespace: /x}, j: [a, b]}}
-                extra: <sensor name="eye" type="camera"/>
               - plugins: {p: {filename: p.so, extra: [<x/>, <y/>, <x>1</x>]}}
               - {}
 
@@ -362,7 +361,7 @@ def test_hardware_comes_in_by_its_names(read):
             gpios:
               g: {state_interfaces: {in: {initial_value: 1.0}}}
               o: {command_interfaces: [out]}
-            extra: <transmission name="inner"/>
+            extra: <transmission name="$(prefix)inner"/>
             extra_attributes: {rw_rate: 50}""")
 
 

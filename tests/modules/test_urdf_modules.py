@@ -106,6 +106,77 @@ def test_what_the_language_refuses_stays_raw(tmp_path):
     assert '<sphere radius="0"/>' in render_urdf(compilation.result())
 
 
+SENSORS = """\
+  <gazebo reference="finger">
+    <sensor name="touch" type="contact">
+      <contact><collision>finger_collision</collision></contact>
+      <topic>touched</topic>
+      <plugin name="bumper" filename="b.so"><frameName>base_link</frameName><rate>7</rate><on>palm</on></plugin>
+    </sensor>
+  </gazebo>
+  <gazebo reference="finger">
+    <!-- raw, for keys would lose its order -->
+    <sensor name="eye" type="camera"><a/><b/><a/><gz_frame_id>finger</gz_frame_id><topic>/seen</topic></sensor>
+  </gazebo>
+  <gazebo>
+    <plugin name="p" filename="p.so"><topicName>state</topicName><map_frame>base_link</map_frame></plugin>
+  </gazebo>
+</robot>
+"""
+
+
+def test_names_in_sensors_take_the_prefix_where_they_are_certain(tmp_path):
+    urdf = render_urdf(
+        compiled(
+            tmp_path, "left: {use: vendor/gripper.urdf, parent: table}", GRIPPER.replace("</robot>", SENSORS)
+        ).result()
+    )
+    for said in (
+        '<sensor name="left_touch" type="contact">',
+        "<collision>left_finger_collision</collision>",
+        "<topic>left_touched</topic>",
+        '<plugin name="left_bumper" filename="b.so">',
+        '<sensor name="left_eye" type="camera">',
+        "<gz_frame_id>left_finger</gz_frame_id>",
+        "<topic>/seen</topic>",
+        "<frameName>base_link</frameName>",
+    ):
+        assert said in urdf
+
+
+def test_topics_and_frames_that_may_be_anything_are_told_once_with_all_of_them(tmp_path):
+    gripper = GRIPPER.replace("</robot>", SENSORS)
+    compilation = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper)
+    assert [(one.code.id, one.span.line, one.message) for one in compilation.diagnostics if one.span] == [
+        (
+            "LF5754",
+            21,
+            "plugins of this file name topics and frames, which take no prefix: 'base_link', 'state', '/seen'; "
+            "change what two uses must not share with 'override' where the file is used",
+        ),
+        (
+            "LF5704",
+            21,
+            "'palm' is a link of this file and takes the prefix, but not here; change it by 'override: {links: "
+            "{finger: {gazebo: {1: {properties: {sensor: {plugin: {on: ...}}}}}}}}' where this file is used",
+        ),
+    ]
+
+
+def test_a_plugin_is_offered_the_joints_of_its_own_use(tmp_path):
+    plugin = '<gazebo><plugin name="p" filename="p.so"><joint_name>slide</joint_name></plugin></gazebo></robot>'
+    uses = "left: {use: vendor/gripper.urdf, parent: table}\n  right: {use: vendor/gripper.urdf, parent: table}"
+    compilation = compiled(tmp_path, uses, GRIPPER.replace("</robot>", plugin))
+    assert [one.message for one in compilation.diagnostics if one.code.id == "LF4203"] == [
+        f"no joint named 'slide' for plugin '{side}_p'; did you mean '{side}_slide'?" for side in ("left", "right")
+    ]
+
+
+def test_a_robot_that_takes_no_prefix_is_told_nothing_of_topics(tmp_path):
+    gripper = GRIPPER.replace("</robot>", SENSORS)
+    assert not told(compiled(tmp_path, "g: {use: vendor/gripper.urdf, prefix: '', parent: table}", gripper))
+
+
 def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_told_once(tmp_path):
     raw = '<sensing><of link="finger"/><again>finger</again><visual name="palm"/></sensing>'
     gripper = GRIPPER.replace("</robot>", f"{raw}</robot>")
@@ -113,7 +184,7 @@ def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_told_once(tmp_path)
     assert diagnostic.code.id == "LF5704"
     assert diagnostic.message == (
         "'finger' is a link of this file and takes the prefix, but not here; "
-        "change it with 'override' where this file is used"
+        "change it by 'override: {extra: ...}' where this file is used"
     )
     assert Path(diagnostic.span.file.name).name == "gripper.urdf"
 

@@ -152,3 +152,9 @@ UNPREFIXED_NAME = Code("LF5704", _W, "'{name}' is a {kind} of this file and take
 ABSOLUTE_TOPIC = Code(
     "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
 )
+UNPREFIXED_TOPICS = Code(
+    "LF5754",
+    _W,
+    "plugins of this file name topics and frames, which take no prefix: {names}; change what two uses must not share "
+    "with 'override' where the file is used",
+)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable
 from itertools import groupby
 
 from linkforge_compile.importers.draft import number_of
+from linkforge_compile.importers.prefixed import names, names_by_text, place_of, with_prefix
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.xml import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
@@ -36,18 +38,26 @@ def text_of(element: XmlElement) -> str:
     return stripped if any("\n" in space for space in around) else text
 
 
-def read_free(element: Reading) -> YamlNode:
-    """Read a free element: attributes as `_name`, its text as `_text`, and its children by their tags."""
+def read_free(element: Reading, around: str | None = None) -> YamlNode:
+    """Read a free element: attributes as `_name`, its text as `_text`, and its children by their tags.
+
+    `around` is the tag around it where names may stand that take the prefix, None elsewhere.
+    """
+    tag = element.element.tag
+    place, is_name = place_of(tag, around), names_by_text(tag, around)
     if not element.element.attributes and not element.children():
-        return read_text(element)
+        node = read_text(element)
+        return with_prefix(node) if is_name else node
     entries: dict[str, YamlNode | None] = {}
     for name in element.element.attributes:
         taken = element.attribute(name)
-        entries[f"_{name}"] = element.draft.word(taken.value, taken.span)
+        value = element.draft.word(taken.value, taken.span)
+        entries[f"_{name}"] = with_prefix(value) if names(place, name) else value
     if text := text_of(element.element).strip():
-        entries["_text"] = element.draft.word(text, element.span)
+        said = element.draft.word(text, element.span)
+        entries["_text"] = with_prefix(said) if is_name else said
     element.taken_text()
-    return element.draft.map_of({**entries, **free_children(element)}, element.span)
+    return element.draft.map_of({**entries, **free_children(element, place)}, element.span)
 
 
 def is_free(element: XmlElement) -> bool:
@@ -72,10 +82,19 @@ def _begins_with_text(element: XmlElement) -> bool:
     return isinstance(first, str) and not any(isinstance(one, str) and one.strip() for one in others)
 
 
-def free_children(owner: Reading) -> dict[str, YamlNode | None]:
+def free_children(owner: Reading, place: str | None = None) -> dict[str, YamlNode | None]:
     """Take all children of a free element, each tag a key; a tag that repeats is a list."""
     groups = [(tag, list(group)) for tag, group in groupby(owner.children(), lambda child: child.tag)]
-    return {tag: _one_or_several(owner, group) for tag, group in groups}
+    return {tag: _one_or_several(owner, group, place) for tag, group in groups}
+
+
+def take_free(owner: Reading) -> dict[str, YamlNode | None]:
+    """Take the children whose tag is of none but free elements, each tag a key; all others are left."""
+    groups: defaultdict[str, list[XmlElement]] = defaultdict(list)
+    for child in owner.children():
+        groups[child.tag].append(child)
+    free = {tag: group for tag, group in groups.items() if not tag.startswith("_") and all(map(is_free, group))}
+    return {tag: _one_or_several(owner, group, owner.element.tag) for tag, group in free.items()}
 
 
 def take_texts(owner: Reading, children: Iterable[XmlElement]) -> dict[str, YamlNode | None]:
@@ -94,8 +113,8 @@ def exact_number(element: XmlElement) -> float | None:
     return value if value is not None and number_text(value) == text else None
 
 
-def _one_or_several(owner: Reading, group: list[XmlElement]) -> YamlNode | None:
-    nodes = [owner.within(child, read_free) for child in group]
+def _one_or_several(owner: Reading, group: list[XmlElement], place: str | None) -> YamlNode | None:
+    nodes = [owner.within(child, lambda element: read_free(element, place)) for child in group]
     if len(nodes) == 1:
         return nodes[0]
     return owner.draft.list_of(nodes, nodes[0].span)

@@ -11,7 +11,7 @@ from linkforge_compile.importers.urdf.free_part import (
     free_children,
     has_free_children,
     read_word,
-    take_texts,
+    take_free,
 )
 from linkforge_compile.importers.xml import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode
@@ -58,7 +58,7 @@ def _block(block: Reading, names: Collection[str | None]) -> YamlMap:
             raise DeclinedError(f"there is no link or joint named '{reference.value}'", reference.span)
     tags = _tags(block)
     plugins = _plugins(block)
-    properties = take_texts(block, block.children())
+    properties = take_free(block)
     return block.map(
         **tags,
         properties=block.draft.map_of(properties, block.span) if properties else None,
