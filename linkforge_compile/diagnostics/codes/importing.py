@@ -44,6 +44,12 @@ XACRO_WARNS = Code("LF8034", _W, "xacro says: {text}")
 URDF_FOR_SRDF = Code(
     "LF8132", _E, "this is a URDF, not an SRDF, for it has a <{tag}> of its own; give the robot's SRDF"
 )
+SRDF_OF_ANOTHER = Code(
+    "LF8154",
+    _E,
+    "none of the links and joints that this SRDF names is in '{robot}', '{name}' the first of {count}; give the SRDF "
+    "of this robot",
+)
 MESH_BESIDE_THE_URDF = Code(
     "LF8130",
     _W,

@@ -6,14 +6,15 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Protocol, TypeVar
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
-from linkforge_compile.diagnostics.codes.importing import URDF_FOR_SRDF
+from linkforge_compile.diagnostics.codes.importing import SRDF_OF_ANOTHER, URDF_FOR_SRDF
 from linkforge_compile.importers.comments import Comments
 from linkforge_compile.importers.document import Imported, read_document
 from linkforge_compile.importers.draft import DeclinedError
+from linkforge_compile.importers.srdf.known import Known, named_parts
 from linkforge_compile.importers.srdf.semantic import read_srdf
 from linkforge_compile.importers.xml import XmlDocument, XmlElement
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlMap, YamlNode
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
 _MOST_ROUNDS = 20
 """So often is an SRDF read anew without what the language refuses of it, which may have hidden another of its name.
@@ -46,6 +47,9 @@ def with_srdf(
     if part := next((child for child in document.root.children if child.tag in ("link", "joint")), None):
         sink.report(URDF_FOR_SRDF.at(part.span, tag=part.tag))
         return None
+    if other := _of_another_robot(document, urdf.tree):
+        sink.report(other)
+        return None
     refused: dict[Span, DeclinedError] = {}
     sections = sum(len(entry.value) for entry in urdf.tree if isinstance(entry.value, YamlMap))
     elements = 1 + sections + sum(1 for _ in _inside(document.root))
@@ -59,6 +63,18 @@ def with_srdf(
         refused |= found
     sink.report_all(told)
     return whole, judged
+
+
+def _of_another_robot(document: XmlDocument, robot: YamlMap) -> Diagnostic | None:
+    """Return what tells that an SRDF names links and joints, and none of them is one of the robot."""
+    known, said = Known.of(robot), list(named_parts(document.root))
+    if not said or any(part.value in known.links or part.value in known.joints for part in said):
+        return None
+    names = dict.fromkeys(part.value for part in said)
+    name = robot.get("name")
+    return SRDF_OF_ANOTHER.at(
+        said[0].span, robot=name.text if isinstance(name, YamlScalar) else "", name=said[0].value, count=len(names)
+    )
 
 
 def _with_semantic(urdf: Imported, srdf: Imported) -> Imported:

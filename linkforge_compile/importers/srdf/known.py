@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from linkforge_compile.importers.draft import DeclinedError
 from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.xml import XmlAttribute, XmlElement
 from linkforge_compile.syntax import YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
 
 _TURNING = ("revolute", "continuous")
+_LINKS_AND_JOINTS = ("link", "link1", "link2", "base_link", "tip_link", "parent_link", "child_link", "joint_name")
+_NAMED_BY_NAME = ("link", "joint", "passive_joint")
 
 
 @dataclass(slots=True)
@@ -60,6 +64,15 @@ def _known(owner: Reading, attribute: str, kind: str, names: set[str]) -> YamlSc
     if name.text not in names:
         raise DeclinedError(f"there is no {kind} named '{name.text}'", name.span)
     return name
+
+
+def named_parts(element: XmlElement) -> Iterator[XmlAttribute]:
+    """Yield what an SRDF names of its robot, links and joints, in the order of the file."""
+    for name, attribute in element.attributes.items():
+        if name in _LINKS_AND_JOINTS or (name == "name" and element.tag in _NAMED_BY_NAME):
+            yield attribute
+    for child in element.children:
+        yield from named_parts(child)
 
 
 def _names(section: object) -> set[str]:
