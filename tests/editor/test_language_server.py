@@ -138,6 +138,51 @@ OFFERED = {
         "ros2_control:\n  arm:\n    joints:\n      elbow:\n        command_interfaces: [|]",
         ["effort", "position", "velocity"],
     ),
+    "a list of interfaces": (
+        "ros2_control:\n  arm:\n    joints:\n      elbow:\n        command_interfaces:\n          - |",
+        ["effort", "position", "value", "velocity"],
+    ),
+    "interfaces that have ranges": (
+        "ros2_control:\n  arm:\n    joints:\n      elbow:\n        command_interfaces:\n          |",
+        ["interface"],
+    ),
+    "half a parameter of an interface in flow style": (
+        "ros2_control: {arm: {joints: {elbow: {command_interfaces: {position: {mi|}}}}}}",
+        ["initial_value", "interface", "max", "min"],
+    ),
+    "half a key of a frame's joint in flow style": (
+        "frames: {tool0: {parent: arm, jo|}}",
+        ["frame", "joint", "origin"],
+    ),
+    "half a key behind another in flow style": (
+        "joints:\n  elbow: {type: fixed, pa|}",
+        sorted([*JOINT_KEYS, "fixed joint", "revolute joint", "safety_controller"]),
+    ),
+    "half a shape of a list in flow style": (
+        "links: {base: {collision: [{cy|}]}}",
+        sorted([*GEOMETRY, "collision", "collision", "name", "origin"]),
+    ),
+    "half a key of a module's joint in flow style": (
+        "modules: {arm: {use: a.robot.yaml, joint: {ty|}}}",
+        [
+            *("axis", "calibration", "dynamics", "gazebo", "limits", "mimic", "moving joint", "name"),
+            *("safety_controller", "type"),
+        ],
+    ),
+    "half a limit of an override in flow style": (
+        "modules: {arm: {override: {joints: {elbow: {limits: {lo|}}}}}}",
+        ["effort", "lower", "upper", "velocity"],
+    ),
+    "half a key of an end effector in flow style": (
+        "semantic: {end_effectors: {hand: {pa|}}}",
+        ["end effector", "group", "parent_group", "parent_link"],
+    ),
+    "half a reason in flow style": (
+        "semantic: {disabled_collisions: {base: {arm: Ne|}}}",
+        ["Adjacent", "Always", "Default", "Never", "User"],
+    ),
+    "passive joints": ("semantic:\n  passive_joints:\n    |", ["passive joint"]),
+    "a file to include": ("include: [|]", ["palette.yaml"]),
     "in a plugin": ("gazebo:\n  plugins:\n    control:\n      |", ["filename", "parameters", "plugin"]),
 }
 
@@ -229,6 +274,13 @@ HOVERS = {
     "limits": ("joints: {elbow: {lim|its: {}}}", ["How far, how hard and how fast", "velocity: 90 deg/s"]),
     "a unit": ("joints: {elbow: {limits: {eff|ort: 3 N}}}", ["torque [N*m] or force [N]", "50 N*m"]),
     "a word": ("joints: {elbow: {type: revo|lute}}", ["`revolute`: Turns about its axis between two limits."]),
+    "a mass": ("links: {base: {inertial: {ma|ss: 4}}}", ["Mass of the link [kg].", "1.2 kg"]),
+    "a range of angles": (
+        "joints: {elbow: {limits: {lo|wer: 0}}}",
+        ["[rad] for revolute, [m] for prismatic", "-120 deg"],
+    ),
+    "an orientation": ("joints: {elbow: {origin: {r|py: [0, 0, 0]}}}", ["roll, pitch, yaw", "[rad]", "[0, 90 deg, 0]"]),
+    "a rate": ("sensors: {front: {update|_rate: 30}}", ["[Hz]", "30 Hz unless said", "100 Hz"]),
     "a shape": (
         "links: {base: {visual: {cyl|inder: {}}}}",
         ["A cylinder along z, centred on its origin.", "radius: 40 mm"],
