@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.backends import render_srdf, render_urdf
 from linkforge_compile.bounds import Budget
-from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
+from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PARAMETER
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
-from linkforge_compile.modules import XACRO, Loader, SpecFile, Used
+from linkforge_compile.modules import XACRO, Arguments, Loader, SpecFile, Used
 from linkforge_compile.pipeline import Packages, Parameters, Settings, robot_of
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.stack import with_room
@@ -23,6 +24,7 @@ from linkforge_compile.syntax import YamlMap, read
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
+    from linkforge_compile.modules.semantic import Semantic
 
 _RENDERED = (render_urdf, render_srdf)
 """What makes the documents of an import again, in their order."""
@@ -59,10 +61,10 @@ def import_urdf(
 ) -> Import:
     """Read a URDF file, and the SRDF of the same robot, as a spec that compiles to the same robot.
 
-    Its errors are told where those files have them. A xacro file is expanded with the arguments first, its packages
-    are looked for in `packages` before other places, and what it names is read where `compile_file` reads;
-    `allow_outside` lets it read anything. `output` is the folder that the spec is for: meshes that lie beside the URDF
-    and not there are told.
+    Its errors are told where those files have them. A xacro, of either, is expanded first with those of the arguments
+    that it takes, its packages are looked for in `packages` before other places, and what it names is read where
+    `compile_file` reads; `allow_outside` lets it read anything. `output` is the folder that the spec is for: meshes
+    that lie beside the URDF and not there are told.
     """
     settings = Settings(arguments, packages, allow_outside=allow_outside, output=Path(output) if output else None)
     return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), settings))
@@ -85,14 +87,16 @@ def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diag
     from linkforge_compile.syntax import write
 
     loader = settings.loader(urdf)
+    arguments = settings.arguments(loader, sink)
+    semantic = _open_srdf(srdf, arguments, loader, sink) if srdf else None
+    taken = semantic.arguments if semantic else None if srdf else frozenset()
     is_xacro = urdf.suffix.lower() == XACRO
-    found = _read_xacro(urdf, settings, loader, sink) if is_xacro else _read_urdf(urdf, loader, sink)
-    semantic = loader.open_xml(srdf, sink) if found and srdf else None
+    found = (_read_xacro if is_xacro else _read_urdf)(urdf, arguments, taken, loader, sink)
     if found is None or (srdf and semantic is None):
         return None
     file, robot = found
     judge = partial(_judged, SpecFile(file, robot.tree, urdf.parent), loader)
-    both = with_srdf(robot, semantic, judge, sink) if semantic else (robot, judge(robot.tree))
+    both = with_srdf(robot, semantic.text, judge, sink, semantic.moved) if semantic else (robot, judge(robot.tree))
     if both is None:
         return None
     # The tree has the spans of the files, so what is wrong with the robot is told there.
@@ -110,19 +114,35 @@ def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diag
 _Read = tuple[SourceFile, Imported]
 
 
-def _read_urdf(urdf: Path, loader: Loader, sink: Diagnostics) -> _Read | None:
+def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnostics) -> Semantic | None:
+    from linkforge_compile.modules.semantic import open_semantic
+    from linkforge_compile.modules.xacro import XacroUse
+
+    # Its user named it as he named the URDF, and a xacro of MoveIt includes what lies in a package of its own.
+    loader.roots = loader.roots.with_those_around(srdf)
+    return open_semantic(XacroUse(srdf, Used(str(srdf), None), arguments), loader, sink)
+
+
+_Taken = Collection[str] | None
+"""The names of arguments that the SRDF takes; None where nobody knows."""
+
+
+def _read_urdf(urdf: Path, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
     from linkforge_compile.importers.urdf import read_urdf
 
     file = loader.open_xml(urdf, sink)
+    if file and taken is not None:
+        for name, entry in arguments.without(taken).entries.items():
+            note = Note("a URDF takes no arguments", file.whole)
+            sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=taken, notes=[note]))
     robot = read_urdf(file, sink) if file else None
     return (file, robot) if file and robot else None
 
 
-def _read_xacro(xacro: Path, settings: Settings, loader: Loader, sink: Diagnostics) -> _Read | None:
+def _read_xacro(xacro: Path, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
     from linkforge_compile.modules.xacro import XacroUse, read_xacro
 
-    arguments = settings.arguments(loader, sink)
-    expanded = read_xacro(XacroUse(xacro, Used(str(xacro), None), arguments), loader, sink)
+    expanded = read_xacro(XacroUse(xacro, Used(str(xacro), None), arguments, taken=taken), loader, sink)
     return (expanded.file, expanded.imported) if expanded else None
 
 

@@ -92,7 +92,7 @@ class RobotDescription:
         self._variant: list[Substitution] | None = None if variant is None else _substitutions("variant", variant)
         self._packages, self._prefix = packages, argument_prefix
         self._allow_outside = allow_outside
-        listing, diagnostics = parameters_of(self.spec, allow_outside=allow_outside)
+        listing, diagnostics = parameters_of(self.spec, packages=packages, allow_outside=allow_outside)
         if listing is None:
             raise CompileError(diagnostics)
         self._listing = listing

@@ -205,16 +205,18 @@ def _variants(path: Path, settings: Settings) -> Iterable[str]:
     return variants_of(spec) if spec else ()
 
 
-def parameters_of(path: str | Path, *, allow_outside: bool = False) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
+def parameters_of(
+    path: str | Path, *, packages: Packages | None = None, allow_outside: bool = False
+) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
     """List the parameters and variants of a spec file, None where it cannot be read, and what is wrong with them.
 
-    Those of a xacro file are the arguments that it declares itself; none is declared by a URDF.
+    Those of a xacro file are the arguments that it and what it includes declare; none is declared by a URDF.
     """
-    sink, loader = Diagnostics(), Settings(allow_outside=allow_outside).loader(Path(path))
+    sink, loader = Diagnostics(), Settings(packages=packages, allow_outside=allow_outside).loader(Path(path))
     listing = None
     try:
         if Path(path).suffix.lower() == XACRO:
-            from linkforge_compile.modules.xacro import list_arguments
+            from linkforge_compile.modules.xacro_arguments import list_arguments
 
             listing = list_arguments(Path(path), loader, sink)
         elif spec := loader.open(Path(path), sink):

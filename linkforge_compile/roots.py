@@ -43,6 +43,10 @@ class Roots:
         """Return the same roots with single files that the user named himself."""
         return replace(self, files=self.files.union(map(_real, files)))
 
+    def with_those_around(self, place: Path) -> Roots:
+        """Return the same roots with those of another file that the user named beside the spec."""
+        return replace(self, folders=tuple(dict.fromkeys((*self.folders, *Roots.around(place).folders))))
+
     def __str__(self) -> str:
         folders = [*map(str, self.folders), *(["what AMENT_PREFIX_PATH names"] if self.installed else [])]
         return ", ".join(folders) or "no folder"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -36,7 +37,7 @@ def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None
         sink.report(NOT_A_ROBOT.at(root.span, tag=root.tag))
         return None
     if xacro := next((child for child in root.children if child.tag.startswith("xacro:")), None):
-        sink.report(STILL_XACRO.at(xacro.span, tag=xacro.tag))
+        sink.report(STILL_XACRO.at(xacro.span, tag=xacro.tag, name=posixpath.basename(file.name)))
         return None
     if root.get("name") is None:
         sink.report(ROBOT_WITHOUT_NAME.at(root.span))

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import field, replace
 from numbers import Real
 from pathlib import Path
 from typing import NamedTuple
@@ -42,6 +42,10 @@ class Arguments:
     folder: Path | None = None
     as_text: bool = False
     is_partial: bool = False
+
+    def without(self, names: Collection[str]) -> Arguments:
+        """Return the others."""
+        return replace(self, entries={name: entry for name, entry in self.entries.items() if name not in names})
 
     @property
     def named_files(self) -> Iterator[Path]:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
+from typing import TYPE_CHECKING
 
 from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import (
     MODULES_NOT_MAP,
+    SRDF_BESIDE_SPEC,
     USE_CIRCLE,
     USE_TOO_DEEP,
 )
@@ -27,11 +29,15 @@ from linkforge_compile.modules.module_overrides import Body
 from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.own_names import asked_in
-from linkforge_compile.modules.uses import XACRO, UseSite, locate, mesh_base, name_from, open_use, with_semantic
+from linkforge_compile.modules.semantic import open_semantic, with_semantic
+from linkforge_compile.modules.uses import SPEC_ENDINGS, XACRO, UseSite, locate, mesh_base, name_from, open_use
 from linkforge_compile.modules.variants import tell_unknown_variant, variants_of
 from linkforge_compile.schema.shapes import FREE, shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlScalar, is_null
+
+if TYPE_CHECKING:
+    from linkforge_compile.modules.xacro import XacroUse
 
 MAX_DEPTH = 50
 
@@ -153,32 +159,51 @@ class _Expansion:
         if entry.use is None:
             return _unread(entry)
         sink = names.tree.sink
-        site, arguments = names.own.site(entry.use.text, entry.use.span), entry.arguments
-        if site.text.lower().endswith(XACRO):
-            spec, arguments = self._expanded_by_xacro(site, entry, sink), Arguments()
-        else:
-            spec = open_use(site, self._shared.loader, sink)
+        srdf = entry.ref.node.child("srdf")
+        spec, arguments = self._robot(entry, entry.use, srdf if isinstance(srdf, YamlScalar) else None, names)
         if spec is None:
             return _unread(entry)
-        if isinstance(srdf := entry.ref.node.child("srdf"), YamlScalar):
-            spec = with_semantic(spec, site, names.own.site(srdf.text, srdf.span), self._shared.loader, sink)
-            if spec is None:
-                return _unread(entry)
         given = Given(arguments, sink, entry.tree, entry.use.span)
         use = _Use(spec, given, entry, outer, _sites(outer, names))
         instance = self.instance(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
 
-    def _expanded_by_xacro(self, site: UseSite, entry: ModuleEntry, sink: Diagnostics) -> SpecFile | None:
-        """Return what xacro makes of a file and of the arguments of an entry."""
-        from linkforge_compile.modules.xacro import XacroUse, open_xacro
+    def _robot(
+        self, entry: ModuleEntry, use: YamlScalar, srdf: YamlScalar | None, names: FileNames
+    ) -> tuple[SpecFile | None, Arguments]:
+        """Return the file that an entry uses, and the arguments that are left for it.
 
-        loader = self._shared.loader
-        target = locate(site, loader, sink)
+        Those of a xacro are spent on it, and on that of its SRDF: both take what they have of them.
+        """
+        loader, sink = self._shared.loader, names.tree.sink
+        site, arguments = names.own.site(use.text, use.span), entry.arguments
+        beside = None
+        if srdf is not None:
+            if site.text.lower().endswith(SPEC_ENDINGS):
+                sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
+                return None, arguments
+            beside = self._to_expand(names.own.site(srdf.text, srdf.span), entry, sink)
+        semantic = open_semantic(beside, loader, sink) if beside else None
+        taken = semantic.arguments if semantic else None if beside else frozenset()
+        if site.text.lower().endswith(XACRO):
+            from linkforge_compile.modules.xacro import open_xacro
+
+            xacro = self._to_expand(site, entry, sink)
+            spec, arguments = open_xacro(replace(xacro, taken=taken), loader, sink) if xacro else None, Arguments()
+        else:
+            spec, arguments = open_use(site, loader, sink), arguments.without(taken or ())
+        if spec is not None and srdf is not None:
+            spec = with_semantic(spec, semantic, beside, loader, sink) if semantic and beside else None
+        return spec, arguments
+
+    def _to_expand(self, site: UseSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
+        """Return the use of a file with the arguments of an entry."""
+        from linkforge_compile.modules.xacro import XacroUse
+
+        target = locate(site, self._shared.loader, sink)
         if target is None:
             return None
-        use = XacroUse(target.path, site.used, entry.arguments, entry.tree, site.packages, target.package)
-        return open_xacro(use, loader, sink)
+        return XacroUse(target.path, site.used, entry.arguments, entry.tree, site.packages, target.package)
 
     def _is_bounded(self, use: _Use, sink: Diagnostics) -> bool:
         """Whether a use leads on and to an end; reports why not."""

@@ -10,17 +10,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics
-from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, SRDF_BESIDE_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
 from linkforge_compile.expressions import PathText
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
-from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.source import Span
 from linkforge_compile.source.ref import Located
-from linkforge_compile.syntax import YamlMap, YamlScalar
+from linkforge_compile.syntax import YamlScalar
 
 SPEC_ENDINGS = (".yaml", ".yml")
 """How the names of spec files end."""
@@ -64,36 +63,6 @@ def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | Non
     target = locate(site, loader, sink)
     spec = loader.open(target.path, sink, package=target.package, used=site.used) if target else None
     return replace(spec, packages=site.packages) if spec and lowered.endswith(_URDF_ENDING) else spec
-
-
-def with_semantic(spec: SpecFile, use: UseSite, srdf: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:
-    """Return a vendor's robot with what its SRDF says; None where there is none, which is reported there."""
-    if use.text.lower().endswith(SPEC_ENDINGS):
-        sink.report(SRDF_BESIDE_SPEC.at(srdf.where, path=use.text))
-        return None
-    target = locate(srdf, loader, sink)
-    file = loader.open_xml(target.path, sink, srdf.used) if target else None
-    if target is None or file is None:
-        return None
-    from linkforge_compile.importers.comments import Comments
-    from linkforge_compile.importers.document import Imported
-    from linkforge_compile.importers.srdf import with_srdf
-
-    def together(tree: YamlMap) -> SpecFile:
-        part = SpecFile(file, tree, target.path.parent, target.package)
-        return replace(spec, tree=tree, included={**spec.included, file: part})
-
-    def judged(tree: YamlMap) -> _Judged:
-        return _Judged(loader.judge(together(tree), loader))
-
-    read = with_srdf(Imported(spec.tree, Comments({}, {})), file, judged, used_from(sink, (srdf.where,)))
-    return together(read[0].tree) if read else None
-
-
-class _Judged(NamedTuple):
-    """The errors of a vendor's robot by itself: what of its SRDF they are told of is kept raw, as an import does."""
-
-    faults: tuple[Diagnostic, ...]
 
 
 def locate(site: UseSite, loader: Loader, sink: Diagnostics) -> Target | None:

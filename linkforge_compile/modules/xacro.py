@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import (
     XACRO_ARGUMENT,
+    XACRO_ARGUMENT_TOO_EARLY,
     XACRO_FAILED,
     XACRO_FORBIDDEN,
     XACRO_NOT_INSTALLED,
@@ -22,7 +23,6 @@ from linkforge_compile.expressions import FAULT
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
-from linkforge_compile.modules.listing import ListedParameter, Listing
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
@@ -33,7 +33,7 @@ from linkforge_compile.syntax import YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, number_text
 
 if TYPE_CHECKING:
-    from linkforge_compile.importers.document import Imported
+    from linkforge_compile.importers.document import Imported, Move
     from linkforge_compile.importers.xacro import Expanded, Failed, Place
     from linkforge_compile.importers.xml import XmlElement
 
@@ -48,7 +48,8 @@ class XacroUse:
     """One use of a xacro file: what names it, what it is given, and where packages are said to be.
 
     `tree` computes the arguments, None where they hold no expressions. `package` is the one through whose
-    `package://` the file was reached.
+    `package://` the file was reached. `taken` are the names of those that another file of the same robot takes; None
+    where that one tells of what neither takes.
     """
 
     path: Path
@@ -57,6 +58,20 @@ class XacroUse:
     tree: TreeEvaluator | None = None
     packages: Mapping[str, Path] | None = None
     package: Package | None = None
+    taken: Collection[str] | None = ()
+
+
+class Expansion(NamedTuple):
+    """What a xacro file expands to: `moved` puts the elements of `text` where they were written.
+
+    `files` are those in which they were written, the first one first, and the text itself. `arguments` are the names
+    of those that it takes.
+    """
+
+    text: SourceFile
+    moved: Move
+    files: tuple[SourceFile, ...]
+    arguments: frozenset[str]
 
 
 class Robot(NamedTuple):
@@ -83,6 +98,17 @@ def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | N
 def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Robot | None:
     """Expand a xacro file and read the robot in it, as `open_xacro` does."""
     from linkforge_compile.importers.urdf import read_urdf
+
+    expansion = expand_xacro(use, loader, sink)
+    if expansion is None:
+        return None
+    imported = read_urdf(expansion.text, _inside(use, sink), expansion.moved)
+    main, *others = expansion.files
+    return Robot(imported, main, tuple(others)) if imported else None
+
+
+def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:
+    """Expand a xacro file of any kind; None where it cannot be had, which is reported."""
     from linkforge_compile.importers.xacro import Failed, moved_back, run_xacro
 
     main = loader.open_xml(use.path, sink, use.used)
@@ -95,32 +121,28 @@ def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Robot | None
     asked = _Asked(use, loader)
     result = run_xacro(use.path, arguments, asked)
     written = _Written(result, main, loader)
-    inside = used_from(sink, (use.used.where,) if use.used.where else ())
+    inside = _inside(use, sink)
     told = _Telling(use, written, loader, sink, inside)
     if isinstance(result, Failed):
         told.failed(result, asked)
         return None
-    told.unknown_arguments(result.arguments)
+    told.unknown_arguments(result.arguments, result.wanted)
     for warning in result.warnings:
         inside.report(XACRO_WARNS.at(main.whole, text=warning))
     expanded = SourceFile(f"{main.name} (expanded)", result.text, order=main.order)
-    imported = read_urdf(expanded, inside, partial(moved_back, find=written.element))
-    return Robot(imported, main, (*written.files, expanded)) if imported else None
+    files = (main, *written.files, expanded)
+    moved = partial(moved_back, find=written.element)
+    return Expansion(expanded, moved, files, frozenset((*result.arguments, *result.wanted)))
 
 
-def list_arguments(path: Path, loader: Loader, sink: Diagnostics) -> Listing | None:
-    """List the arguments that a xacro file declares, those of the files that it includes left out."""
-    from linkforge_compile.importers.xml import read_xml
+def in_order(element: XmlElement) -> list[XmlElement]:
+    """Return an element and all in it in the order of the document, as xacro's parser counts them."""
+    return [element, *(inner for child in element.children for inner in in_order(child))]
 
-    file = loader.open_xml(path, sink)
-    document = read_xml(file, sink) if file else None
-    if document is None:
-        return None
-    arguments: dict[str, ListedParameter] = {}
-    for element in _in_order(document.root):
-        if element.tag == "xacro:arg" and (name := element.get("name")):
-            arguments.setdefault(name, ListedParameter(name, "string", default=element.get("default")))
-    return Listing(document.root.get("name") or path.name, parameters=tuple(arguments.values()))
+
+def _inside(use: XacroUse, sink: Diagnostics) -> Diagnostics:
+    """Return what takes what is told in the files of a use."""
+    return used_from(sink, (use.used.where,) if use.used.where else ())
 
 
 class _Asked:
@@ -208,11 +230,7 @@ class _Written:
 
         file = self.main if number == 0 else self.open(self._paths[number])
         document = read_xml(file, Diagnostics()) if file else None
-        return tuple(_in_order(document.root)) if document else ()
-
-
-def _in_order(element: XmlElement) -> list[XmlElement]:
-    return [element, *(inner for child in element.children for inner in _in_order(child))]
+        return tuple(in_order(document.root)) if document else ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,7 +248,7 @@ class _Telling:
         if failed.reason is None:
             self.sink.report(XACRO_NOT_INSTALLED.at(where, path=self.use.used.text))
             return
-        self.unknown_arguments(failed.arguments or {})
+        self.unknown_arguments(failed.arguments or {}, failed.wanted)
         notes = [Note("it is looked for here", place)] if (place := self._place(failed)) else []
         if asked.refused:
             path, writer = asked.refused[-1], place or where or self.written.main.whole
@@ -242,16 +260,23 @@ class _Telling:
             name = unset[1]
             remedy = f"with: {{{name}: VALUE}}" if where else f"{name}:=VALUE"
             declared = self._declared(failed.arguments or {}, name)
-            self.sink.report(PARAMETER_NOT_SET.at(where or declared or place, name=name, remedy=remedy))
+            if declared and place:
+                notes = [Note("its default stands here", declared)]
+                self.inside.report(XACRO_ARGUMENT_TOO_EARLY.at(place, name=name, remedy=remedy, notes=notes))
+            else:
+                self.sink.report(PARAMETER_NOT_SET.at(where or place, name=name, remedy=remedy))
         else:
             self.inside.report(XACRO_FAILED.at(place or where, problem=" ".join(failed.reason.split())))
 
-    def unknown_arguments(self, declared: Mapping[str, Place]) -> None:
+    def unknown_arguments(self, declared: Mapping[str, Place], wanted: Collection[str]) -> None:
+        """Report the arguments that the file neither declares nor wants, unless another file of the robot does."""
+        if self.use.taken is None:
+            return
         first = next((self._declared(declared, name) for name in declared), None)
         note = Note("its arguments are declared here" if declared else "this file declares no arguments", first)
         for name, entry in self.use.arguments.entries.items():
-            if name not in declared:
-                self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=declared, notes=[note]))
+            if name not in (known := (*declared, *wanted, *self.use.taken)):
+                self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=known, notes=[note]))
 
     def _declared(self, declared: Mapping[str, Place], name: str) -> Span | None:
         element = self.written.element(declared[name]) if name in declared else None

@@ -101,11 +101,15 @@ def test_a_mesh_beside_the_urdf_and_not_beside_the_spec_is_told(arm, tmp_path: P
     assert "or the spec into '.' [LF8130]" in away.stderr
 
 
-def test_an_srdf_without_its_robot_and_one_that_is_not_expanded_are_refused(arm, capfd: pytest.CaptureFixture[str]):
-    assert main(["import", "arm.srdf"]) == 2
-    assert "'arm.srdf' is an SRDF; give it with its robot: linkforge import ROBOT.urdf --srdf" in capfd.readouterr().err
-    assert main(["import", arm(), "--srdf", "arm.srdf.xacro"]) == 2
-    assert "write 'xacro arm.srdf.xacro -o arm.srdf' first" in capfd.readouterr().err
+def test_an_srdf_without_its_robot_is_refused(capfd: pytest.CaptureFixture[str]):
+    assert main(["import", "arm.srdf.xacro"]) == 2
+    assert "give it with its robot: linkforge import ROBOT.urdf --srdf arm.srdf.xacro" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["reach:=1"], ["-p", "reach=1"], ["-p", "reach:=1"]])
+def test_an_argument_is_not_swallowed(arm, words: list[str], capfd: pytest.CaptureFixture[str]):
+    assert main(["import", arm(), *words]) == 1
+    assert "error: no parameter named 'reach'" in capfd.readouterr().err
 
 
 def test_the_robot_itself_is_never_written_over(arm, capfd: pytest.CaptureFixture[str]):

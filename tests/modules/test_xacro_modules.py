@@ -143,6 +143,7 @@ def test_a_package_that_is_nowhere_is_told_at_the_use(vendor, tmp_path):
     [
         (("${table['lower']}", "${table['nope']}"), 12, "nope"),
         (("xacro:if", "xacro:of"), 15, "of"),
+        (('parent="upper" length="${$(arg reach) / 2}"', 'parent="upper" length="${nope}"'), 12, "nope"),
         (("</robot>", "</robto>"), 20, "mismatched tag"),
     ],
 )
@@ -290,7 +291,7 @@ def test_its_srdf_joins_under_the_prefix_and_what_it_refuses_stays_raw(vendor, t
         {"b_upper_joint": (0.5,)},
     ]
     assert [joint.name for joint in semantic.passive_joints] == ["a_cover_joint"]
-    assert semantic.extra_elements == ('<passive_joint name="cover_joint"/>',)
+    assert semantic.extra_elements == ('<passive_joint name="b_cover_joint"/>',)
     assert "LF8021" in {one.code.id for one in compilation.diagnostics}
 
 

@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import one_spec
-from linkforge_compile.cli.options import add_outside_option, add_package_option, packages_of, split_assignments
+from linkforge_compile.cli.options import (
+    add_outside_option,
+    add_package_option,
+    add_parameter_option,
+    packages_of,
+    split_assignments,
+)
 from linkforge_compile.cli.targets import imported_spec
 from linkforge_compile.cli.telling import add_telling_options, say, tell
 
@@ -23,6 +29,7 @@ examples:
   linkforge import arm.urdf
   linkforge import arm.urdf -o arm.robot.yaml --strict
   linkforge import arm.urdf --srdf arm.srdf -o arm.robot.yaml
+  linkforge import ur.urdf.xacro --srdf ur.srdf.xacro ur_type:=ur5e -o .    each takes the arguments that it has
 """
 
 
@@ -30,12 +37,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge import [options] ROBOT.urdf | ROBOT.urdf.xacro [ARGUMENT:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument("words", metavar="ROBOT.urdf", nargs="+", help="the robot; a xacro is expanded first")
-    parser.add_argument("--srdf", metavar="ROBOT.srdf", help="what planners know of the same robot")
+    parser.add_argument("--srdf", metavar="ROBOT.srdf", help="what planners know of the same robot, or its xacro")
     parser.add_argument(
         "-o", "--output", metavar="PATH", help="a file that ends in .yaml, or a folder for NAME.robot.yaml"
     )
     parser.add_argument("--force", action="store_true", help="replace a spec that is there and says something else")
     parser.add_argument("--strict", action="store_true", help="fail, writing nothing, where something cannot be kept")
+    add_parameter_option(parser, "set an argument of the xacros")
     add_package_option(parser)
     add_outside_option(parser)
     add_telling_options(parser)
@@ -44,7 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     files, assignments = split_assignments(arguments.words)
     urdf = one_spec(files)
-    _refuse_srdf(urdf, arguments.srdf)
+    _refuse_srdf(urdf)
     sources = {Path(file).resolve() for file in (urdf, arguments.srdf) if file is not None}
     if arguments.output is not None and Path(arguments.output).resolve() in sources:
         raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
@@ -54,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     imported = import_urdf(
         urdf,
         srdf=arguments.srdf,
-        arguments=assignments,
+        arguments=[*arguments.parameters, *assignments],
         packages=packages_of(arguments),
         allow_outside=arguments.allow_outside,
         output=output.parent if output else None,
@@ -66,13 +74,10 @@ def run(arguments: argparse.Namespace) -> int:
     return FAULTY_SPEC if is_faulty else OK
 
 
-def _refuse_srdf(urdf: str, srdf: str | None) -> None:
-    """Refuse an SRDF where its robot belongs, and one that is not expanded."""
+def _refuse_srdf(urdf: str) -> None:
+    """Refuse an SRDF where its robot belongs."""
     if urdf.lower().endswith((".srdf", ".srdf.xacro")):
-        raise UsageError(f"'{urdf}' is an SRDF; give it with its robot: linkforge import ROBOT.urdf --srdf ROBOT.srdf")
-    if srdf is not None and srdf.lower().endswith(".xacro"):
-        expanded = srdf[: -len(".xacro")]
-        raise UsageError(f"--srdf takes an expanded file; write 'xacro {srdf} -o {expanded}' first")
+        raise UsageError(f"'{urdf}' is an SRDF; give it with its robot: linkforge import ROBOT.urdf --srdf {urdf}")
 
 
 def _put(text: str, output: Path | None, arguments: argparse.Namespace) -> None:

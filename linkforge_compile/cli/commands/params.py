@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
-from linkforge_compile.cli.options import add_outside_option
+from linkforge_compile.cli.options import add_outside_option, add_package_option, packages_of
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
@@ -18,13 +18,15 @@ _EXAMPLES = """\
 examples:
   linkforge params arm.robot.yaml           a table: name, type, default, limits, description; then the variants
   linkforge params arm.robot.yaml --json    the same for tools; numbers are in SI units
+  linkforge params arm.urdf.xacro           the arguments of a xacro, and of what it includes
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
-    parser.add_argument("spec", metavar="SPEC", help="the spec, NAME.robot.yaml")
+    parser.add_argument("spec", metavar="SPEC", help="the spec, NAME.robot.yaml, or a xacro, which is not run")
     parser.add_argument("--json", action="store_true", help="as JSON, for tools")
+    add_package_option(parser)
     add_outside_option(parser)
     add_telling_options(parser)
 
@@ -33,7 +35,9 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.pipeline import parameters_of
 
-    listing, diagnostics = parameters_of(arguments.spec, allow_outside=arguments.allow_outside)
+    listing, diagnostics = parameters_of(
+        arguments.spec, packages=packages_of(arguments), allow_outside=arguments.allow_outside
+    )
     is_faulty = tell(diagnostics, arguments)
     if listing:
         write_to_stdout(_json_text(listing) if arguments.json else "".join(f"{line}\n" for line in _table(listing)))

@@ -17,7 +17,7 @@ NO_CHARACTER_OF_A_SPEC = Code("LF8005", _E, "a spec cannot hold the character {c
 # LF801x: URDF
 NOT_A_ROBOT = Code("LF8011", _E, "expected <robot>, found <{tag}>")
 ROBOT_WITHOUT_NAME = Code("LF8012", _E, "the robot has no name; write <robot name='...'>")
-STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro's, not URDF; name the file .urdf.xacro")
+STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro's; it is expanded in a file named '{name}.xacro'")
 
 # LF802x: what comes in, but not as its own kind
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML in 'extra': {reason}")
@@ -39,6 +39,11 @@ XACRO_FAILED = Code("LF8032", _E, "xacro gives up here: {problem}")
 XACRO_ARGUMENT = Code("LF8033", _E, "'{name}' of a xacro file takes a text, a number, or true or false")
 XACRO_FORBIDDEN = Code("LF8035", _E, "'{path}' is not expanded: the environment sets {variable}")
 XACRO_WARNS = Code("LF8034", _W, "xacro says: {text}")
+
+XACRO_ARGUMENT_TOO_EARLY = Code(
+    "LF8062", _E, "xacro needs '{name}' here, before it comes to its default; write '{remedy}'"
+)
+ARGUMENTS_NOT_LISTED = Code("LF8061", Severity.NOTE, "the arguments that '{path}' declares are not listed: {reason}")
 
 # LF813x: which file goes where
 URDF_FOR_SRDF = Code(

@@ -8,7 +8,7 @@ from typing import Protocol, TypeVar
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.importing import SRDF_OF_ANOTHER, URDF_FOR_SRDF
 from linkforge_compile.importers.comments import Comments
-from linkforge_compile.importers.document import Imported, read_document
+from linkforge_compile.importers.document import Imported, Move, read_document
 from linkforge_compile.importers.draft import DeclinedError
 from linkforge_compile.importers.srdf.known import Known, named_parts
 from linkforge_compile.importers.srdf.semantic import read_srdf
@@ -37,10 +37,14 @@ J = TypeVar("J", bound=Judged)
 
 
 def with_srdf(
-    urdf: Imported, file: SourceFile, judge: Callable[[YamlMap], J], sink: Diagnostics
+    urdf: Imported,
+    file: SourceFile,
+    judge: Callable[[YamlMap], J],
+    sink: Diagnostics,
+    moved: Move | None = None,
 ) -> tuple[Imported, J] | None:
     """Return the spec of a URDF with what an SRDF says, and what is known of it; None where that is no SRDF."""
-    document = read_document(file, sink)
+    document = read_document(file, sink, moved)
     if document is None:
         return None
     # Kept raw in the semantic part, the whole robot would come out as an SRDF.

@@ -14,6 +14,7 @@ import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
+from xml.dom import minidom
 from xml.dom.minidom import Comment, Element, Text
 
 if TYPE_CHECKING:
@@ -49,9 +50,10 @@ class _Run:
         self._answers = answers
         self.files: list[str] = []
         self.arguments: dict[str, str] = {}
+        self.wanted: set[str] = set()
         self._place: str | None = None
         self._places: dict[int, str] = {}
-        self._kept: list[Element] = []
+        self._kept: list[Node] = []
 
     def find(self, name: str) -> str:
         folder = self._asked({"find": name})
@@ -133,6 +135,7 @@ class _Run:
         said = io.StringIO()
         sys.stdout = sys.stderr = said
         substitution_args._eval_find = self.find
+        substitution_args._eval_arg = self._noting_names(substitution_args._eval_arg)
         self._watch(xacro)
         self.guard()
         try:
@@ -156,6 +159,7 @@ class _Run:
             "files": self.files,
             "read": read,
             "arguments": self.arguments,
+            "wanted": sorted(self.wanted),
             "warnings": warnings,
             "place": self._place,
         }
@@ -170,9 +174,27 @@ class _Run:
             return document
 
         xacro.parse = parse_marked
+        copy = minidom._clone_node  # type: ignore[attr-defined]  # typeshed leaves it out
+
+        def copy_with_place(node: Node, *how: object) -> Node:
+            copied: Node = copy(node, *how)
+            if place := self._places.get(id(node)):
+                self._kept.append(copied)
+                self._places[id(copied)] = place
+            return copied
+
+        # A macro is a copy of what stands in it, and so is every use of one.
+        minidom._clone_node = copy_with_place  # type: ignore[attr-defined]  # as above
         xacro.print_location = lambda: None
         for name in ("eval_all", "check_attrs", "handle_macro_call", "grab_property"):
             setattr(xacro, name, self._followed(getattr(xacro, name)))
+
+    def _noting_names(self, value_of: Callable[[str, dict[str, str]], str]) -> Callable[[str, dict[str, str]], str]:
+        def noted(name: str, args: dict[str, str]) -> str:
+            self.wanted.add(name)
+            return value_of(name, args)
+
+        return noted
 
     def _followed(self, step: Callable[..., object]) -> Callable[..., object]:
         def follow(element: Element, *rest: object) -> object:

@@ -41,13 +41,14 @@ class Expanded:
     """What xacro made of a file: XML in which every element is marked with its place.
 
     `files` are the xacro files that were expanded, the first one first, `read` the others that were read. `arguments`
-    has each `<xacro:arg>`, and `warnings` what xacro said.
+    has each `<xacro:arg>`, `wanted` the names in `$(arg NAME)`, and `warnings` what xacro said.
     """
 
     text: str
     files: tuple[Path, ...]
     read: tuple[Path, ...]
     arguments: Mapping[str, Place]
+    wanted: tuple[str, ...]
     warnings: tuple[str, ...]
 
 
@@ -63,6 +64,7 @@ class Failed:
     files: tuple[Path, ...] = ()
     read: tuple[Path, ...] = ()
     arguments: Mapping[str, Place] | None = None
+    wanted: tuple[str, ...] = ()
     place: Place | None = None
     file: Path | None = None
     line: int | None = None
@@ -79,6 +81,7 @@ class _Answer(TypedDict, total=False):
     files: list[str]
     read: list[str]
     arguments: dict[str, str]
+    wanted: list[str]
     warnings: list[str]
     place: str | None
 
@@ -137,14 +140,16 @@ def _outcome(answer: _Answer) -> Expanded | Failed:
         return Failed(None)
     files, read = tuple(map(Path, answer["files"])), tuple(map(Path, answer["read"]))
     arguments = {name: place_of(place) for name, place in answer["arguments"].items()}
+    wanted = tuple(answer["wanted"])
     if "text" in answer:
-        return Expanded(answer["text"], files, read, arguments, tuple(answer["warnings"]))
+        return Expanded(answer["text"], files, read, arguments, wanted, tuple(answer["warnings"]))
     place, file = answer.get("place"), answer.get("file")
     return Failed(
         answer["error"],
         files,
         read,
         arguments,
+        wanted,
         place_of(place) if place else None,
         Path(file) if file else None,
         answer.get("line"),

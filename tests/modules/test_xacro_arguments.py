@@ -1,0 +1,158 @@
+"""The arguments of xacro files: which there are, without running them, and how a robot of two files takes them."""
+
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile import compile_file, import_urdf, render_srdf
+from linkforge_compile.pipeline import parameters_of
+
+HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"'
+URDF = f"""\
+{HEAD} name="arm">
+  <xacro:arg name="prefix" default=""/>
+  <xacro:arg name="kind" default="small"/>
+  <xacro:include filename="$(find arm_parts)/urdf/parts.xacro"/>
+  <xacro:include filename="$(dirname)/$(arg kind).xacro"/>
+  <xacro:include filename="${{'com' + 'puted'}}.xacro"/>
+  <xacro:include filename="none.xacro" optional="true"/>
+  <xacro:include filename="gone.xacro"/>
+  <link name="$(arg prefix)base"/>
+  <link name="$(arg tool)"/>
+  <joint name="$(arg prefix)turn" type="continuous">
+    <parent link="$(arg prefix)base"/><child link="$(arg tool)"/><axis xyz="0 0 1"/>
+  </joint>
+</robot>
+"""
+SRDF = f"""\
+{HEAD} name="arm">
+  <xacro:arg name="prefix" default=""/>
+  <xacro:arg name="group" default="all"/>
+  <xacro:macro name="all" params="joint">
+    <group name="$(arg group)"><joint name="${{joint}}"/></group>
+  </xacro:macro>
+  <xacro:all joint="$(arg prefix)turn"/>
+</robot>
+"""
+
+
+@pytest.fixture
+def arm(tmp_path: Path) -> Path:
+    """Return the folder of the URDF, in a package; its SRDF is in another one."""
+    for package in ("arm_parts", "arm_moveit"):
+        (tmp_path / package / "urdf").mkdir(parents=True)
+        (tmp_path / package / "package.xml").write_text(f"<package><name>{package}</name></package>", "utf-8")
+    urdf = tmp_path / "arm_parts" / "urdf"
+    (urdf / "arm.urdf.xacro").write_text(URDF, "utf-8")
+    (urdf / "parts.xacro").write_text(f'{HEAD}><xacro:arg name="mass" default="${{1 + 1}}"/></robot>', "utf-8")
+    (urdf / "small.xacro").write_text(
+        f'{HEAD}><xacro:include filename="arm.urdf.xacro"/><xacro:arg name="kind" default="other"/></robot>', "utf-8"
+    )
+    (tmp_path / "arm_moveit" / "urdf" / "arm.srdf.xacro").write_text(SRDF, "utf-8")
+    return urdf
+
+
+def without_includes(arm: Path) -> Path:
+    """Return the URDF that xacro can expand."""
+    lines = [line for line in URDF.splitlines() if "xacro:include" not in line]
+    (arm / "arm.urdf.xacro").write_text("\n".join(lines), "utf-8")
+    return arm / "arm.urdf.xacro"
+
+
+def test_those_of_included_files_are_listed_and_which_are_not_is_told(arm: Path):
+    listing, told = parameters_of(arm / "arm.urdf.xacro")
+    assert [(one.name, one.default) for one in listing.parameters] == [
+        ("prefix", ""),
+        ("kind", "small"),
+        ("mass", "${1 + 1}"),
+        ("tool", None),
+    ]
+    assert [(one.code.id, one.span.line, one.message.partition(": ")[2]) for one in told] == [
+        ("LF8061", 6, "its name is known only as xacro runs"),
+        ("LF8061", 8, "there is no file 'gone.xacro'"),
+    ]
+
+
+def test_files_of_a_package_that_is_nowhere_are_told_and_found_where_they_are_said_to_be(arm: Path, tmp_path: Path):
+    file = tmp_path / "cell.xacro"
+    file.write_text(f'{HEAD} name="$(arg name)"><xacro:arg name="name" default="c"/><xacro:include '
+                    'filename="$(find parts)/urdf/parts.xacro"/></robot>', "utf-8")  # fmt: skip
+    listing, [told] = parameters_of(file)
+    assert "no package named 'parts'; say where it is with --package parts=FOLDER" in told.message
+    assert [(one.name, one.is_required) for one in listing.parameters] == [("name", True)], "xacro comes too late to it"
+    listing, told = parameters_of(file, packages={"parts": arm.parent})
+    assert ([one.name for one in listing.parameters], told) == (["name", "mass"], ())
+
+
+def test_a_urdf_and_its_srdf_take_of_the_arguments_what_each_has(arm: Path, tmp_path: Path):
+    pytest.importorskip("xacro")
+    urdf, srdf = without_includes(arm), tmp_path / "arm_moveit" / "urdf" / "arm.srdf.xacro"
+    imported = import_urdf(urdf, srdf=srdf, arguments=["prefix:=a_", "tool:=t", "group=arm"])
+    assert imported.diagnostics == ()
+    assert "groups: {arm: {joints: [a_turn]}}" in imported.text
+    told = import_urdf(urdf, srdf=srdf, arguments=["prefix:=a_", "tool:=t", "grup=arm"]).diagnostics
+    assert [one.message for one in told] == ["no parameter named 'grup'; did you mean 'group'?"]
+
+
+def test_a_use_expands_the_srdf_with_the_same_arguments(arm: Path, tmp_path: Path):
+    pytest.importorskip("xacro")
+    without_includes(arm)
+    (arm / "plain.urdf").write_text(
+        '<robot name="arm"><link name="a"/><link name="b"/><joint name="turn" type="continuous"><parent link="a"/>'
+        '<child link="b"/></joint></robot>', "utf-8")  # fmt: skip
+    spec = tmp_path / "cell.robot.yaml"
+    spec.write_text("""\
+linkforge: 1
+name: cell
+links: {floor: }
+modules:
+  left:
+    {use: arm_parts/urdf/arm.urdf.xacro, srdf: arm_moveit/urdf/arm.srdf.xacro, parent: floor, with: {tool: t, group: g}}
+  right: {use: arm_parts/urdf/plain.urdf, srdf: arm_moveit/urdf/arm.srdf.xacro, parent: floor, with: {group: h}}
+""", "utf-8")  # fmt: skip
+    robot = compile_file(spec).result()
+    srdf = render_srdf(robot)
+    assert '<group name="left_g">\n    <joint name="left_turn"/>' in srdf
+    assert '<group name="right_h">\n    <joint name="right_turn"/>' in srdf
+    names = {path.name for path in compile_file(spec).files}
+    assert "arm.srdf.xacro" in names
+    spec.write_text(spec.read_text("utf-8").replace("{group: h}", "{grop: h}"), "utf-8")
+    assert [one.message for one in compile_file(spec).diagnostics] == ["no parameter named 'grop'"]
+
+
+def test_what_is_wrong_in_an_expanded_srdf_is_told_in_the_macro(arm: Path, tmp_path: Path):
+    pytest.importorskip("xacro")
+    urdf, srdf = without_includes(arm), tmp_path / "arm_moveit" / "urdf" / "arm.srdf.xacro"
+    passive = '<passive_joint name="$(arg prefix)turn"/></robot>'
+    srdf.write_text(SRDF.replace("${joint}", "${joint}x").replace("</robot>", passive), "utf-8")
+    imported = import_urdf(urdf, srdf=srdf, arguments=["prefix:=a_", "tool:=t"])
+    [told] = imported.diagnostics
+    assert (told.code.id, Path(told.span.file.name).name, told.span.line) == ("LF8021", "arm.srdf.xacro", 5)
+    assert 'a_turnx"/></group>' in imported.text
+
+
+def test_a_urdf_takes_no_arguments(arm: Path, tmp_path: Path):
+    (tmp_path / "a.urdf").write_text('<robot name="a"><link name="a"/></robot>', "utf-8")
+    [told] = import_urdf(tmp_path / "a.urdf", arguments=["reach:=1"]).diagnostics
+    assert (told.code.id, [note.message for note in told.notes]) == ("LF3020", ["a URDF takes no arguments"])
+
+
+def test_a_default_that_comes_too_late_is_told_where_xacro_needs_it(tmp_path: Path):
+    pytest.importorskip("xacro")
+    file = tmp_path / "a.urdf.xacro"
+    file.write_text(
+        f'{HEAD}\n  name="$(arg name)">\n  <xacro:arg name="name" default="a"/><link name="a"/>\n</robot>', "utf-8"
+    )
+    [told] = import_urdf(file).diagnostics
+    assert (told.code.id, told.span.line, told.notes[0].span.line) == ("LF8062", 1, 3)
+    assert told.message == "xacro needs 'name' here, before it comes to its default; write 'name:=VALUE'"
+    assert import_urdf(file, arguments=["name:=b"]).diagnostics == ()
+
+
+def test_an_argument_that_is_used_and_declared_nowhere_can_be_given(tmp_path: Path):
+    pytest.importorskip("xacro")
+    file = tmp_path / "a.urdf.xacro"
+    file.write_text(f'{HEAD} name="a"><link name="$(arg link)"/></robot>', "utf-8")
+    assert import_urdf(file, arguments=["link:=b"]).diagnostics == ()
+    [told] = import_urdf(file).diagnostics
+    assert told.code.id == "LF3021"
