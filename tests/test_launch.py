@@ -2,6 +2,7 @@
 
 import importlib
 import logging
+import re
 import runpy
 import shutil
 import sys
@@ -235,6 +236,21 @@ def test_an_argument_without_a_value_is_told_as_one_of_a_launch(ros: Ros, spec: 
 def test_a_spec_that_cannot_be_read_stops_the_launch_file(ros: Ros, tmp_path: Path):
     with pytest.raises(CompileError, match="no file"):
         ros.ours.RobotDescription(tmp_path / "hand.robot.yaml")
+
+
+def test_the_launch_file_of_the_manual_describes_its_robot(ros: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    share = tmp_path / "share" / "arm_description"
+    (share / "robots").mkdir(parents=True)
+    (share / "robots" / "arm.robot.yaml").write_text(SPEC)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    (text,) = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "builds.md").read_text("utf-8"), re.DOTALL)
+    (tmp_path / "view.launch.py").write_text(text)
+    file = runpy.run_path(str(tmp_path / "view.launch.py"))
+    *arguments, publisher = file["generate_launch_description"]().entities
+    context = ros.launch.LaunchContext(serial="A1")
+    for argument in arguments:
+        argument.execute(context)
+    assert 'name="real"' in publisher.parameters[0]["robot_description"].evaluate(context)
 
 
 def test_the_launch_file_of_the_examples_describes_its_robot(ros: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
