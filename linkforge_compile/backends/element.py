@@ -78,8 +78,16 @@ def _marked_attributes(part: Extended, stated: Mapping[str, Spellable | None], e
         for name, value in stated.items()
         if value is not None
     )
-    raw = (f'{mark(part.source, "extra_attributes", name)} {name}="{escaped(value)}"' for name, value in extra)
+    raw = (f'{mark(*place_of_attribute(name, part.source), name)} {name}="{escaped(value)}"' for name, value in extra)
     return Xml("".join((mark(part.source), *own, *raw)))
+
+
+def place_of_attribute(name: str, where: SourceRef | None) -> tuple[SourceRef | None, *tuple[str, ...]]:
+    """Return where an extra attribute of a part was written that was itself written at `where`, without its name.
+
+    A robot's may come from the files of its modules, so a name that knows its own place stands there.
+    """
+    return (name.source,) if isinstance(name, RawXml) else (where, "extra_attributes")
 
 
 def _quotable(value: Spellable) -> str:
@@ -89,11 +97,16 @@ def _quotable(value: Spellable) -> str:
 def _require_attributes(part: Extended, stated: Mapping[str, object], extra: Iterable[tuple[str, str]]) -> None:
     seen = {name for name, value in stated.items() if value is not None}
     for name, _ in extra:
-        if not is_xml_name(name):
-            raise RobotGeneratorError(f"'{name}' cannot be the name of an XML attribute")
+        require_attribute_name(name)
         if name in seen:
             raise RestatedAttributeError(name, part.source)
         seen.add(name)
+
+
+def require_attribute_name(name: str) -> None:
+    """Raise RobotGeneratorError for what cannot be the name of an attribute."""
+    if not is_xml_name(name):
+        raise RobotGeneratorError(f"'{name}' cannot be the name of an XML attribute")
 
 
 def elements(part: Extended) -> Xml:

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from linkforge_compile.backends.element import InsideError, RestatedAttributeError, attributes, inside_of
+from linkforge_compile.backends.element import InsideError, RestatedAttributeError, inside_of, place_of_attribute
 from linkforge_compile.backends.namespaces import undeclared_prefixes
 from linkforge_compile.backends.parts import Held, Part, parts_in
 from linkforge_compile.backends.srdf import render_srdf
-from linkforge_compile.backends.unwritable import refused, unwritable_raw, unwritable_texts
+from linkforge_compile.backends.unwritable import unwritable_raw, unwritable_texts
 from linkforge_compile.backends.urdf import capsules, render_urdf, require_dialect
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.part import Inside
@@ -63,7 +63,6 @@ def srdf_limits(robot: Robot) -> Iterator[Diagnostic]:
 
 def check_texts(robot: Robot, parts: Sequence[Held]) -> Iterator[Diagnostic]:
     """XML holds no control characters, extras must be well-formed, and only some names can be those of tags."""
-    yield from refused(lambda: attributes(robot), robot.source, "extra_attributes")
     yield from unwritable_raw(robot, robot.source)
     yield from unwritable_texts(parts)
     yield from undeclared_prefixes(robot, parts)
@@ -81,7 +80,7 @@ def check_attributes(parts: Sequence[Held], robot: Robot, render: Callable[[], s
     try:
         render()
     except RestatedAttributeError as error:
-        yield UNWRITABLE.at(error.source, "extra_attributes", Key(error.name), reason=error)
+        yield UNWRITABLE.at(*place_of_attribute(error.name, error.source), Key(error.name), reason=error)
     except InsideError as error:
         from linkforge_compile.backends.inside import marks_of
 

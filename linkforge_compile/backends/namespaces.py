@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from linkforge_compile.backends.element import Extended, raw_texts
+from linkforge_compile.backends.element import Extended, place_of_attribute, raw_texts
 from linkforge_compile.backends.parts import Held
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.backends import UNDECLARED_PREFIX
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import Key, SourceRef
 
 _OF_XML = frozenset({"xml", "xmlns"})
 _DECLARATION = "xmlns:"
@@ -27,7 +27,8 @@ def undeclared_prefixes(root: Extended, parts: Iterable[Held]) -> Iterator[Diagn
 
 
 def _in_extras(part: Extended, known: frozenset[str], where: SourceRef | None) -> Iterator[Diagnostic]:
-    yield from _told(_unknown(_names(part), known), where, "extra_attributes")
+    for name in _names(part):
+        yield from _told(_unknown([name], known), *place_of_attribute(name, where), Key(name))
     for text, source, path in raw_texts(part, where):
         # Only what holds a colon is read once more.
         yield from _told(_in_xml(text, known) if ":" in text else (), source, *path)

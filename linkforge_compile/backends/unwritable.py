@@ -5,21 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
-from linkforge_compile.backends.element import Extended, attributes, raw_texts
+from linkforge_compile.backends.element import Extended, place_of_attribute, raw_texts, require_attribute_name
 from linkforge_compile.backends.markup import is_writable, require_writable
 from linkforge_compile.backends.parts import Held, Part
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.part import Element
+from linkforge_compile.core.part import Element, attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.backends import UNWRITABLE
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import Key, SourceRef
 
 
 def unwritable_texts(parts: Iterable[Held]) -> Iterator[Diagnostic]:
     """Yield an error for each text in parts of a robot that cannot be written as XML."""
     for part, where, _, said in parts:
-        if part.extra_attributes:
-            yield from refused(partial(attributes, part), where, "extra_attributes")
         yield from unwritable_raw(part, where)
         for name, value in said:
             if name == "raw_xml" or not (isinstance(value, str) and is_writable(value)):
@@ -27,7 +25,11 @@ def unwritable_texts(parts: Iterable[Held]) -> Iterator[Diagnostic]:
 
 
 def unwritable_raw(part: Extended, where: SourceRef | None) -> Iterator[Diagnostic]:
-    """Yield an error for each raw text of a part that is no XML; the part was written at `where`."""
+    """Yield an error for each attribute and raw text of a part that is no XML; the part was written at `where`."""
+    for name, value in attribute_pairs(part.extra_attributes) if part.extra_attributes else ():
+        place = (*place_of_attribute(name, where), Key(name))
+        yield from refused(partial(require_attribute_name, name), *place)
+        yield from refused(partial(require_writable, value), *place)
     if part.extra_elements:
         from linkforge_compile.backends.raw import raw_elements
 

@@ -6,10 +6,10 @@ from linkforge_compile.source import SourceRef
 
 
 class RawXml(str):
-    """A text of `extra_elements`; `source` says where it was written, None if nowhere.
+    """A text of `extra_elements`, or the name of an attribute; `source` says where it was written, None if nowhere.
 
-    It is that text to whoever compares, hashes or prints it. Where robots are joined, texts of several files stand in
-    one list, so that its owner cannot say where each was written.
+    It is that text to whoever compares, hashes or prints it. Where robots are joined, what several files say raw stands
+    in one list, so that its owner cannot say where each was written. The `source` of a name is the map that it is in.
     """
 
     __slots__ = ("source",)

@@ -48,12 +48,14 @@ def outer_extras_of(fields: Fields) -> OuterExtras:
     """Read what a link or a robot says raw."""
     if EXTRA_KEYS.isdisjoint(fields.node.entries):
         return _NO_OUTER_EXTRAS
-    from linkforge_compile.lowering.free_part import free_texts
+    from linkforge_compile.lowering.free_part import texts_in
 
+    section = fields.map("extra_attributes")
+    attributes = tuple((RawXml(name, section.ref), text) for name, text in texts_in(section).items()) if section else ()
     texts = ((fields.text_at(node, "extra"), SourceRef(node, None, fields.trail)) for node in fields.items("extra"))
     return OuterExtras(
         extra_elements=tuple(RawXml(text, source) for text, source in texts if text and text.strip()),
-        extra_attributes=tuple(free_texts(fields, "extra_attributes").items()),
+        extra_attributes=attributes,
     )
 
 
