@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Sequence
 from dataclasses import replace
 from enum import Enum
 from pathlib import Path
@@ -16,7 +16,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_WITHOUT_TYPE,
     UNKNOWN_PARAMETER,
 )
-from linkforge_compile.expressions import FAULT, Fault, Value
+from linkforge_compile.expressions import FAULT, Fault, Value, has_expression
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import COMMAND_LINE, Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
@@ -29,8 +29,12 @@ from linkforge_compile.modules.parameters import Declaration, Parameter, paramet
 from linkforge_compile.modules.uses import rebased
 from linkforge_compile.modules.values import plain_value
 from linkforge_compile.modules.variants import Variants
+from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlFault, YamlNode, YamlScalar, read
+from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, read
+
+_SHOWN = 8
+"""How many parameters, choices and variants a message shows."""
 
 
 class Unset(Enum):
@@ -132,14 +136,31 @@ def parameter_value(
     return in_force, replace(settings[0], instead_of=tuple(settings[1:])) if settings else None
 
 
-def tell_unset(declaration: Declaration, given: Given) -> None:
-    """Report a required parameter that nothing sets, where it should have been set."""
-    name = declaration.name
-    if given.use is None:
-        given.sink.report(PARAMETER_NOT_SET.at(declaration.key.span, name=name, remedy=f"-p {name}=VALUE"))
+def tell_unset(declared: Sequence[Declaration], given: Given, variants: Variants) -> None:
+    """Report the required parameters that nothing sets: all at the `use` that lacks them, else each where it stands."""
+    if given.use is not None:
+        rest = len(declared) - _SHOWN
+        names = [*(f"'{one.name}'" for one in declared[:_SHOWN]), *([f"{rest} more"] if rest > 0 else [])]
+        settings = [*(f"{one.name}: {_placeholder(one)}" for one in declared[:_SHOWN]), *(["…"] if rest > 0 else [])]
+        what = f"parameter {names[0]} has" if len(names) == 1 else f"parameters {alternatives(names, 'and')} have"
+        notes = [Note(f"'{one.name}' is declared here", one.key.span) for one in declared[:_SHOWN]]
+        remedy = f"'with: {{{', '.join(settings)}}}'"
+        given.sink.report(PARAMETER_NOT_SET.at(given.use, what=what, remedy=remedy, notes=notes))
         return
-    notes = [Note("the parameter is declared here", declaration.key.span)]
-    given.sink.report(PARAMETER_NOT_SET.at(given.use, name=name, remedy=f"with: {{{name}: VALUE}}", notes=notes))
+    for one in declared:
+        setting = [f"'--variant {name}'" for name, said in variants.by_name.items() if said.get(one.name) is not None]
+        remedy = alternatives([f"'-p {one.name}={_placeholder(one)}'", *setting[:_SHOWN]])
+        given.sink.report(PARAMETER_NOT_SET.at(one.key.span, what=f"parameter '{one.name}' has", remedy=remedy))
+
+
+def _placeholder(declaration: Declaration) -> str:
+    """Return what stands for a value: the choices of an `enum`, else the type: "mock|real", "LENGTH"."""
+    choices = declaration.constraints.get("enum")
+    items = choices.value.items if choices and isinstance(choices.value, YamlList) else ()
+    words = [item.text for item in items if isinstance(item, YamlScalar) and not has_expression(item.text)]
+    if 0 < len(words) == len(items) <= _SHOWN:
+        return "|".join(words)
+    return declaration.kind.name.upper() if declaration.kind else "VALUE"
 
 
 def declared_kind(declaration: Declaration, tree: TreeEvaluator) -> Kind | None:

@@ -121,7 +121,9 @@ class FileNames:
             self._given.tell_unknown(self.declared, self._variants, self._spec)
         for name in (*self._parameters, *self._data):
             self.tree.scope.lookup(name, self._sink)
-        if self._unset and not self._is_unset_told:
+        if self._unset and self._is_unset_told and not self._given.arguments.is_partial:
+            tell_unset(self._unset, self._given, self._variants)
+        elif self._unset and not self._is_unset_told:
             names = ", ".join(f"'{declaration.name}'" for declaration in self._unset)
             pronoun = "it" if len(self._unset) == 1 else "them"
             self._sink.report(NOT_JUDGED.at(self._unset[0].key.span, names=names, pronoun=pronoun))
@@ -146,8 +148,6 @@ class FileNames:
         if declaration.is_faulty:
             return FAULT
         self._unset.append(declaration)
-        if self._is_unset_told and not self._given.arguments.is_partial:
-            tell_unset(declaration, self._given)
         return FAULT
 
     def _entries(self, section: str) -> Iterator[tuple[str, YamlEntry]]:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from itertools import islice
 from types import MappingProxyType
 from typing import NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.files import UNKNOWN_VARIANT
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.modules.arguments import COMMAND_LINE
 from linkforge_compile.modules.loader import SpecFile
+from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode
 
@@ -54,8 +55,8 @@ def tell_unknown_variant(name: str, spec: SpecFile, sink: Diagnostics) -> None:
     file = SourceFile(COMMAND_LINE, text)
     where = Span(file, 1, len(text) - len(name) + 1, 1, len(text) + 1)
     known = variants_of(spec)
-    listed = ", ".join(f"'{each}'" for each in islice(known, _MOST_LISTED)) + (
-        ", …" if len(known) > _MOST_LISTED else ""
-    )
-    note = Note(f"its variants are {listed}" if known else "it has no variants")
-    sink.report(UNKNOWN_VARIANT.at(where, spec=spec.file.name, name=name, near=known, notes=[note]))
+    names = [f"'{each}'" for each in known]
+    shown = [*names[:_MOST_LISTED], f"{len(names) - _MOST_LISTED} more"] if len(names) > _MOST_LISTED else names
+    hint = f"; its variants are {alternatives(shown, 'and')}" if shown else "; it declares no variants"
+    near = nearest(name, known)
+    sink.report(UNKNOWN_VARIANT.at(where, spec=spec.file.name, name=name, hint="" if near else hint, near=known))

@@ -264,7 +264,8 @@ class _Telling:
                 notes = [Note("its default stands here", declared)]
                 self.inside.report(XACRO_ARGUMENT_TOO_EARLY.at(place, name=name, remedy=remedy, notes=notes))
             else:
-                self.sink.report(PARAMETER_NOT_SET.at(where or place, name=name, remedy=remedy))
+                what = f"parameter '{name}' has"
+                self.sink.report(PARAMETER_NOT_SET.at(where or place, what=what, remedy=f"'{remedy}'"))
         else:
             self.inside.report(XACRO_FAILED.at(place or where, problem=" ".join(failed.reason.split())))
 

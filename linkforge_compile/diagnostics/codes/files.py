@@ -18,7 +18,7 @@ DATA_NOT_PATH = Code("LF3070", _E, "'{name}' of 'data' takes the path of a YAML 
 TAG_NOT_NUMBER = Code("LF3071", _E, "'{tag}' stands before a number, found '{text}'")
 
 # LF308x: variants
-UNKNOWN_VARIANT = Code("LF3080", _E, "{spec} has no variant named '{name}'")
+UNKNOWN_VARIANT = Code("LF3080", _E, "{spec} has no variant named '{name}'{hint}")
 
 # LF309x: what depends on how the file is used
 PREFIX_TWICE = Code("LF3090", _E, "{place} takes the prefix by itself; leave $(prefix) out")
