@@ -37,11 +37,11 @@ _OF_A_VALUE = frozenset(
 
 
 def judge_defaults(instance: Instance, sink: Diagnostics) -> None:
-    """Report what is wrong with the defaults of a file and of its modules, but for places that were told of."""
-    told = {place for diagnostic in sink for place in _places(diagnostic)}
+    """Report what is wrong with the defaults of a file and of its modules, but for what was told of the same place."""
+    told = {(diagnostic.code, place) for diagnostic in sink for place in _places(diagnostic)}
     for one in instance.with_modules:
         if one.defaults is not None:
-            sink.report_all(fault for fault in _faults(one.defaults, one) if fault.span not in told)
+            sink.report_all(fault for fault in _faults(one.defaults, one) if (fault.code, fault.span) not in told)
 
 
 def _places(diagnostic: Diagnostic) -> Iterator[Span]:
