@@ -9,10 +9,32 @@ from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.telling import to_stderr
 
 
+def workspaces_at(here: Path) -> tuple[Path, ...]:
+    """Return the folders whose schema is meant in one: that at or above it, else those below it, else itself."""
+    from linkforge_compile.editor.robot_folder import SCHEMA, schemas_below, workspace_of
+
+    root = workspace_of(here)
+    return (root,) if (root / SCHEMA).is_file() else schemas_below(here, _specs(here)) or (root,)
+
+
 def schema_of(root: Path, packages: Mapping[str, Path], *, runs_xacro: bool = True) -> str:
     """Return the schema of the specs below a folder; UsageError for none, or more than a repository has."""
-    from linkforge_compile.editor import TooManyFilesError, specs_below, vocabulary_of, workspace_text
+    from linkforge_compile.editor import vocabulary_of, workspace_text
     from linkforge_compile.editor.robot_folder import schemas_below
+
+    specs = _specs(root)
+    for folder in schemas_below(root, specs):
+        to_stderr(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it\n")
+    vocabularies = [vocabulary_of(spec, root, packages, runs_xacro=runs_xacro) for spec in specs]
+    remedy = "`linkforge check` tells why" if runs_xacro else "`linkforge schema --workspace` may find them"
+    for vocabulary in vocabularies:
+        if not vocabulary.is_whole:
+            to_stderr(f"names of {root / vocabulary.files[0]} may be missing; {remedy}\n")
+    return workspace_text(vocabularies)
+
+
+def _specs(root: Path) -> tuple[Path, ...]:
+    from linkforge_compile.editor import TooManyFilesError, specs_below
 
     try:
         specs = specs_below(root)
@@ -20,11 +42,4 @@ def schema_of(root: Path, packages: Mapping[str, Path], *, runs_xacro: bool = Tr
         raise UsageError(f"there are {error} below '{root}'; name the folder of the robots") from error
     if not specs:
         raise UsageError(f"there is no spec, NAME.robot.yaml, below '{root}'; name the folder of the robots")
-    for folder in schemas_below(root, specs):
-        to_stderr(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it\n")
-    vocabularies = [vocabulary_of(spec, root, packages, runs_xacro=runs_xacro) for spec in specs]
-    remedy = "`linkforge check` tells why" if runs_xacro else "`linkforge schema --workspace` may find them"
-    for vocabulary in vocabularies:
-        if not vocabulary.is_whole:
-            to_stderr(f"names of {vocabulary.files[0]} may be missing; {remedy}\n")
-    return workspace_text(vocabularies)
+    return specs

@@ -240,7 +240,7 @@ def test_the_command_tells_of_specs_with_errors_and_writes_once(tmp_path: Path):
     told = "names of faulty.robot.yaml may be missing; `linkforge check` tells why\n"
     assert (run.returncode, run.stdout, run.stderr) == (0, "", f"{told}wrote .linkforge/robot.schema.json\n")
     again = linkforge("schema", "--workspace", str(root), "-o", "here.json", cwd=root)
-    assert again.stderr == f"{told}wrote here.json\n"
+    assert again.stderr == f"{told.replace('faulty.r', f'{root}/faulty.r')}wrote here.json\n"
     assert (root / "here.json").read_bytes() == (root / ".linkforge/robot.schema.json").read_bytes()
     assert linkforge("schema", "--workspace", cwd=root).stderr == f"{told}.linkforge/robot.schema.json is up to date\n"
     assert linkforge("schema", "--workspace", "nowhere", cwd=root).returncode == 2
@@ -255,6 +255,9 @@ def test_the_schema_of_a_folder_is_the_one_that_its_specs_name(tmp_path: Path):
     assert linkforge("schema", "--workspace", ".", cwd=below).stderr == "wrote .linkforge/robot.schema.json\n"
     told = linkforge("schema", "--workspace", cwd=root).stderr
     assert told.startswith("'parts' has a schema of its own; `linkforge schema --workspace parts` renews it\n")
+    (root / ".linkforge" / "robot.schema.json").unlink()
+    (below / "hand.robot.yaml").write_text(ARM)
+    assert linkforge("schema", "--workspace", cwd=root).stderr == "wrote parts/.linkforge/robot.schema.json\n"
 
 
 def test_a_folder_without_specs_gets_no_schema(tmp_path: Path):

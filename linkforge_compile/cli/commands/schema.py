@@ -19,9 +19,9 @@ after writing the schema beside it:
 
 With --workspace, the names of links, joints, groups, materials and files complete where they are referred to, and the
 parameters of a module under `with`; it goes to FOLDER/.linkforge/robot.schema.json unless -o says otherwise. FOLDER is
-the one at or above this that has a schema, up to the top of the repository, else this one, unless said. Run it again
-when names have changed: what is new since is not offered, and is no fault. It compiles the specs, so a xacro that one
-of them uses is run, unless LINKFORGE_NO_XACRO is set.
+the one at or above this that has a schema, up to the top of the repository, else each below that has, else this one,
+unless said. Run it again when names have changed: what is new since is not offered, and is no fault. It compiles the
+specs, so a xacro that one of them uses is run, unless LINKFORGE_NO_XACRO is set.
   linkforge schema --workspace
 """
 
@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         nargs="?",
         const="",
-        help="with the names of all specs below; unless said, the folder at or above this one that has a schema",
+        help="with the names of all specs below it; unless said, where there is such a schema, else here",
     )
     add_package_option(parser)
 
@@ -47,12 +47,15 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.workspace is None:
         put_json(bundle_text(), arguments.output, quiet=arguments.quiet)
         return OK
-    from linkforge_compile.cli.workspace import schema_of
-    from linkforge_compile.editor.robot_folder import SCHEMA, workspace_of
+    from linkforge_compile.cli.workspace import schema_of, workspaces_at
+    from linkforge_compile.editor.robot_folder import SCHEMA
 
-    root = Path(arguments.workspace) if arguments.workspace else workspace_of(Path())
-    if not root.is_dir():
+    roots = (Path(arguments.workspace),) if arguments.workspace else workspaces_at(Path())
+    if not roots[0].is_dir():
         raise UsageError(f"--workspace takes a folder, found '{arguments.workspace}'")
+    if arguments.output is not None and len(roots) > 1:
+        raise UsageError(f"-o takes one schema, found those of {', '.join(map(str, roots))}; write --workspace FOLDER")
     packages = {name: Path(folder) for name, folder in packages_of(arguments).items()}
-    put_json(schema_of(root, packages), arguments.output or str(root / SCHEMA), quiet=arguments.quiet)
+    for root in roots:
+        put_json(schema_of(root, packages), arguments.output or str(root / SCHEMA), quiet=arguments.quiet)
     return OK
