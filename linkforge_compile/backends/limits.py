@@ -7,17 +7,20 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.element import InsideError, RestatedAttributeError, inside_of, place_of_attribute
+from linkforge_compile.backends.markup import spelled
 from linkforge_compile.backends.namespaces import undeclared_prefixes
 from linkforge_compile.backends.parts import Held, Part, parts_in
 from linkforge_compile.backends.srdf import render_srdf
 from linkforge_compile.backends.unwritable import unwritable_raw, unwritable_texts
 from linkforge_compile.backends.urdf import capsules, render_urdf, require_dialect
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.part import Inside
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.backends import (
     NEW_GEOMETRY,
     OLD_VERSION,
+    OTHER_QUATERNION,
     TWO_MATERIALS,
     UNKNOWN_VERSION,
     UNWRITABLE,
@@ -45,6 +48,7 @@ def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
     yield from check_attributes(parts, robot, partial(render_urdf, robot, gazebo=gazebo))
     yield from check_capsules(robot)
     yield from check_version(robot)
+    yield from check_turns(robot, parts)
     yield from check_materials_of_one_name(robot)
     if robot.sensors:
         from linkforge_compile.backends.urdf.sensor_limits import sensor_limits
@@ -125,6 +129,19 @@ def check_version(robot: Robot) -> Iterator[Diagnostic]:
     """The `version` of a robot is that of the URDF language, not that of the robot's design."""
     if robot.version_stated and robot.version not in _READ_VERSIONS:
         yield UNKNOWN_VERSION.at(robot.source, "version", version=robot.version)
+
+
+def check_turns(robot: Robot, parts: Sequence[Held]) -> Iterator[Diagnostic]:
+    """An origin turns one way: readers of URDF 1.1 take its `quat_xyzw`, the compiler and older ones its `rpy`."""
+    poses = [part for part, *_ in parts if isinstance(part, Transform) and part.extra_attributes]
+    if not (poses and robot.version_stated and robot.version != "1.0"):
+        return
+    from linkforge_compile.backends.urdf.quaternion import QUATERNION, is_other_turn
+
+    for pose in poses:
+        if is_other_turn(pose):
+            rpy = spelled(pose.rpy)
+            yield OTHER_QUATERNION.at(pose.source, "extra_attributes", Key(QUATERNION), rpy=rpy)
 
 
 def check_materials_of_one_name(robot: Robot) -> Iterator[Diagnostic]:

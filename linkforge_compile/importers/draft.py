@@ -37,11 +37,15 @@ class Draft:
 
     `keys` has the node that stands for an element in the text, a key or an item of a list; `bodies` what is under
     it; `raw` the elements that are kept as they stand, and `told` what is to be told of the import. `refused` are
-    elements, by their spans, that are known to be no use to the language, and why.
+    elements, by their spans, that are known to be no use to the language, and why. `has_quaternions` says whether
+    the document is of a version of URDF whose readers take them; the others ignore them.
     """
 
-    def __init__(self, refused: Mapping[Span, DeclinedError] = MappingProxyType({})) -> None:
+    def __init__(
+        self, refused: Mapping[Span, DeclinedError] = MappingProxyType({}), *, has_quaternions: bool = False
+    ) -> None:
         self.refused = refused
+        self.has_quaternions = has_quaternions
         self.keys: dict[XmlElement, YamlNode] = {}
         self.bodies: dict[XmlElement, YamlNode] = {}
         self.raw: set[XmlElement] = set()

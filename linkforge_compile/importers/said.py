@@ -47,7 +47,7 @@ _UNSAID: Mapping[str, Mapping[str, Value]] = {
 
 _MAY_BE_MISSING = frozenset(path for path in _UNSAID if path.endswith(("/origin", "/axis")))
 _QUATERNION = "quat_xyzw"
-"""How URDF 1.2 turns a pose in the place of `rpy`; urdfdom refuses both at once, be one of them 0."""
+"""How URDF 1.1 turns a pose in the place of `rpy`; urdfdom refuses both at once, be one of them 0."""
 _AXIS = "robot/joint/axis"
 _HAVE_NO_AXIS = ("fixed", "floating")
 _MATERIAL_OF_VISUAL = "robot/link/visual/material"

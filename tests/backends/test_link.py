@@ -85,7 +85,7 @@ def test_what_no_field_says_stands_last():
     assert urdf(links=[link]) == xml("""
         <link name="base" type="hull">
           <collision>
-            <origin xyz="0 0 0" rpy="0 0 0" quat_xyzw="0 0 0 1"/>
+            <origin xyz="0 0 0" quat_xyzw="0 0 0 1"/>
             <geometry>
               <box size="1 1 1"/>
             </geometry>

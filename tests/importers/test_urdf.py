@@ -1,11 +1,13 @@
 """A URDF comes in as a person would write it: short forms, defaults left out, numbers to the last digit."""
 
+import math
 from pathlib import Path
 from textwrap import dedent
 
 import pytest
 
 from linkforge_compile import Import, compile_text, import_urdf, render_urdf
+from linkforge_compile.core.physics import rotation_matrix
 
 
 @pytest.fixture
@@ -480,3 +482,44 @@ def test_banners_of_generators_are_left_out_and_all_else_at_the_top_stays(tmp_pa
         links:
           a: {}
         """)
+
+
+@pytest.mark.parametrize(
+    ("quaternion", "rpy"),
+    [
+        ("0 0 0.7071067811865476 0.7071067811865476", "[0, 0, 90 deg]"),
+        ("0 0.7071067811865476 0 0.7071067811865476", "[0, 90 deg, 0]"),
+        ("-0.5 0.5 -0.5 -0.5", "[0, -90 deg, 90 deg]"),
+        ("1 0 0 0", "[180 deg, 0, 0]"),
+        ("0 0 0 2", None),
+    ],
+)
+def test_a_quaternion_is_read_and_comes_out_alone(tmp_path: Path, quaternion: str, rpy: str | None):
+    origin = f'<origin xyz="0 0 1" quat_xyzw="{quaternion}"/>'
+    joint = f'<joint name="j" type="fixed"><parent link="a"/><child link="b"/>{origin}</joint>'
+    urdf = tmp_path / "r.urdf"
+    urdf.write_text(f'<robot name="r" version="1.1"><link name="a"/><link name="b"/>{joint}</robot>', "utf-8")
+    whole = import_urdf(urdf)
+    assert whole.text is not None
+    assert not whole.diagnostics
+    assert (f"rpy: {rpy}" in whole.text) if rpy else ("rpy" not in whole.text)
+    robot = compile_text(whole.text).result()
+    assert origin in render_urdf(robot)
+    x, y, z, w = (float(part) / math.hypot(*map(float, quaternion.split())) for part in quaternion.split())
+    forward = rotation_matrix(robot.joint("j").origin.rpy)
+    assert [row[0] for row in forward] == pytest.approx(
+        [1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)], abs=1e-12
+    )
+    assert [row[2] for row in forward] == pytest.approx(
+        [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)], abs=1e-12
+    )
+
+
+def test_a_quaternion_is_no_turn_to_readers_of_urdf_1_0(tmp_path: Path):
+    urdf = tmp_path / "r.urdf"
+    shape = '<visual><origin xyz="0 0 1" quat_xyzw="1 0 0 0"/><geometry><sphere radius="1"/></geometry></visual>'
+    urdf.write_text(f'<robot name="r"><link name="a">{shape}</link></robot>', "utf-8")
+    whole = import_urdf(urdf)
+    assert whole.text is not None
+    assert not whole.losses
+    assert "rpy" not in whole.text

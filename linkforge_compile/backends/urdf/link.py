@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from linkforge_compile.backends.element import attributes, attributes_at, elements, leaf, leaf_at
 from linkforge_compile.backends.markup import NOTHING, Xml, placed
-from linkforge_compile.core.models.geometry import Box, Geometry, Mesh, Sphere, Transform
+from linkforge_compile.core.models.geometry import Box, Geometry, Mesh, Sphere, Transform, Vector3
 from linkforge_compile.core.models.link import Collision, Inertial, Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.units import number_text
@@ -81,7 +81,17 @@ def material_view(material: Material) -> MaterialView:
 
 def origin(pose: Transform) -> Xml:
     """Return `<origin>`, nothing for one that moves nothing and is not stated."""
-    return leaf("origin", pose, xyz=pose.xyz, rpy=pose.rpy) if pose.is_written else NOTHING
+    if not pose.is_written:
+        return NOTHING
+    return leaf("origin", pose, xyz=pose.xyz, rpy=_rpy_beside_extras(pose))
+
+
+def _rpy_beside_extras(pose: Transform) -> Vector3 | None:
+    if not pose.extra_attributes:
+        return pose.rpy
+    from linkforge_compile.backends.urdf.quaternion import rpy_beside_quaternion
+
+    return rpy_beside_quaternion(pose)
 
 
 def _inertial(inertial: Inertial) -> InertialView:

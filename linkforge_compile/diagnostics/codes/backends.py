@@ -52,6 +52,14 @@ STALE_OUTPUT = Code(
 )
 MISSING_OUTPUT = Code("LF7096", Severity.ERROR, "there is no '{path}', which '{spec}' compiles to; compile it again")
 
+# LF715x: what readers of newer URDF make of it
+OTHER_QUATERNION = Code(
+    "LF7154",
+    Severity.ERROR,
+    "quat_xyzw turns otherwise than rpy, here {rpy}; readers of URDF 1.1 go by the one, others by the other: "
+    "leave it out",
+)
+
 # LF710x: sensors in Gazebo
 NO_JOINT_TO_SENSE = Code(
     "LF7101",

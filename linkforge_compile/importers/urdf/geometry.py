@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 from linkforge_compile.importers.draft import number_of
 from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.urdf.quaternion import rpy_of_quaternion
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension
 
@@ -13,6 +14,8 @@ from linkforge_compile.units import Dimension
 def read_origin(origin: Reading) -> YamlNode | None:
     """Read a pose: `[x, y, z]` where it turns nothing, None where it is the identity."""
     xyz, rpy = origin.numbers("xyz", 3), origin.numbers("rpy", 3, Dimension.ANGLE)
+    if rpy is None and origin.draft.has_quaternions:
+        rpy = rpy_of_quaternion(origin)
     xyz, rpy = _unless_zero(xyz), _unless_zero(rpy)
     node = origin.map(xyz=xyz, rpy=rpy)
     if not len(node):

@@ -20,6 +20,8 @@ from linkforge_compile.importers.urdf.transmission import read_transmission
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
+_VERSIONS_WITHOUT_QUATERNIONS = (None, "1.0")
+
 
 def read_urdf(file: SourceFile, sink: Diagnostics, moved: Move | None = None) -> Imported | None:
     """Read a URDF document; None where it is none, which is told.
@@ -30,7 +32,8 @@ def read_urdf(file: SourceFile, sink: Diagnostics, moved: Move | None = None) ->
     document = read_document(file, sink, moved)
     if document is None:
         return None
-    root, draft = document.root, Draft()
+    root = document.root
+    draft = Draft(has_quaternions=root.get("version") not in _VERSIONS_WITHOUT_QUATERNIONS)
     tree = _robot(Reading(draft, root))
     draft.bodies[root] = tree
     draft.tell(sink)
