@@ -1,13 +1,16 @@
-"""What docs/builds.md says to write for other build systems, taken to the letter."""
+"""What docs/builds.md says to write for other build systems, and what stands in the package of the examples, run."""
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
+from linkforge_compile.cli.main import main
 from tests.conftest import ROOT
 from tests.programs import program
 
@@ -63,3 +66,41 @@ def test_make_and_ninja_compile_what_has_changed_and_nothing_else(tmp_path: Path
     build.spec.write_text(CELL)
     assert [build.compiles(), build.compiles()] == [1, 0]
     assert "palm" not in build.urdf.read_text()
+
+
+PACKAGE = ROOT / "examples" / "11_ros2_package"
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working folder, a copy of the package."""
+    folder = tmp_path / "package"
+    shutil.copytree(PACKAGE, folder)
+    monkeypatch.chdir(folder)
+    return folder
+
+
+def commands() -> list[list[str]]:
+    """Return what the workflow and the hooks of the package run of ours, without the program's name."""
+    workflow = yaml.safe_load((PACKAGE / ".github" / "workflows" / "robots.yml").read_text("utf-8"))
+    (job,) = workflow["jobs"].values()
+    runs = [step["run"].partition("&&")[0].split() for step in job["steps"] if "run" in step]
+    hooks = {hook["id"]: hook for hook in yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))}
+    (repository,) = yaml.safe_load((PACKAGE / ".pre-commit-config.yaml").read_text("utf-8"))["repos"]
+    runs += [[*hooks[hook["id"]]["entry"].split(), *hook.get("args", [])] for hook in repository["hooks"]]
+    return [words[1:] for words in runs if words[0] == "linkforge"]
+
+
+def test_the_workflow_and_the_hooks_of_the_package_pass_and_tell_a_fault(
+    package: Path, capfd: pytest.CaptureFixture[str]
+):
+    ours = commands()
+    assert [words[0] for words in ours] == ["matcher", "check", "compile", "check", "compile", "compile"]
+    assert [main(words) for words in ours] == [0] * len(ours)
+    module = package / "robots" / "servo.robot.yaml"
+    module.write_text(module.read_text("utf-8").replace("child: horn", "child: hron"))
+    capfd.readouterr()
+    assert [main(words) for words in ours] == [0, 1, 1, 1, 1, 1]
+    (pattern,) = yaml.safe_load((package / "linkforge-matcher.json").read_text())["problemMatcher"][0]["pattern"]
+    told = [found for line in capfd.readouterr().err.splitlines() if (found := re.match(pattern["regexp"], line))]
+    assert {found[pattern["file"]] for found in told} == {"robots/servo.robot.yaml"}
