@@ -174,7 +174,9 @@ class RobotDescription:
         if variant is not None and variant not in variants:
             from linkforge_compile.diagnostics.suggest import did_you_mean
 
-            raise ValueError(f"{self.spec} has no variant named '{variant}'{did_you_mean(variant, variants)}")
+            there_are = f"; its variants are {', '.join(variants)}" if variants else "; it declares no variants"
+            hint = did_you_mean(variant, variants) or there_are
+            raise ValueError(f"{self.spec} has no variant named '{variant}'{hint}")
         return {} if variant is None else variants[variant]
 
     def _variant_of(self, context: LaunchContext) -> str | None:

@@ -9,6 +9,8 @@ from pathlib import Path
 SPEC_ENDINGS = (".robot.yaml", ".robot.yml")
 
 MAX_SPECS = 200
+"""As many as an editor reads the schema of without a wait."""
+
 MAX_FOLDERS = 20_000
 
 _NOT_SOURCES = frozenset({"build", "install", "log", "node_modules", "__pycache__"})
@@ -19,20 +21,20 @@ class TooManyFilesError(Exception):
     """There is more below a folder than a repository of robots has; says what."""
 
 
-def specs_below(root: Path) -> tuple[Path, ...]:
+def specs_below(root: Path, at_most: int = MAX_SPECS) -> tuple[Path, ...]:
     """Return the specs in a folder and below it, sorted; nothing hidden, nothing in linked folders and what tools made.
 
     A link to one of them is the same spec once more, and left out.
 
     Raises:
-        TooManyFilesError: For more than MAX_SPECS specs or MAX_FOLDERS folders.
+        TooManyFilesError: For more specs than `at_most`, or than MAX_FOLDERS folders.
 
     """
     found: list[Path] = []
     for spec in _specs(root):
         found.append(spec)
-        if len(found) > MAX_SPECS:
-            raise TooManyFilesError(f"more than {MAX_SPECS} specs")
+        if len(found) > at_most:
+            raise TooManyFilesError(f"more than {at_most} specs")
     files = {os.path.realpath(spec) for spec in found if not spec.is_symlink()}
     return tuple(sorted(spec for spec in found if not spec.is_symlink() or _is_another(spec, files)))
 

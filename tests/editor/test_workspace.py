@@ -315,9 +315,8 @@ def test_a_spec_that_links_lead_to_is_one(tmp_path: Path):
 
 def test_a_folder_of_more_than_robots_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     root = written(tmp_path)
-    monkeypatch.setattr(specs_module, "MAX_SPECS", 2)
     with pytest.raises(TooManyFilesError, match="more than 2 specs"):
-        specs_below(root)
+        specs_below(root, at_most=2)
     monkeypatch.setattr(specs_module, "MAX_FOLDERS", 2)
     with pytest.raises(TooManyFilesError, match="more than 2 folders"):
         specs_below(root)

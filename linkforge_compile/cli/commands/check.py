@@ -31,6 +31,10 @@ examples:
 """
 
 
+_MAX_SPECS = 5_000
+"""In one folder; of more, most are hardly somebody's own."""
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument(
@@ -82,7 +86,7 @@ def _specs(word: str) -> tuple[str, ...]:
     from linkforge_compile.editor.specs import TooManyFilesError, specs_below
 
     try:
-        return tuple(map(str, specs_below(Path(word))))
+        return tuple(map(str, specs_below(Path(word), _MAX_SPECS)))
     except TooManyFilesError as error:
         raise UsageError(f"there are {error} below '{word}'; name the folders of the robots") from error
 
