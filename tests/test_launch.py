@@ -217,7 +217,7 @@ def test_a_launch_compiles_once_and_logs_what_is_told(
 def test_a_variant_that_is_not_there_is_told_where_it_is_said(ros: Ros, spec: Path):
     with pytest.raises(ValueError, match=r"arm.robot.yaml has no variant named 'lnog'; did you mean 'long'\?$"):
         ros.ours.RobotDescription(spec, variant="lnog")
-    with pytest.raises(ValueError, match="no variant named 'simulation'; its variants are long$"):
+    with pytest.raises(ValueError, match=r"no variant named 'simulation'; its variants are long$"):
         ros.ours.RobotDescription(spec, variant="simulation")
     substitutions = importlib.import_module("launch.substitutions")
     robot = ros.ours.RobotDescription(spec, {"serial": "A1"}, variant=substitutions.LaunchConfiguration("size"))
