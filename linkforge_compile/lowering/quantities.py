@@ -23,7 +23,6 @@ from linkforge_compile.units import (
     WIDEST_ANGLE,
     Dimension,
     Quantity,
-    number_text,
     parse_quantity,
     unit_meant,
     unit_text,
@@ -132,8 +131,8 @@ def doubt(node: YamlNode, number: float, measure: Measure) -> Code | None:
 def found(node: YamlNode) -> str:
     """Return what stands at a node as messages show it: numbers as they are, text in quotes."""
     match node:
-        case YamlScalar(value=Quantity(value=value, dimension=dimension)):
-            return f"'{number_text(value)} {dimension.si_unit}'"
+        case YamlScalar(value=Quantity() as quantity):
+            return f"'{quantity}'"
         case YamlScalar(text=text, value=int() | float() as value) if not isinstance(value, bool):
             return text
         case YamlScalar(text=text):

@@ -28,7 +28,7 @@ from linkforge_compile.modules.values import describe
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
-from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text
+from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, unit_text
 
 if TYPE_CHECKING:
     from linkforge_compile.modules.patterns import Pattern
@@ -122,14 +122,15 @@ class Parameter:
     def _violations(self, value: Value, where: Span) -> Iterator[Diagnostic]:
         name, found = self.name, describe(value)
         if self.minimum is not None and _size(value) < _size(self.minimum):
-            yield PARAMETER_TOO_SMALL.at(where, parameter=name, bound=_plain(self.minimum), found=found)
+            bound, seen = _compared(self.minimum, value)
+            yield PARAMETER_TOO_SMALL.at(where, parameter=name, bound=bound, found=seen)
         if self.maximum is not None and _size(value) > _size(self.maximum):
-            yield PARAMETER_TOO_LARGE.at(where, parameter=name, bound=_plain(self.maximum), found=found)
+            bound, seen = _compared(self.maximum, value)
+            yield PARAMETER_TOO_LARGE.at(where, parameter=name, bound=bound, found=seen)
         if self.choices is not None and value not in self.choices:
             choices = [_plain(choice) for choice in self.choices]
-            yield PARAMETER_CHOICE.at(
-                where, parameter=name, choices=", ".join(choices), name=_plain(value), near=choices
-            )
+            near = choices if self.kind.is_text else ()
+            yield PARAMETER_CHOICE.at(where, parameter=name, choices=", ".join(choices), name=_plain(value), near=near)
         if self.pattern is not None and not self.pattern.is_in(str(value)):
             yield PARAMETER_PATTERN.at(where, parameter=name, pattern=self.pattern.text, found=found)
 
@@ -200,6 +201,20 @@ def _size(value: Value) -> float:
     number = value.value if isinstance(value, Quantity) else value
     assert isinstance(number, int | float), "only numbers have a minimum or a maximum"
     return number
+
+
+def _compared(bound: Value, value: Value) -> tuple[str, str]:
+    """Return a bound and what passes it as messages show them, also in SI units where they are in different ones."""
+    plain, quoted = _plain(bound), describe(value)
+    if not isinstance(bound, Quantity) or not isinstance(value, Quantity):
+        return plain, quoted
+    if unit_text(str(bound)) == unit_text(str(value)):
+        return plain, quoted
+    return _with_si(plain, bound), _with_si(quoted, value)
+
+
+def _with_si(text: str, quantity: Quantity) -> str:
+    return text if str(quantity) == quantity.in_si else f"{text}, which is {quantity.in_si}"
 
 
 def _plain(value: Value) -> str:

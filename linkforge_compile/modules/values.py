@@ -101,8 +101,7 @@ def describe(value: Value) -> str:
         return "a map"
     if value is None:
         return "nothing"
-    unit = f" {value.dimension.si_unit}" if isinstance(value, Quantity) else ""
-    return f"'{as_text(value)}{unit}'"
+    return f"'{value if isinstance(value, Quantity) else as_text(value)}'"
 
 
 def _scalar(value: ScalarValue, span: Span) -> YamlScalar:

@@ -111,9 +111,8 @@ def _with_units(node: YamlNode) -> YamlNode:
             return YamlMap({one.name: YamlEntry(one.key, _with_units(one.value)) for one in node}, node.span)
         case YamlList():
             return YamlList(tuple(map(_with_units, node)), node.span)
-        case YamlScalar(text=text, value=Quantity(dimension=dimension)):
-            written = f"{text} {dimension.si_unit}"
-            return YamlScalar(written, written, node.span)
+        case YamlScalar(value=Quantity() as quantity):
+            return YamlScalar(str(quantity), str(quantity), node.span)
     return node
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import field
 from enum import StrEnum
 
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.units.numbers import number_text
 
 
 class Dimension(StrEnum):
@@ -50,7 +52,15 @@ WIDEST_ANGLE = 2 * math.pi + 0.005
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A number in the SI unit of its dimension."""
+    """A number in the SI unit of its dimension; `written` is how a person wrote it, None for what was computed."""
 
     value: float
     dimension: Dimension
+    written: str | None = field(default=None, compare=False)
+
+    def __str__(self) -> str:
+        return self.written or self.in_si
+
+    @property
+    def in_si(self) -> str:
+        return f"{number_text(self.value)} {self.dimension.si_unit}"

@@ -159,7 +159,7 @@ def parse_quantity(text: str) -> Quantity | None:
         return None
     name = match[2].translate(_PLAIN).replace("**", "^")
     unit = UNITS.get(_SPELLINGS.get(name, name))
-    return Quantity(unit.to_si(match[1]), unit.dimension) if unit else None
+    return Quantity(unit.to_si(match[1]), unit.dimension, text.strip()) if unit else None
 
 
 def unit_meant(word: str) -> Unit | None:
