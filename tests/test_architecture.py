@@ -10,6 +10,7 @@ PACKAGE = Path(__file__).parents[1] / "linkforge_compile"
 
 MAY_IMPORT = {
     "frozen": "",
+    "banner": "",
     "source": "",
     "units": "",
     "resources": "",
@@ -21,7 +22,7 @@ MAY_IMPORT = {
     "syntax": "source diagnostics bounds units",
     "expressions": "source diagnostics bounds units syntax",
     "schema": "source diagnostics syntax units resources expressions",
-    "importers": "source diagnostics bounds units syntax",
+    "importers": "banner source diagnostics bounds units syntax",
     "modules": "source diagnostics bounds units syntax schema expressions importers roots",
     "core": "source units",
     "lowering": "source diagnostics bounds units syntax modules core",
@@ -34,8 +35,8 @@ MAY_IMPORT = {
     "launch": "diagnostics backends core pipeline",
     "editor": "diagnostics syntax schema modules lowering core roots stack resources",
     "cli": (
-        "source diagnostics bounds core checks schema pipeline importing backends writers compare editor resources "
-        "_version"
+        "banner source diagnostics bounds core checks schema pipeline importing backends writers compare editor "
+        "resources _version"
     ),
 }
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from linkforge_compile.banner import banner_of
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import compile_spec
 from linkforge_compile.cli.telling import say, tell
@@ -101,7 +102,7 @@ def _outputs(robot: Robot, order: Order, arguments: argparse.Namespace) -> tuple
     if targets is None:
         return None
     name = Path(order.spec).name
-    banner = None if order.spec == "-" else f"Compiled by linkforge from {name}; edit that file, not this one."
+    banner = None if order.spec == "-" else banner_of(name)
     options: dict[str, dict[str, str]] = {"urdf": {"gazebo": arguments.gazebo}, "srdf": {}}
     if arguments.source_map:
         return tuple(_with_maps(robot, banner, targets, options))

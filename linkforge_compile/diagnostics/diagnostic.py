@@ -51,6 +51,8 @@ class Diagnostic:
     notes: tuple[Note, ...] = ()
     taken_for: Severity | None = None
     """What the user counts it for, None for what its code is."""
+    untold: int = 0
+    """How many more like it there are at its place, which a note counts and nobody tells."""
 
     @property
     def severity(self) -> Severity:

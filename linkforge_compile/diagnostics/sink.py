@@ -118,4 +118,5 @@ class Diagnostics:
         """Return the last diagnostic of its kind at its place with how many more there are."""
         if last.span is None or (more := len(self._at[last.code.id, last.span]) - MAX_AT_ONE_PLACE) <= 0:
             return last
-        return replace(last, notes=(*last.notes, Note(f"and {more:,} more like this at the same place")))
+        note = Note(f"and {more:,} more like this at the same place")
+        return replace(last, notes=(*last.notes, note), untold=more)

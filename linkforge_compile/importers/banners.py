@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from linkforge_compile.banner import BANNER
 from linkforge_compile.importers.xml import XmlComment, XmlContent
 
-_COMPILED = re.compile(r"Compiled by linkforge from .+; edit that file, not this one\.")
 _RULE = re.compile("=+")
 _XACRO = (
     _RULE,
@@ -26,7 +26,7 @@ def without_banners(content: tuple[XmlContent, ...]) -> Iterator[XmlContent]:
         if len(box) == len(_XACRO) and all(map(_is, box, _XACRO)):
             at += len(_XACRO)
             continue
-        if not _is(content[at], _COMPILED):
+        if not _is(content[at], BANNER):
             yield content[at]
         at += 1
 

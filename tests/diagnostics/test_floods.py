@@ -4,7 +4,7 @@ import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Code, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.bounds import MORE_WARNINGS, TOO_MANY_ERRORS
-from linkforge_compile.diagnostics.render import MOST_SHOWN, render_first
+from linkforge_compile.diagnostics.render import MOST_SHOWN, render_first, summary
 from linkforge_compile.diagnostics.sink import MAX_TOLD
 from linkforge_compile.source import SourceFile, Span
 
@@ -25,6 +25,7 @@ def test_one_place_is_told_of_three_times_and_the_rest_counted():
     told = sink.sorted()
     assert [one.message for one in told] == ["no 0", "no 1", "no 2", "no other"]
     assert [note.message for one in told for note in one.notes] == ["and 997 more like this at the same place"]
+    assert summary(told) == "1,001 errors"
 
 
 def test_behind_a_thousand_errors_the_compile_ends():

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from linkforge_compile.banner import BANNER
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.telling import add_telling_options, tell
 from linkforge_compile.source import SourceFile
@@ -30,7 +31,6 @@ examples:
 """
 
 _LARGEST = 256 * 1024 * 1024  # bytes
-_BANNER = re.compile(r"<!-- Compiled by linkforge from (?P<spec>.+); edit that file, not this one\. -->")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -92,7 +92,7 @@ def _map_of(path: Path, document: str) -> MapFile:
 
     beside = path.with_name(path.name + ENDING)
     if not beside.exists():
-        banner = _BANNER.search(document[:10_000])
+        banner = BANNER.search(document[:10_000])
         spec = banner["spec"] if banner else "SPEC.robot.yaml"
         command = f"linkforge compile {spec} -o {path} --source-map"
         raise UsageError(f"there is no map '{beside}'; `{command}`, with the options of before, writes it")

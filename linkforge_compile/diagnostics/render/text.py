@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from unicodedata import combining, east_asian_width
 
@@ -46,9 +47,11 @@ def summary(diagnostics: Iterable[Diagnostic]) -> str:
 
 
 def _counts(diagnostics: Iterable[Diagnostic], severities: Iterable[Severity]) -> str:
-    """Return "2 errors, 1 warning"; empty for none of either."""
-    found = [diagnostic.severity for diagnostic in diagnostics]
-    counts = [(found.count(severity), severity) for severity in severities]
+    """Return "2 errors, 1 warning", with those that are only counted; empty for none of either."""
+    found = Counter[Severity]()
+    for diagnostic in diagnostics:
+        found[diagnostic.severity] += 1 + diagnostic.untold
+    counts = [(found[severity], severity) for severity in severities]
     return ", ".join(f"{count:,} {severity}{'s' if count > 1 else ''}" for count, severity in counts if count)
 
 
