@@ -48,6 +48,8 @@ WITHOUT_A_CASE = {
     "LF8033": "modules/test_xacro_modules.py",
     "LF8034": "modules/test_xacro_modules.py",
     "LF8035": "modules/test_xacro_modules.py",
+    "LF8063": "modules/test_xacro_faults.py",
+    "LF8064": "modules/test_xacro_faults.py",
     "LF8061": "modules/test_xacro_arguments.py",
     "LF8062": "modules/test_xacro_arguments.py",
     "LF8190": "importers/test_losses.py",

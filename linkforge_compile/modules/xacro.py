@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Collection, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import (
     XACRO_ARGUMENT,
-    XACRO_ARGUMENT_TOO_EARLY,
-    XACRO_FAILED,
     XACRO_FORBIDDEN,
-    XACRO_NOT_INSTALLED,
     XACRO_WARNS,
 )
-from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PACKAGE, UNKNOWN_PARAMETER
 from linkforge_compile.expressions import FAULT
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Arguments
@@ -26,21 +21,17 @@ from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
-from linkforge_compile.modules.paths import as_typed
 from linkforge_compile.modules.values import plain_value
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.modules.xacro_faults import Telling, Written
+from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, number_text
 
 if TYPE_CHECKING:
     from linkforge_compile.importers.document import Imported, Move
-    from linkforge_compile.importers.xacro import Expanded, Failed, Place
-    from linkforge_compile.importers.xml import XmlElement
 
 FORBIDDEN = "LINKFORGE_NO_XACRO"
 """The environment variable that, set to anything, keeps xacro files from being expanded."""
-
-_UNSET = re.compile(r"Undefined substitution argument '?(\w+)'?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,11 +109,11 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
     if os.environ.get(FORBIDDEN) or not loader.runs_xacro:
         sink.report(XACRO_FORBIDDEN.at(use.used.where, path=use.used.text, variable=FORBIDDEN))
         return None
-    asked = _Asked(use, loader)
+    asked = Asked(use, loader)
     result = run_xacro(use.path, arguments, asked)
-    written = _Written(result, main, loader)
+    written = Written(result, main, loader)
     inside = _inside(use, sink)
-    told = _Telling(use, written, loader, sink, inside)
+    told = Telling(use, written, loader, sink, inside)
     if isinstance(result, Failed):
         told.failed(result, asked)
         return None
@@ -135,17 +126,12 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
     return Expansion(expanded, moved, files, frozenset((*result.arguments, *result.wanted)))
 
 
-def in_order(element: XmlElement) -> list[XmlElement]:
-    """Return an element and all in it in the order of the document, as xacro's parser counts them."""
-    return [element, *(inner for child in element.children for inner in in_order(child))]
-
-
 def _inside(use: XacroUse, sink: Diagnostics) -> Diagnostics:
     """Return what takes what is told in the files of a use."""
     return used_from(sink, (use.used.where,) if use.used.where else ())
 
 
-class _Asked:
+class Asked:
     """Answers what xacro asks while it expands a file, and keeps what it may not have."""
 
     def __init__(self, use: XacroUse, loader: Loader) -> None:
@@ -201,91 +187,3 @@ def _text(node: YamlNode, use: XacroUse) -> object:
         case str():
             return value
     return FAULT if value is FAULT else None
-
-
-class _Written:
-    """The elements of xacro files as they were written, each file read when it is first asked for."""
-
-    def __init__(self, result: Expanded | Failed, main: SourceFile, loader: Loader) -> None:
-        self.main, self._loader = main, loader
-        self._paths = result.files
-        self._elements: dict[int, tuple[XmlElement, ...]] = {}
-        files = (self.open(path) for path in result.files[1:])
-        self.files = tuple(file for file in files if file)
-        for path in result.read:
-            loader.note_read(path)
-
-    def element(self, place: Place) -> XmlElement | None:
-        if place.file not in self._elements:
-            self._elements[place.file] = self._read(place.file)
-        elements = self._elements[place.file]
-        return elements[place.element] if place.element < len(elements) else None
-
-    def open(self, path: Path) -> SourceFile | None:
-        """Read one of the others, which the first names, so that it is no word of the user's."""
-        return self._loader.open_xml(path, Diagnostics(), Used(str(path), self.main.whole))
-
-    def _read(self, number: int) -> tuple[XmlElement, ...]:
-        from linkforge_compile.importers.xml import read_xml
-
-        file = self.main if number == 0 else self.open(self._paths[number])
-        document = read_xml(file, Diagnostics()) if file else None
-        return tuple(in_order(document.root)) if document else ()
-
-
-@dataclass(frozen=True, slots=True)
-class _Telling:
-    """Tells what is wrong with a use of a xacro file: `sink` at the use, `inside` in the file with its use."""
-
-    use: XacroUse
-    written: _Written
-    loader: Loader
-    sink: Diagnostics
-    inside: Diagnostics
-
-    def failed(self, failed: Failed, asked: _Asked) -> None:
-        where = self.use.used.where
-        if failed.reason is None:
-            self.sink.report(XACRO_NOT_INSTALLED.at(where, path=self.use.used.text))
-            return
-        self.unknown_arguments(failed.arguments or {}, failed.wanted)
-        notes = [Note("it is looked for here", place)] if (place := self._place(failed)) else []
-        if asked.refused:
-            path, writer = asked.refused[-1], place or where or self.written.main.whole
-            self.loader.may_read(path, Used(str(as_typed(path)), writer), self.inside)
-        elif asked.lost:
-            near = {**(self.use.packages or {}), **self.loader.packages}
-            self.sink.report(UNKNOWN_PACKAGE.at(where or place, name=asked.lost[-1], near=near, notes=notes))
-        elif unset := _UNSET.search(failed.reason):
-            name = unset[1]
-            remedy = f"with: {{{name}: VALUE}}" if where else f"{name}:=VALUE"
-            declared = self._declared(failed.arguments or {}, name)
-            if declared and place:
-                notes = [Note("its default stands here", declared)]
-                self.inside.report(XACRO_ARGUMENT_TOO_EARLY.at(place, name=name, remedy=remedy, notes=notes))
-            else:
-                what = f"parameter '{name}' has"
-                self.sink.report(PARAMETER_NOT_SET.at(where or place, what=what, remedy=f"'{remedy}'"))
-        else:
-            self.inside.report(XACRO_FAILED.at(place or where, problem=" ".join(failed.reason.split())))
-
-    def unknown_arguments(self, declared: Mapping[str, Place], wanted: Collection[str]) -> None:
-        """Report the arguments that the file neither declares nor wants, unless another file of the robot does."""
-        if self.use.taken is None:
-            return
-        first = next((self._declared(declared, name) for name in declared), None)
-        note = Note("its arguments are declared here" if declared else "this file declares no arguments", first)
-        for name, entry in self.use.arguments.entries.items():
-            if name not in (known := (*declared, *wanted, *self.use.taken)):
-                self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=known, notes=[note]))
-
-    def _declared(self, declared: Mapping[str, Place], name: str) -> Span | None:
-        element = self.written.element(declared[name]) if name in declared else None
-        return element.span if element else None
-
-    def _place(self, failed: Failed) -> Span | None:
-        if failed.line is not None and failed.file:
-            file = self.written.open(failed.file)
-            return Span(file, failed.line, 1, failed.line, 1) if file else None
-        element = self.written.element(failed.place) if failed.place else None
-        return element.span if element else None

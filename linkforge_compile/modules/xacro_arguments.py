@@ -12,7 +12,7 @@ from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
 from linkforge_compile.modules.listing import ListedParameter, Listing
 from linkforge_compile.modules.loader import Loader, Used
 from linkforge_compile.modules.packages import find_package
-from linkforge_compile.modules.xacro import in_order
+from linkforge_compile.modules.xacro_faults import in_order
 
 if TYPE_CHECKING:
     from linkforge_compile.importers.xml import XmlElement

@@ -142,8 +142,6 @@ def test_a_package_that_is_nowhere_is_told_at_the_use(vendor, tmp_path):
     ("change", "line", "message"),
     [
         (("${table['lower']}", "${table['nope']}"), 12, "nope"),
-        (("xacro:if", "xacro:of"), 15, "of"),
-        (('parent="upper" length="${$(arg reach) / 2}"', 'parent="upper" length="${nope}"'), 12, "nope"),
         (("</robot>", "</robto>"), 20, "mismatched tag"),
     ],
 )

@@ -43,6 +43,8 @@ XACRO_WARNS = Code("LF8034", _W, "xacro says: {text}")
 XACRO_ARGUMENT_TOO_EARLY = Code(
     "LF8062", _E, "xacro needs '{name}' here, before it comes to its default; write '{remedy}'"
 )
+XACRO_UNKNOWN_NAME = Code("LF8063", _E, "xacro knows no {kind} named '{name}' here")
+XACRO_FILE_MISSING = Code("LF8064", _E, "xacro needs the file '{path}', which is not there")
 ARGUMENTS_NOT_LISTED = Code("LF8061", Severity.NOTE, "the arguments that '{path}' declares are not listed: {reason}")
 
 # LF813x: which file goes where

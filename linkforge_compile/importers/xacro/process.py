@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
@@ -32,6 +33,7 @@ _HARMLESS = frozenset(
 _READS = frozenset(("open", "os.listdir", "os.scandir"))
 _CODE = (".py", ".pyc", ".so", ".pyd")
 _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
+_EXPRESSION = re.compile(r"\s*when evaluating expression '(.*)'", re.DOTALL)
 _Answer = dict[str, object]
 
 
@@ -148,9 +150,7 @@ class _Run:
         except MemoryError:
             answer = {"error": "it takes too much memory"}
         except Exception as error:  # Whatever the file's expressions raise.
-            cause = getattr(error, "exc", None)
-            reason = "it takes too much memory" if isinstance(cause, MemoryError) else str(error) or repr(error)
-            answer = {"error": reason, "line": getattr(error, "lineno", None)}
+            answer = {**_fault(error), "line": getattr(error, "lineno", None)}
             answer["file"] = xacro.filestack[-1] if xacro.filestack else path
         warnings = [line.removeprefix("warning: ") for line in said.getvalue().splitlines() if line.strip()]
         read = [file for file in xacro.all_includes if file not in self.files]
@@ -202,6 +202,22 @@ class _Run:
             return step(element, *rest)
 
         return follow
+
+
+def _fault(error: BaseException) -> _Answer:
+    """Return what went wrong, in whose words, and in which expressions, the outermost first."""
+    expressions: list[str] = []
+    cause = error
+    while True:
+        if quoted := _EXPRESSION.fullmatch(str(getattr(cause, "suffix", None) or "")):
+            expressions.append(quoted[1])
+        inner = getattr(cause, "exc", None)
+        if not isinstance(inner, BaseException):
+            break
+        cause = inner
+    words = "it takes too much memory" if isinstance(cause, MemoryError) else str(cause) or repr(cause)
+    missing = cause.filename if isinstance(cause, FileNotFoundError) else None
+    return {"error": words, "kind": type(cause).__name__, "missing_file": missing, "expressions": expressions}
 
 
 def _comments(document: Document) -> Iterator[Comment]:

@@ -56,8 +56,9 @@ class Expanded:
 class Failed:
     """Why there is no expansion.
 
-    `reason` is None where xacro is not installed. `place` is the element at which it failed, `line` a line of `file`
-    where XML is malformed; None where nobody knows.
+    `reason` is None where xacro is not installed, and `kind` the class of the exception that says it. The last of the
+    `expressions` failed, which each of the others led to; `missing` is a file that is not there. `place` is the element
+    at which xacro stopped, `line` a line of `file` where XML is malformed; None where nobody knows.
     """
 
     reason: str | None
@@ -68,6 +69,9 @@ class Failed:
     place: Place | None = None
     file: Path | None = None
     line: int | None = None
+    kind: str = ""
+    expressions: tuple[str, ...] = ()
+    missing: Path | None = None
 
 
 class _Answer(TypedDict, total=False):
@@ -76,6 +80,9 @@ class _Answer(TypedDict, total=False):
     missing: bool
     text: str
     error: str
+    kind: str
+    expressions: list[str]
+    missing_file: str | None
     file: str
     line: int | None
     files: list[str]
@@ -153,6 +160,9 @@ def _outcome(answer: _Answer) -> Expanded | Failed:
         place_of(place) if place else None,
         Path(file) if file else None,
         answer.get("line"),
+        answer.get("kind", ""),
+        tuple(answer.get("expressions", ())),
+        Path(missing) if (missing := answer.get("missing_file")) else None,
     )
 
 

@@ -1,0 +1,86 @@
+"""What is wrong in a xacro, told where it is written and in words of whoever wrote it."""
+
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile import import_urdf
+
+pytest.importorskip("xacro")
+
+HEAD = '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><link name="base"/>'
+MACRO = '<xacro:macro name="rod" params="length *origin"><link name="${length}"/></xacro:macro>'
+
+
+def told(folder: Path, *lines: str) -> tuple[str, str, list[tuple[str, int]]]:
+    """Return the code and message of the one diagnostic, and its places, each the text from there and the line."""
+    file = folder / "a.urdf.xacro"
+    file.write_text("\n".join((HEAD, *lines, "</robot>")), "utf-8")
+    [diagnostic] = import_urdf(file).diagnostics
+    text = file.read_text("utf-8").splitlines()
+    spans = (diagnostic.span, *(note.span for note in diagnostic.notes))
+    places = [(text[span.line - 1][span.column - 1 : span.end_column - 1], span.line) for span in spans]
+    return diagnostic.code.id, diagnostic.message, places
+
+
+GIVES_UP = "xacro gives up here: "
+
+
+@pytest.mark.parametrize(
+    ("line", "message", "place"),
+    [
+        (
+            '<link name="${lenght}"/>',
+            "xacro knows no property or parameter named 'lenght' here; did you mean 'length'?",
+            "${lenght}",
+        ),
+        (
+            '<xacro:rood length="1"/>',
+            "xacro knows no macro named 'rood' here; did you mean 'rod'?",
+            "<xacro:rood",
+        ),
+        (
+            '<xacro:rod length="1"/>',
+            f"{GIVES_UP}the macro takes a block more, an element inside of the call",
+            "<xacro:rod",
+        ),
+        ('<xacro:rod size="1"/>', f"{GIVES_UP}the macro takes no 'size'", "<xacro:rod"),
+        ('<xacro:if value="maybe"/>', f"{GIVES_UP}the condition is true or false, found 'maybe'", "<xacro:if"),
+        (
+            """<link name="${dict(a=1)['b']}"/>""",
+            f"{GIVES_UP}there is no key 'b', in '${{dict(a=1)['b']}}'",
+            "${dict(a=1)['b']}",
+        ),
+        ('<link name="$(env NONE_SUCH)"/>', f"{GIVES_UP}the environment variable NONE_SUCH is not set", "<link"),
+    ],
+)
+def test_a_fault_is_told_at_the_expression_or_call(line: str, message: str, place: str, tmp_path: Path):
+    _, words, places = told(tmp_path, MACRO, line)
+    assert (words, places) == (message, [(place, 3)])
+
+
+def test_what_a_property_says_wrong_is_told_there_and_where_it_is_needed(tmp_path: Path):
+    property_ = '<xacro:property name="table" value="${1 / 0}"/>'
+    code, message, places = told(tmp_path, property_, '<link name="${table}"/>')
+    assert (code, message) == ("LF8032", "xacro gives up here: division by zero, in '${1 / 0}'")
+    assert [line for _, line in places] == [2, 3]
+
+
+def test_a_file_that_is_not_there_is_told_with_the_one_that_is_like_it(tmp_path: Path):
+    (tmp_path / "limits.yaml").write_text("a: 1\n", "utf-8")
+    code, message, [(_, line)] = told(tmp_path, "<link name=\"${xacro.load_yaml('limit.yaml')}\"/>")
+    assert (code, line) == ("LF8064", 2)
+    assert message.startswith("xacro needs the file '")
+    assert message.endswith("limit.yaml', which is not there; did you mean 'limits.yaml'?")
+
+
+def test_a_fault_inside_a_macro_that_another_one_calls_is_told_in_the_macro(tmp_path: Path):
+    lines = (
+        '<xacro:macro name="inner" params="a">',
+        '<link name="${b}"/></xacro:macro>',
+        '<xacro:macro name="outer" params="a"><link name="c"/>',
+        '<xacro:inner a="${none}"/>',
+        '</xacro:macro><xacro:outer a="1"/>',
+    )
+    assert told(tmp_path, *lines)[2][0][1] == 5
+    assert told(tmp_path, *(line.replace("none", "a") for line in lines))[2][0][1] == 3
