@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from linkforge_compile.backends import render_srdf, render_urdf
 from linkforge_compile.bounds import Budget
@@ -17,7 +16,7 @@ from linkforge_compile.frozen import dataclass
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
 from linkforge_compile.modules import XACRO, Arguments, Loader, SpecFile, Used
-from linkforge_compile.pipeline import Packages, Parameters, Settings, robot_of
+from linkforge_compile.pipeline import Judged, Packages, Parameters, Settings, judged
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.stack import with_room
 from linkforge_compile.syntax import YamlMap, read
@@ -95,17 +94,21 @@ def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diag
     if found is None or (srdf and semantic is None):
         return None
     file, robot = found
-    judge = partial(_judged, SpecFile(file, robot.tree, urdf.parent), loader)
+    spec, meshes = SpecFile(file, robot.tree, urdf.parent), MeshSolids(loader.budget)
+
+    def judge(tree: YamlMap) -> Judged:
+        return judged(meshes, replace(spec, tree=tree), loader)
+
     both = with_srdf(robot, semantic.text, judge, sink, semantic.moved) if semantic else (robot, judge(robot.tree))
     if both is None:
         return None
     # The tree has the spans of the files, so what is wrong with the robot is told there.
-    whole, judged = both
-    sink.report_all(judged.faults)
-    if judged.robot is not None:
-        sink.report_all(_losses(whole, judged.robot, sink.places_of(LOSSES)))
+    whole, compiled = both
+    sink.report_all(compiled.faults)
+    if compiled.robot is not None:
+        sink.report_all(_losses(whole, compiled.robot, sink.places_of(LOSSES)))
         if settings.output is not None:
-            sink.report_all(lost_on_the_way(judged.robot, settings.output, MESH_BESIDE_THE_URDF))
+            sink.report_all(lost_on_the_way(compiled.robot, settings.output, MESH_BESIDE_THE_URDF))
     text = write(whole.tree, *whole.comments)
     sink.report_all(unread(whole.tree, read(SourceFile("<spec>", text), Diagnostics(), Budget())))
     return text
@@ -144,20 +147,6 @@ def _read_xacro(xacro: Path, arguments: Arguments, taken: _Taken, loader: Loader
 
     expanded = read_xacro(XacroUse(xacro, Used(str(xacro), None), arguments, taken=taken), loader, sink)
     return (expanded.file, expanded.imported) if expanded else None
-
-
-class _Judged(NamedTuple):
-    """What a spec compiles to, None where it has errors."""
-
-    robot: Robot | None
-    faults: tuple[Diagnostic, ...]
-
-
-def _judged(spec: SpecFile, loader: Loader, tree: YamlMap) -> _Judged:
-    sink = Diagnostics()
-    robot = robot_of(replace(spec, tree=tree), Settings(), loader, MeshSolids(), sink)
-    faults = tuple(fault for fault in sink if fault.severity is Severity.ERROR)
-    return _Judged(None if faults else robot, faults)
 
 
 def _losses(imported: Imported, robot: Robot, told: Collection[Span]) -> Iterator[Diagnostic]:

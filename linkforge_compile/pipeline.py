@@ -6,7 +6,6 @@ Values flow down, faults flow sideways into the sink, and no stage stops the lin
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -288,7 +287,7 @@ def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilatio
     sink = Diagnostics()
     loader = settings.loader(place)
     meshes = MeshSolids(loader.budget)
-    loader.judge = partial(_errors_of, meshes)
+    loader.judge = lambda spec, loader: judged(meshes, spec, loader).faults
     robot = None
     ignores: tuple[Ignore, ...] = ()
     try:
@@ -329,17 +328,22 @@ def _resolver(instance: Instance, loader: Loader) -> FileSystemResolver:
     """Return what finds the meshes of a robot: by the user's packages, the spec's, and then those of its modules."""
     from linkforge_compile.core.resolver import FileSystemResolver
 
-    packages: dict[str, Path] = dict(loader.packages)
-    for use in instance.with_modules:
-        for name, folder in use.packages.items():
-            packages.setdefault(name, folder)
-    return FileSystemResolver(packages=packages)
+    packages = {name: place for use in reversed((*instance.with_modules,)) for name, place in use.packages.items()}
+    return FileSystemResolver(packages={**packages, **loader.packages})
 
 
-def _errors_of(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> tuple[Diagnostic, ...]:
-    """Return what is wrong with a spec by itself, that reads the meshes of the compile."""
+class Judged(NamedTuple):
+    """What a spec compiles to by itself, None where it has errors, and those."""
+
+    robot: Robot | None
+    faults: tuple[Diagnostic, ...]
+
+
+def judged(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Judged:
+    """Compile a spec by itself at a cost of its own; it reads the meshes that are read for the whole."""
     sink, was_told = Diagnostics(), meshes.is_without_library
     with loader.judging():
-        robot_of(spec, Settings(), loader, meshes, sink)
+        robot = robot_of(spec, Settings(), loader, meshes, sink)
     meshes.is_without_library = was_told  # this sink is nobody's: the robot tells it where it is used
-    return tuple(fault for fault in sink if fault.severity is Severity.ERROR)
+    faults = tuple(fault for fault in sink if fault.severity is Severity.ERROR)
+    return Judged(None if faults else robot, faults)
