@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -72,7 +73,20 @@ def _run(words: list[str]) -> int:
     except UsageError as error:
         print(f"linkforge {name}: {error}", file=sys.stderr)
         return WRONG_USAGE
+    except OSError as error:
+        if error.errno not in _NOT_TO_BE_HAD:
+            raise
+        print(f"linkforge {name}: '{_shown(str(error.filename))}': {error.strerror}", file=sys.stderr)
+        return WRONG_USAGE
     return code
+
+
+_NOT_TO_BE_HAD = (errno.ENAMETOOLONG, errno.EACCES, errno.EPERM)
+"""What the system says of a place on the command line that is no fault of ours; what a spec names is judged there."""
+
+
+def _shown(name: str) -> str:
+    return name if len(name) <= 80 else f"{name[:40]}…{name[-30:]}"
 
 
 def _no_command(words: list[str]) -> int:

@@ -31,7 +31,7 @@ def workspace_schema(vocabularies: Sequence[Vocabulary]) -> Schema:
     definitions = {name: mapping(part) for name, part in mapping(whole["definitions"]).items()}
     # A file that is included from outside of the workspace has no path by which it is known.
     files = [(file, words) for words in vocabularies for file in words.files if not file.startswith("../")]
-    known = [file for file, _ in files]
+    known = dict(files)
     modules = _Modules(vocabularies)
     offers: list[Json] = []
     made: Schema = {}

@@ -66,3 +66,25 @@ def test_an_interruption_is_quiet(monkeypatch: pytest.MonkeyPatch, capsys: pytes
     plant(monkeypatch, KeyboardInterrupt())
     assert main(COMMAND) == 130
     assert capsys.readouterr() == ("", "")
+
+
+LONG = "a" * 5000
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("init", "arm", "--dir", LONG),
+        ("schema", "--workspace", LONG),
+        ("check", "any.robot.yaml", "--package", f"arm={LONG}"),
+        ("compile", "any.robot.yaml", "-o", LONG),
+        ("watch", "any.robot.yaml", "-o", f"{LONG}.urdf"),
+        ("where", f"{LONG}.urdf:3"),
+    ],
+)
+def test_a_name_that_no_file_can_have_is_no_fault_of_ours(capsys: pytest.CaptureFixture[str], words: tuple[str, ...]):
+    assert main(words) == 2
+    (said,) = capsys.readouterr().err.splitlines()
+    assert said.startswith(f"linkforge {words[0]}: '")
+    assert said.endswith(": File name too long")
+    assert len(said) < 200
