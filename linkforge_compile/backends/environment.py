@@ -32,8 +32,11 @@ def _environment() -> Environment:
     # jinja2 costs 75 ms to import, and most commands write nothing.
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+    from linkforge_compile.backends.bytecode import TemplateBytecode
+
     return Environment(
         loader=FileSystemLoader(templates_folder()),
+        bytecode_cache=TemplateBytecode(__file__),
         autoescape=True,
         finalize=_finished,
         undefined=StrictUndefined,
