@@ -16,12 +16,12 @@ from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from statistics import geometric_mean
+from statistics import geometric_mean, median
 from typing import NamedTuple
 
 from chain import chain, write_chain
 from merge import merges
-from timing import medians, python, seconds_of
+from timing import medians, process, python, seconds_of, turns
 
 ROBOTS = tuple(sorted((Path(__file__).parent / "robots").glob("*/*.urdf.xacro")))
 XACRO = "import sys, xacro; sys.argv[0] = 'xacro'; xacro.main()"
@@ -101,13 +101,12 @@ def long_chain(setting: Setting) -> Iterator[Row]:
 
 def growth(setting: Setting) -> Iterator[Row]:
     """Compile 10,000 links against 1,000: time and memory, without what a robot of one link takes."""
-    usages = {}
-    for links in (1, 1000, 10000):
-        spec = str(write_chain(setting.folder, links))
-        command = ("-m", "linkforge_compile", "compile", spec, "-o", str(setting.folder / "chain.urdf"))
-        usages[links] = [python(*command) for _ in range(1 + min(setting.rounds, 3))][1:]
+    out = str(setting.folder / "chain.urdf")
+    specs = {links: str(write_chain(setting.folder, links)) for links in (1, 1000, 10000)}
+    compile_ = ("-m", "linkforge_compile", "compile", "-o", out)
+    usages = turns(min(setting.rounds, 3), {links: partial(python, *compile_, spec) for links, spec in specs.items()})
     for what, unit, scale in (("seconds", "ms", 1), ("megabytes", "MB", 1e-3)):
-        one, small, large = (min(getattr(usage, what) * scale for usage in usages[links]) for links in usages)
+        one, small, large = (median(getattr(usage, what) * scale for usage in usages[links]) for links in specs)
         yield Row(f"10,000 links against 1,000, {what}", large - one, small - one, unit, 11.0)
 
 
@@ -149,10 +148,6 @@ def imported(robot: Path, folder: Path) -> Path:
     return spec
 
 
-def process(*arguments: str) -> Callable[[], float]:
-    return lambda: python(*arguments).seconds
-
-
 def against(what: str, setting: Setting, runs: dict[str, Callable[[], float]], reach: float | None = None) -> Row:
     ours, other = medians(setting.rounds, runs).values()
     return Row(what, ours, other, reach=reach)
@@ -167,19 +162,29 @@ def mean(what: str, rows: list[Row], reach: float) -> Iterator[Row]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rounds", type=int, default=9)
-    parser.add_argument("--only", default=",".join(COMPARISONS), help="some of the comparisons, with commas between")
+    some = "some of the comparisons, with commas between"
+    parser.add_argument("--only", type=comparisons_in, default=list(COMPARISONS), metavar="NAMES", help=some)
     parser.add_argument("--robots", type=Path, nargs="+", default=ROBOTS, help="other robots, as .urdf.xacro")
     options = parser.parse_args()
     print(f"{'what':<40} {'ours':>12} {'other':>12} {'ratio':>8} {'reach':>8}")
     with tempfile.TemporaryDirectory() as folder:
         setting = Setting(options.rounds, tuple(options.robots), Path(folder))
-        for name in options.only.split(","):
+        for name in options.only:
             rows, package = COMPARISONS[name]
             if package and find_spec(package) is None:
                 print(f"{name}: '{package}' is not installed")
                 continue
             for row in rows(setting):
                 show(row)
+
+
+def comparisons_in(text: str) -> list[str]:
+    """Read names of comparisons with commas between them."""
+    names = text.split(",")
+    for name in names:
+        if name not in COMPARISONS:
+            raise argparse.ArgumentTypeError(f"takes {', '.join(COMPARISONS)}; found '{name}'")
+    return names
 
 
 def show(row: Row) -> None:

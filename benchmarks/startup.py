@@ -6,10 +6,9 @@ python benchmarks/startup.py [--rounds 15]
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 from pathlib import Path
 
-from timing import medians, python
+from timing import medians, process
 
 ARM = str(Path(__file__).parents[1] / "examples" / "01_two_link_arm" / "two_link_arm.robot.yaml")
 LINKFORGE = ("-m", "linkforge_compile")
@@ -26,15 +25,11 @@ COMMANDS = {
 }
 
 
-def process(arguments: tuple[str, ...]) -> Callable[[], float]:
-    return lambda: python(*arguments).seconds
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rounds", type=int, default=15)
     rounds = parser.parse_args().rounds
-    taken = medians(rounds, {label: process(arguments) for label, arguments in COMMANDS.items()})
+    taken = medians(rounds, {label: process(*arguments) for label, arguments in COMMANDS.items()})
     for label, seconds in taken.items():
         print(f"{label:<45} {seconds * 1000:7.0f} ms {seconds / taken[BARE]:6.1f} x")
 

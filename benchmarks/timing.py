@@ -13,7 +13,10 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from statistics import median
 from time import process_time
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
+
+L = TypeVar("L")
+T = TypeVar("T")
 
 
 class Usage(NamedTuple):
@@ -23,15 +26,20 @@ class Usage(NamedTuple):
     megabytes: float
 
 
-def medians(rounds: int, runs: Mapping[str, Callable[[], float]]) -> dict[str, float]:
-    """Return the median of what each run answers, after a first turn that does not count."""
-    taken: dict[str, list[float]] = {label: [] for label in runs}
+def turns(rounds: int, runs: Mapping[L, Callable[[], T]]) -> dict[L, list[T]]:
+    """Return what each run answers on its turns, after a first one that does not count."""
+    taken: dict[L, list[T]] = {label: [] for label in runs}
     for turn in range(rounds + 1):
         for label, run in runs.items():
             one = run()
             if turn:
                 taken[label].append(one)
-    return {label: median(values) for label, values in taken.items()}
+    return taken
+
+
+def medians(rounds: int, runs: Mapping[str, Callable[[], float]]) -> dict[str, float]:
+    """Return the median of what each run answers on its turns."""
+    return {label: median(values) for label, values in turns(rounds, runs).items()}
 
 
 def seconds_of(action: Callable[[], object]) -> float:
@@ -44,6 +52,11 @@ def seconds_of(action: Callable[[], object]) -> float:
 def python(*arguments: str) -> Usage:
     """Run Python as a whole process, as installed packages run: from bytecode, which the first run leaves."""
     return _process([sys.executable, *arguments])
+
+
+def process(*arguments: str) -> Callable[[], float]:
+    """Return what runs Python as a whole process, and answers with its time [s]."""
+    return lambda: python(*arguments).seconds
 
 
 def _process(command: Sequence[str]) -> Usage:

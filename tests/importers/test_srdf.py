@@ -1,6 +1,7 @@
 """An SRDF comes in as the semantic part that a person would write, and what only it knows stays."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from textwrap import dedent, indent
 
@@ -8,6 +9,7 @@ import pytest
 
 from benchmarks.import_table import differences_of
 from linkforge_compile import Import, compile_text, import_urdf, render_srdf
+from linkforge_compile.bounds import Limit
 from tests.importers.robots import ALONE
 
 TREE = """
@@ -145,6 +147,14 @@ def test_groups_in_a_circle_come_apart_where_it_closes(tmp_path: Path):
     assert whole.text is not None
     semantic = compile_text(whole.text).result().semantic
     assert [(group.name, group.subgroups) for group in semantic.groups] == [("a", ("b",)), ("b", ())]
+
+
+def test_each_reading_of_an_srdf_may_take_what_a_compile_may(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(Limit.ENTRIES, "_value_", replace(Limit.ENTRIES.value, most=9))
+    up = '<group name="g"><chain base_link="tip" tip_link="base"/></group>'
+    whole = imported(tmp_path, f'<robot name="r"><passive_joint name="turn"/>{up}</robot>')
+    assert [one.code.id for one in whole.diagnostics] == ["LF8021"], "it is known to be refused when it is judged"
+    compile_text(whole.text).result()
 
 
 def test_comments_stand_where_they_stood(read):
