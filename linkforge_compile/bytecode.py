@@ -1,0 +1,64 @@
+"""What is made of our own files and is the same in every process: kept as Python keeps its bytecode of them.
+
+It lies at the same place, `__pycache__` beside a module or below PYTHONPYCACHEPREFIX, and obeys the same switch,
+PYTHONDONTWRITEBYTECODE. Of what it was made from it asks what Python asks of a source: its time and its size.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import sys
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from importlib.util import cache_from_source
+from pathlib import Path
+from typing import TypeVar
+
+T = TypeVar("T")
+
+BROKEN = (OSError, EOFError, ValueError, LookupError, TypeError, pickle.UnpicklingError)
+"""What reading a file raises that is not there, or that is not whole."""
+
+
+def folder_beside(module: str) -> Path:
+    """Return the folder in which Python keeps the bytecode of a module, given its `__file__`."""
+    return Path(cache_from_source(module)).parent
+
+
+def stamp(files: Iterable[str | Path]) -> str:
+    """Return what changes when one of the files does; OSError where one is not there."""
+    seen = [Path(file).stat() for file in files]
+    return " ".join(f"{file.st_mtime_ns}:{file.st_size}" for file in seen)
+
+
+def kept(module: str, name: str, files: Iterable[Path], make: Callable[[], T]) -> T:
+    """Return what `make` makes of plain values, from the file beside a module where an earlier process left it.
+
+    `files` are all that it is made from, the modules that make it among them.
+    """
+    place = folder_beside(module) / f"{name}.{sys.implementation.cache_tag}.pickle"
+    try:
+        made_from = stamp(files)
+        left_from, left = pickle.loads(place.read_bytes())
+    except BROKEN:
+        left_from = None
+    if left_from is not None and left_from == made_from:
+        value: T = left
+        return value
+    made = make()
+    if not sys.dont_write_bytecode:
+        with suppress(OSError):
+            _leave(place, pickle.dumps((stamp(files), made), pickle.HIGHEST_PROTOCOL))
+    return made
+
+
+def _leave(place: Path, content: bytes) -> None:
+    """Put a file in its place in one step, since another process may read it meanwhile."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    beside = place.with_name(f"{place.name}.{os.getpid()}")
+    try:
+        beside.write_bytes(content)
+        beside.replace(place)
+    finally:
+        beside.unlink(missing_ok=True)

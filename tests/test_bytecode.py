@@ -1,0 +1,52 @@
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile.bytecode import kept
+
+
+@pytest.fixture(autouse=True)
+def _bytecode_below(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "pycache_prefix", str(tmp_path / "cache"))
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    (tmp_path / "made.py").write_text("")
+    (tmp_path / "source.json").write_text("{}")
+
+
+def _asked(folder: Path, value: object) -> object:
+    """Return what a process gets that would make a value."""
+    files = [folder / "source.json", folder / "made.py"]
+    return kept(str(folder / "made.py"), "value", files, lambda: value)
+
+
+def test_what_one_process_made_the_next_one_takes(tmp_path: Path) -> None:
+    assert [_asked(tmp_path, ["first"]), _asked(tmp_path, ["second"])] == [["first"], ["first"]]
+
+
+def test_what_was_made_from_other_files_is_made_again(tmp_path: Path) -> None:
+    _asked(tmp_path, "first")
+    (tmp_path / "source.json").write_text("{ }")
+    assert [_asked(tmp_path, "second"), _asked(tmp_path, "third")] == ["second", "second"]
+
+
+def test_a_broken_file_is_made_again(tmp_path: Path) -> None:
+    _asked(tmp_path, "first")
+    [place] = (tmp_path / "cache").rglob("*.pickle")
+    whole = place.read_bytes()
+    for broken in (b"", whole[:-3], b"\x80\x05N.", b"no pickle"):
+        place.write_bytes(broken)
+        assert _asked(tmp_path, "again") == "again"
+
+
+def test_nothing_is_left_where_python_leaves_no_bytecode(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    assert [_asked(tmp_path, "first"), _asked(tmp_path, "second")] == ["first", "second"]
+    assert not (tmp_path / "cache").exists()
+
+
+def test_a_place_that_cannot_be_written_to_is_no_fault(tmp_path: Path) -> None:
+    (tmp_path / "cache").write_text("a file where the folder should be")
+    assert [_asked(tmp_path, "first"), _asked(tmp_path, "second")] == ["first", "second"]
