@@ -2,7 +2,8 @@
 
 from pathlib import Path
 
-from tests.cli.test_compile import PENDULUM, linkforge
+from tests.cli.in_process import linkforge
+from tests.cli.test_compile import PENDULUM
 
 FAULTY = """\
 linkforge: 1

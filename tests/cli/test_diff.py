@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft7Validator
 
-from tests.cli.test_compile import linkforge
+from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
 
 SCHEMA = Draft7Validator(json.loads((ROOT / "docs" / "diff.schema.json").read_text("utf-8")))

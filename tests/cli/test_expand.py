@@ -8,7 +8,7 @@ import pytest
 
 from linkforge_compile import compile_file, compile_text, render_srdf, render_urdf, write_spec
 from linkforge_compile.syntax import YamlMap
-from tests.cli.test_compile import linkforge
+from tests.cli.in_process import linkforge
 from tests.test_examples import SPECS, name_of
 
 WHEEL = """\

@@ -6,7 +6,7 @@ import pytest
 
 from linkforge_compile.diagnostics.codes import REGISTER
 from linkforge_compile.resources import manual_folder
-from tests.cli.test_compile import linkforge
+from tests.cli.in_process import linkforge
 
 ARM = """\
 linkforge: 1

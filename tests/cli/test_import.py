@@ -6,7 +6,7 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.cli.main import main
-from tests.cli.test_compile import linkforge
+from tests.cli.in_process import linkforge
 
 ARM = """<robot name="arm"><link name="base"/>{}</robot>"""
 

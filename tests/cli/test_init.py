@@ -13,7 +13,7 @@ import yaml
 from linkforge_compile import check_file
 from linkforge_compile.cli.main import main
 from linkforge_compile.importers import xacro
-from tests.cli.test_compile import linkforge
+from tests.cli.in_process import linkforge
 
 FILES = {
     ".gitignore",

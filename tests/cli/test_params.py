@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.test_compile import box_height, linkforge
+from tests.cli.in_process import linkforge
+from tests.cli.test_compile import box_height
 
 ARM = """\
 linkforge: 1

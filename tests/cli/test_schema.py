@@ -5,7 +5,7 @@ from pathlib import Path
 
 from jsonschema import Draft7Validator
 
-from tests.cli.test_compile import linkforge
+from tests.cli.in_process import linkforge
 
 
 def test_the_schema_is_one_that_validators_take(tmp_path: Path):

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
+from tests.cli.in_process import linkforge
 from tests.cli.test_check import FAULTY
-from tests.cli.test_compile import PENDULUM, linkforge
+from tests.cli.test_compile import PENDULUM
 
 HEAVY = PENDULUM.replace("mass: 1.5", "mass: 1.5, inertia: {ixx: 0.1, iyy: 0.1, izz: 0.5}").replace("rod", "bar")
 """Compiles, with the one warning LF6003."""

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.test_compile import linkforge
+from tests.cli.in_process import linkforge
 from tests.cli.test_explain import ARM, CELL
 
 

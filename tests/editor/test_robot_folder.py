@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from tests.cli.test_compile import linkforge
+from tests.cli.in_process import linkforge
 from tests.editor.language_server import Fault, LanguageServer
 
 

@@ -9,7 +9,7 @@ from jsonschema import Draft7Validator
 
 from linkforge_compile.editor import TooManyFilesError, Vocabulary, specs_below, vocabulary_of, workspace_text
 from linkforge_compile.editor import specs as specs_module
-from tests.cli.test_compile import linkforge
+from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
 from tests.editor.language_server import Fault, LanguageServer
 
