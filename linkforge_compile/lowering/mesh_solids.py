@@ -26,8 +26,8 @@ from linkforge_compile.diagnostics.codes.physics import (
 from linkforge_compile.modules.file_text import TooLargeError, UnreadableError, file_bytes
 from linkforge_compile.modules.mesh_files import FindMesh, misspelt_part
 from linkforge_compile.modules.noted import used_from
+from linkforge_compile.modules.path_starts import looked_for, written_place
 from linkforge_compile.modules.paths import as_typed
-from linkforge_compile.modules.uses import written_place
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar
 
@@ -142,7 +142,7 @@ class MeshReader:
             return None
         if solid is None:
             name, near = misspelt_part(path)
-            notes = [Note(f"looked for it at {as_typed(path)}"), asked]
+            notes = [looked_for(path, written, where.node.span), asked]
             sink.report(NO_SUCH_MESH.at(where, path=written, name=name, near=near, notes=notes))
             return None
         scaled = solid.scaled(mesh.scale)

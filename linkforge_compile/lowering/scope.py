@@ -10,7 +10,8 @@ from linkforge_compile.diagnostics import Gaps
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.modules.mesh_files import no_mesh
-from linkforge_compile.modules.uses import from_base, written_place
+from linkforge_compile.modules.path_starts import written_place
+from linkforge_compile.modules.uses import from_base
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.ref import Located
 

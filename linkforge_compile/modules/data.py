@@ -10,13 +10,12 @@ from linkforge_compile.diagnostics.codes.files import DATA_NOT_PATH, TAG_NOT_NUM
 from linkforge_compile.expressions import FAULT, Fault, Scope, Value, as_text, evaluate, kind_name, parse_template
 from linkforge_compile.modules.loader import Loader
 from linkforge_compile.modules.uses import UseSite, locate
-from linkforge_compile.source import Span
 from linkforge_compile.syntax import Tags, YamlEntry, YamlFault, YamlNode, YamlScalar
 from linkforge_compile.units import number_text
 
 
 def data_of(
-    entry: YamlEntry, path: Value | Fault, site: Callable[[str, Span], UseSite], loader: Loader, sink: Diagnostics
+    entry: YamlEntry, path: Value | Fault, site: Callable[[str], UseSite], loader: Loader, sink: Diagnostics
 ) -> YamlNode | None:
     """Return what the file holds that an entry of `data` names, None where it cannot be had, which is reported.
 
@@ -30,7 +29,7 @@ def data_of(
         found = "nothing" if path is None else kind_name(path)
         sink.report(DATA_NOT_PATH.at(entry.value.span, name=entry.name, found=found))
         return None
-    written = site(text, entry.value.span)
+    written = site(text)
     target = locate(written, loader, sink)
     return loader.open_data(target.path, sink, _tags(sink), written.used) if target else None
 

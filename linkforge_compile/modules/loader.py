@@ -19,6 +19,7 @@ from linkforge_compile.modules.file_text import UnreadableError, file_bytes, fil
 from linkforge_compile.modules.includes import Whole, lay_together, reached
 from linkforge_compile.modules.noted import NotedSink, used_from
 from linkforge_compile.modules.packages import Package
+from linkforge_compile.modules.path_starts import looked_for
 from linkforge_compile.modules.paths import as_typed, names_in
 from linkforge_compile.modules.trees import known_source, tree_of
 from linkforge_compile.roots import ANYWHERE, Roots
@@ -33,7 +34,7 @@ class SpecFile:
     `folder` is where its relative paths start, with symbolic links as they were walked; None for a text that
     lies nowhere. `package` is the one through whose `package://` it was reached, and all that it uses from there.
     `included` are the files that were laid into the tree, each as if it stood by itself. `packages` are folders of
-    packages that its user declares for it, since it is written in a format that cannot declare any.
+    packages that the files around declare, for what they hand on and for formats that cannot declare any.
     """
 
     file: SourceFile
@@ -191,7 +192,7 @@ class Loader:
             self._unread.append(as_typed(path))
             return None
         if text is None:
-            notes = [Note(f"looked for it at {as_typed(path)}")] if used.where else []
+            notes = [looked_for(path, used.text, used.where)] if used.where else []
             near = names_in(path.parent)
             sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
             self._unread.append(as_typed(path))

@@ -183,7 +183,8 @@ class FileNames:
 
     def _data_value(self, entry: YamlEntry) -> Value | Fault:
         path = self.tree.value(entry.value)
-        node = data_of(entry, path, self.own.site, self._loader, self._sink)
+        place = self.tree.place(entry.value)
+        node = data_of(entry, path, lambda text: self.own.site(text, place), self._loader, self._sink)
         if node is None:
             return FAULT
         self.tree.settings[entry.name] = Setting("data", node, named_by=entry.value)

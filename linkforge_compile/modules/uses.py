@@ -12,14 +12,11 @@ from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
-from linkforge_compile.expressions import PathText
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.packages import Package, find_package
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.source import Span
-from linkforge_compile.source.ref import Located
-from linkforge_compile.syntax import YamlScalar
 
 SPEC_ENDINGS = (".yaml", ".yml")
 """How the names of spec files end."""
@@ -62,7 +59,7 @@ def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | Non
         return None
     target = locate(site, loader, sink)
     spec = loader.open(target.path, sink, package=target.package, used=site.used) if target else None
-    return replace(spec, packages=site.packages) if spec and lowered.endswith(_URDF_ENDING) else spec
+    return replace(spec, packages=site.packages) if spec else None
 
 
 def locate(site: UseSite, loader: Loader, sink: Diagnostics) -> Target | None:
@@ -96,20 +93,6 @@ def mesh_base(module: SpecFile, compiled: SpecFile) -> str:
     if compiled.folder is None:
         return f"{module.folder.absolute().as_posix()}/"
     return _steps(module.folder, compiled.folder)
-
-
-def written_place(path: Located) -> Span:
-    """Return the place in whose file a path starts: where it was written that a name of the same whole file hands on.
-
-    Included files are one with the file that includes them, but a relative path starts where its own file lies. That of
-    a parameter of type `file` starts where it is used already.
-    """
-    where = path.span
-    origin = where.origin
-    is_moved = isinstance(path, YamlScalar) and isinstance(path.value, PathText)
-    if origin is None or origin.is_data or is_moved or origin.span.file.outermost is not where.file.outermost:
-        return where
-    return origin.span
 
 
 def from_base(path: str, base: str) -> str:

@@ -1,5 +1,7 @@
 """Paths among the parameters, where they are passed on as text: written as the compiled file would."""
 
+import pytest
+
 from linkforge_compile import compile_file
 from tests.modules.assembling import assemble, metadata_of, write
 
@@ -124,3 +126,54 @@ def test_a_mesh_that_a_variable_names_is_where_the_file_that_writes_it_lies(tmp_
         "arms/parts/c.stl",
         "arms/parts/d.stl",
     ]
+
+
+@pytest.mark.parametrize("kind", ["file", "string"])
+def test_a_package_that_is_handed_on_is_one_of_the_file_that_hands_it_on(tmp_path, kind: str):
+    module = (
+        f"parameters: {{table: {{type: {kind}}}}}\ndata: {{content: $(table)}}\nmetadata: {{mass: $(content.mass)}}"
+    )
+    between = f"""
+        parameters: {{table: {{type: {kind}}}}}
+        packages: {{other: .}}
+        modules: {{hand: {{use: hand.robot.yaml, with: {{table: $(table)}}}}}}
+    """
+    write(tmp_path, {"arms/hand.robot.yaml": module, "arms/arm.robot.yaml": between})
+    (tmp_path / "tables").mkdir()
+    (tmp_path / "tables" / "masses.yaml").write_text("mass: 3\n")
+    use = "packages: {mine: tables}\nmodules: {arm: {use: arms/arm.robot.yaml, with: {table: package://mine/masses.yaml}}}"
+    found = assemble(use, folder=tmp_path)
+    assert found.told == []
+    assert metadata_of(found.instance.modules[0].modules[0]) == {"mass": 3}
+
+
+def test_a_module_s_own_package_comes_before_its_user_s(tmp_path):
+    write(
+        tmp_path, {"arms/arm.robot.yaml": "packages: {p: tables}\ndata: {d: package://p/d.yaml}\nmetadata: {d: $(d.d)}"}
+    )
+    for folder, value in (("arms/tables", 1), ("tables", 2)):
+        (tmp_path / folder).mkdir(parents=True)
+        (tmp_path / folder / "d.yaml").write_text(f"d: {value}\n")
+    found = assemble("packages: {p: tables}\nmodules: {arm: {use: arms/arm.robot.yaml}}", folder=tmp_path)
+    assert metadata_of(found.instance.modules[0]) == {"d": 1}
+
+
+@pytest.mark.parametrize(
+    ("kind", "said"),
+    [
+        (
+            "string",
+            "arms/gone.yaml: a path in text starts at the file that uses it; "
+            "declare 'type: file' for one that starts where it is written",
+        ),
+        ("file", "gone.yaml"),
+    ],
+)
+def test_a_path_that_leads_nowhere_says_where_it_starts(tmp_path, monkeypatch, kind: str, said: str):
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path, {"arms/arm.robot.yaml": f"parameters: {{t: {{type: {kind}}}}}\ndata: {{d: $(t)}}\nlinks: {{a: }}"})
+    write(tmp_path, {"robot.robot.yaml": "modules: {arm: {use: arms/arm.robot.yaml, with: {t: gone.yaml}}}"})
+    (fault,) = compile_file("robot.robot.yaml").diagnostics
+    assert fault.code.id == "LF3001"
+    message = fault.notes[0].message
+    assert message == f"looked for it at {said}"

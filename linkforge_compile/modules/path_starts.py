@@ -1,0 +1,41 @@
+"""Where a relative path starts that an expression hands on, and what is said of it where it leads to no file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from linkforge_compile.diagnostics import Note
+from linkforge_compile.expressions import PathText
+from linkforge_compile.modules.paths import as_typed
+from linkforge_compile.source import Span
+from linkforge_compile.source.ref import Located
+from linkforge_compile.syntax import YamlScalar
+
+
+def written_place(path: Located) -> Span:
+    """Return the place in whose file a path starts: where it was written that a name of the same whole file hands on.
+
+    Included files are one with the file that includes them, but a relative path starts where its own file lies. That of
+    a parameter of type `file` starts where it is used already.
+    """
+    where = path.span
+    origin = where.origin
+    is_moved = isinstance(path, YamlScalar) and isinstance(path.value, PathText)
+    if origin is None or origin.is_data or is_moved or _is_foreign(where):
+        return where
+    return origin.span
+
+
+def looked_for(path: Path, text: str, where: Span) -> Note:
+    """Return where a file was looked for that a text at a place names, and why there if another file wrote it."""
+    is_relative = "://" not in text and not Path(text).is_absolute()
+    if not is_relative or isinstance(text, PathText) or not _is_foreign(where):
+        return Note(f"looked for it at {as_typed(path)}")
+    why = "a path in text starts at the file that uses it; declare 'type: file' for one that starts where it is written"
+    return Note(f"looked for it at {as_typed(path)}: {why}")
+
+
+def _is_foreign(where: Span) -> bool:
+    """Whether what an expression hands on at a place was written in a file that is not one with that of the place."""
+    origin = where.origin
+    return origin is not None and origin.span.file.outermost is not where.file.outermost
