@@ -15,8 +15,8 @@ from linkforge_compile.lowering.free_part import free_elements, is_unsaid
 from linkforge_compile.lowering.joint import joints_of, positions_of_type
 from linkforge_compile.lowering.quantities import NOT_NEGATIVE, ZERO_TO_ONE
 from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlEntry, YamlMap
-from linkforge_compile.units import Dimension, number_text
+from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlScalar
+from linkforge_compile.units import Dimension, is_in_full, number_text
 
 
 def lower_gazebo_elements(file: Fields) -> Iterator[GazeboElement]:
@@ -127,8 +127,12 @@ def _tags_of_block(block: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
 
 
 def _number(block: Fields, key: str, *dimensions: Dimension) -> str | None:
+    """Read a number of Gazebo's as text: in the spelling of its author where that is written out, as URDFs have it."""
     number = block.number(key, *dimensions)
-    return None if number is None else number_text(number)
+    if number is None:
+        return None
+    node = block.said(key)
+    return node.text if isinstance(node, YamlScalar) and is_in_full(node.text) else number_text(number)
 
 
 def _of(*dimensions: Dimension) -> Callable[[Fields, str], str | None]:

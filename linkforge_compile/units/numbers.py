@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from numbers import Integral
+
+_IN_FULL = re.compile(r"-?(?:0|[1-9][0-9]*)\.[0-9]+")
 
 
 def number_text(value: float) -> str:
@@ -18,6 +21,11 @@ def number_text(value: float) -> str:
             return str(int(value))
         value = float(value)
     return _text_of_double(value)
+
+
+def is_in_full(text: str) -> bool:
+    """Whether a text is a number that is written out with a point, as in `1.0` and `0.50`."""
+    return _IN_FULL.fullmatch(text) is not None
 
 
 @lru_cache(maxsize=4096)  # a robot says the same numbers again and again

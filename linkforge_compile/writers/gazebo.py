@@ -10,7 +10,7 @@ from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.link import PHYSICS_TAGS, LinkPhysics
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.syntax import YamlMap, YamlNode, scalar_value
-from linkforge_compile.units import number_text
+from linkforge_compile.units import is_in_full, number_text
 from linkforge_compile.writers.pen import Pen
 
 if TYPE_CHECKING:
@@ -112,11 +112,13 @@ def _leading_tags(properties: Mapping[str, FreePart]) -> dict[str, FreePart]:
 
 def _is_number(text: str) -> bool:
     value = scalar_value(text)
-    return isinstance(value, int | float) and not isinstance(value, bool) and number_text(float(value)) == text
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return False
+    return number_text(float(value)) == text or is_in_full(text)
 
 
 def _is_whole_number(text: str) -> bool:
-    return _is_number(text) and float(text).is_integer()
+    return _is_number(text) and not is_in_full(text) and float(text).is_integer()
 
 
 def _is_flag(text: str) -> bool:

@@ -323,7 +323,7 @@ def test_a_number_comes_back_to_the_same_double(read, written: str, out: str):
 def test_gazebo_blocks_stand_beside_what_they_are_about(read):
     text = read("""<link name="a"/>
       <gazebo><static>true</static></gazebo>
-      <gazebo reference="a"><mu1>0.2</mu1><mu2>0.20</mu2><material>Gazebo/Red</material>
+      <gazebo reference="a"><mu1>0.20</mu1><mu2>2e-1</mu2><material>Gazebo/Red</material>
         <sensor name="eye" type="camera"/>
         <plugin name="p" filename="p.so"><ros><namespace>/x</namespace></ros><j>a</j><j>b</j></plugin></gazebo>
       <gazebo reference="a"><plugin name="p" filename="p.so"><x/><y/><x>1</x></plugin></gazebo>
@@ -332,9 +332,9 @@ def test_gazebo_blocks_stand_beside_what_they_are_about(read):
         links:
           a:
             gazebo:
-              - mu1: 0.2
+              - mu1: 0.20
                 material: Gazebo/Red
-                properties: {mu2: 0.20, sensor: {_name: $(prefix)eye, _type: camera}}
+                properties: {mu2: 2e-1, sensor: {_name: $(prefix)eye, _type: camera}}
                 plugins:
                   p: {filename: p.so, parameters: {ros: {namespace: /x}, j: [a, b]}}
               - plugins: {p: {filename: p.so, extra: [<x/>, <y/>, <x>1</x>]}}

@@ -43,6 +43,7 @@ def test_the_tags_of_sdformat_are_read_with_their_units():
             gazebo:
               properties: {custom: 1.0}
               mu1: 8e-1
+              mu2: 1.0
               maxVel: 1 cm/s
               minDepth: 1 mm
               maxContacts: 4
@@ -52,6 +53,7 @@ def test_the_tags_of_sdformat_are_read_with_their_units():
     """).gazebo_elements
     assert block.properties == {
         "mu1": "0.8",
+        "mu2": "1.0",
         "maxVel": "0.01",
         "minDepth": "0.001",
         "maxContacts": "4",

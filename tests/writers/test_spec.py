@@ -159,7 +159,7 @@ def test_a_block_stands_beside_what_it_is_about_as_long_as_that_keeps_the_order(
     blocks = [
         GazeboElement("b", {"mu1": "0.9", "other": "1.10"}),
         GazeboElement("b", static=True),
-        GazeboElement("a", {"kp": "1.10"}, [GazeboPlugin("p", "p.so"), GazeboPlugin("p", "q.so")]),
+        GazeboElement("a", {"kp": "1e6"}, [GazeboPlugin("p", "p.so"), GazeboPlugin("p", "q.so")]),
         GazeboElement("b", {"later": ""}),
     ]
     assert spec(links=[Link("a"), Link("b")], gazebo_elements=blocks) == lines("""
@@ -170,7 +170,7 @@ def test_a_block_stands_beside_what_it_is_about_as_long_as_that_keeps_the_order(
 
         gazebo:
           - reference: a
-            properties: {kp: 1.10}
+            properties: {kp: 1e6}
             plugins: [{name: p, filename: p.so}, {name: p, filename: q.so}]
           - {reference: b, properties: {later: ""}}
     """)

@@ -15,7 +15,7 @@ from linkforge_compile.importers.urdf.free_part import (
 )
 from linkforge_compile.importers.xml import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode
-from linkforge_compile.units import number_text
+from linkforge_compile.units import is_in_full, number_text
 
 
 class Blocks:
@@ -110,7 +110,8 @@ def _parameters(plugin: Reading) -> YamlNode | None:
 
 
 def _is_number(child: XmlElement) -> bool:
-    return exact_number(child) is not None
+    is_in_full_here = _is_text(child) and is_in_full(child.text.strip()) and number_of(child.text) is not None
+    return exact_number(child) is not None or is_in_full_here
 
 
 def _is_share(child: XmlElement) -> bool:
