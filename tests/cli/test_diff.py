@@ -120,6 +120,23 @@ def test_a_xacro_takes_its_arguments(arms: Path):
     assert "> c: was 'b'" in run.stdout
 
 
+def test_each_robot_takes_of_the_parameters_what_it_has(arms: Path):
+    pytest.importorskip("xacro")
+    (arms / "a.urdf.xacro").write_text(
+        '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="link" default="b"/>'
+        '<xacro:arg name="reach" default="1"/><link name="$(arg link)$(arg reach)"/></robot>'
+    )
+    (arms / "b.robot.yaml").write_text(
+        "linkforge: 1\nname: arm\nparameters: {reach: 1, mode: fast}\nlinks: {'c$(reach)': }\n"
+    )
+    both = ("diff", "a.urdf.xacro", "b.robot.yaml")
+    run = linkforge(*both, "link:=c", "reach:=2", "mode:=slow", cwd=arms)
+    assert (run.returncode, run.stderr) == (0, "")
+    run = linkforge(*both, "lnk:=c", cwd=arms)
+    assert run.returncode == 2
+    assert "no parameter named 'lnk'; did you mean 'link'?" in run.stderr
+
+
 def test_json_is_as_its_schema_says(arms: Path):
     run = linkforge("diff", "old.robot.yaml", "new.robot.yaml", "--json", cwd=arms)
     told = json.loads(run.stdout)

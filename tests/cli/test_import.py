@@ -1,10 +1,14 @@
 """`linkforge import` on the command line."""
 
+import sys
+from io import StringIO
 from pathlib import Path
+from threading import Event
 
 import pytest
 
-from linkforge_compile import compile_file
+from linkforge_compile import Import, compile_file
+from linkforge_compile.cli import waiting
 from linkforge_compile.cli.main import main
 from tests.cli.in_process import linkforge
 
@@ -110,6 +114,31 @@ def test_an_srdf_without_its_robot_is_refused(capfd: pytest.CaptureFixture[str])
 def test_an_argument_is_not_swallowed(arm, words: list[str], capfd: pytest.CaptureFixture[str]):
     assert main(["import", arm(), *words]) == 1
     assert "error: no parameter named 'reach'" in capfd.readouterr().err
+
+
+def test_a_spec_is_not_imported(capfd: pytest.CaptureFixture[str]):
+    assert main(["import", "arm.robot.yaml"]) == 2
+    assert "'arm.robot.yaml' is a spec already; import takes a URDF" in capfd.readouterr().err
+
+
+def test_who_waits_at_a_terminal_is_told_for_what(arm, monkeypatch: pytest.MonkeyPatch):
+    class Terminal(StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    def slow(*_: object, **__: object) -> Import:
+        is_told.wait(5)
+        return Import("linkforge: 1\n", ())
+
+    terminal, is_told = Terminal(), Event()
+    say = waiting.say
+    monkeypatch.setattr(waiting, "say", lambda *words: (say(*words), is_told.set()))
+    monkeypatch.setattr(waiting, "PATIENCE", 0.01)
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setattr("linkforge_compile.importing.import_urdf", slow)
+    urdf = arm()
+    assert main(["import", urdf]) == 0
+    assert terminal.getvalue() == f"still reading {urdf}; Ctrl-C ends it\n"
 
 
 def test_the_robot_itself_is_never_written_over(arm, capfd: pytest.CaptureFixture[str]):

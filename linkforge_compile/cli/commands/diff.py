@@ -23,10 +23,10 @@ DIFFERENT, NO_ROBOT = 1, 2
 _SIDES = ("before", "after")
 
 _EXAMPLES = """\
-A and B are specs, URDFs (.urdf, .xml) or xacros; `-p`, `--variant` and `--package` go to all among them that take them,
-`--before` and `--after` to A or B alone, before what `-p` and a variant say. The semantic part of a URDF is its SRDF,
-which `--before-srdf` and `--after-srdf` name; without it that part is left out, which is said. Only errors
-of theirs are told; `linkforge check` tells the rest.
+A and B are specs, URDFs (.urdf, .xml) or xacros. `-p` goes to each of them that has the parameter and `--variant` to
+specs; `--before` and `--after` go to A or B alone, and come before what `-p` and a variant say. The semantic part of a
+URDF is its SRDF, which `--before-srdf` and `--after-srdf` name; without it that part is left out, which is said. Only
+errors of theirs are told; `linkforge check` tells the rest.
 Exit codes: 0 for the same robot, 1 for another one, 2 for wrong usage and for what is no robot.
 
 examples:
@@ -78,8 +78,10 @@ def run(arguments: argparse.Namespace) -> int:
     sides = [_side(side, word, arguments) for side, word in zip(_SIDES, words, strict=True)]
     common = [*arguments.parameters, *assignments]
     _refuse_what_none_takes(sides, common, arguments.variant)
+    taken = _shared_out(common, sides, arguments)
     before, after = (
-        _robot(side, _for_side(name, side, common, arguments)) for name, side in zip(_SIDES, sides, strict=True)
+        _robot(side, _for_side(name, side, pairs, arguments))
+        for name, side, pairs in zip(_SIDES, sides, taken, strict=True)
     )
     if before is None or after is None:
         return NO_ROBOT
@@ -124,6 +126,27 @@ def _refuse_what_none_takes(sides: Sequence[Side], common: Sequence[str], varian
 
 def _takes_parameters(side: Side) -> bool:
     return not _is_urdf(side.word) or any(_is_xacro(file) for file in (side.word, side.srdf) if file)
+
+
+def _shared_out(common: Sequence[str], sides: Sequence[Side], arguments: argparse.Namespace) -> list[list[str]]:
+    """Return what each side takes of what is set for both: what it has, and what none has, to be told there."""
+    is_unknown = any(side.word == "-" for side in sides)  # which can be read once only
+    if not common or is_unknown or len({(side.word, side.srdf) for side in sides}) == 1:
+        return [list(common) for _ in sides]
+    names = [_parameters_of(side, arguments) for side in sides]
+    known = frozenset().union(*names)
+    return [[pair for pair in common if (name := name_set_by(pair)) in own or name not in known] for own in names]
+
+
+def _parameters_of(side: Side, arguments: argparse.Namespace) -> frozenset[str]:
+    """Return the names of what a side takes."""
+    from linkforge_compile.pipeline import parameters_of
+
+    files = [side.word] if not _is_urdf(side.word) or _is_xacro(side.word) else []
+    files += [side.srdf] if side.srdf and _is_xacro(side.srdf) else []
+    packages = packages_of(arguments)
+    listings = (parameters_of(file, packages=packages, allow_outside=arguments.allow_outside)[0] for file in files)
+    return frozenset(one.name for listing in listings if listing for one in listing.parameters)
 
 
 def _for_side(name: str, side: Side, common: Iterable[str], arguments: argparse.Namespace) -> argparse.Namespace:

@@ -16,6 +16,7 @@ from linkforge_compile.cli.options import (
 )
 from linkforge_compile.cli.targets import imported_spec
 from linkforge_compile.cli.telling import add_telling_options, say, tell
+from linkforge_compile.cli.waiting import told_when_long
 
 if TYPE_CHECKING:
     import argparse
@@ -52,21 +53,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     files, assignments = split_assignments(arguments.words)
     urdf = one_spec(files)
-    _refuse_srdf(urdf)
+    _refuse_others(urdf)
     sources = {Path(file).resolve() for file in (urdf, arguments.srdf) if file is not None}
     if arguments.output is not None and Path(arguments.output).resolve() in sources:
         raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
     output = imported_spec(urdf, arguments.output) if arguments.output is not None else None
     from linkforge_compile.importing import import_urdf
 
-    imported = import_urdf(
-        urdf,
-        srdf=arguments.srdf,
-        arguments=[*arguments.parameters, *assignments],
-        packages=packages_of(arguments),
-        allow_outside=arguments.allow_outside,
-        output=output.parent if output else None,
-    )
+    with told_when_long(urdf, arguments):
+        imported = import_urdf(
+            urdf,
+            srdf=arguments.srdf,
+            arguments=[*arguments.parameters, *assignments],
+            packages=packages_of(arguments),
+            allow_outside=arguments.allow_outside,
+            output=output.parent if output else None,
+        )
     is_faulty = tell(imported.diagnostics, arguments) or imported.has_errors
     if imported.text is None or (arguments.strict and (imported.losses or is_faulty)):
         return FAULTY_SPEC
@@ -74,10 +76,12 @@ def run(arguments: argparse.Namespace) -> int:
     return FAULTY_SPEC if is_faulty else OK
 
 
-def _refuse_srdf(urdf: str) -> None:
-    """Refuse an SRDF where its robot belongs."""
+def _refuse_others(urdf: str) -> None:
+    """Refuse what is no URDF and no xacro of one: an SRDF, and what is a spec already."""
     if urdf.lower().endswith((".srdf", ".srdf.xacro")):
         raise UsageError(f"'{urdf}' is an SRDF; give it with its robot: linkforge import ROBOT.urdf --srdf {urdf}")
+    if urdf.lower().endswith((".yaml", ".yml")):
+        raise UsageError(f"'{urdf}' is a spec already; import takes a URDF or a xacro of one")
 
 
 def _put(text: str, output: Path | None, arguments: argparse.Namespace) -> None:
