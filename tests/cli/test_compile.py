@@ -1,4 +1,4 @@
-"""`linkforge compile`, run as a program."""
+"""`linkforge compile`, run as a program where that may make a difference."""
 
 import json
 import os
@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
+
+from tests.cli.in_process import linkforge
 
 PENDULUM = """\
 linkforge: 1
@@ -25,7 +27,8 @@ joints:
 SEMANTIC = "semantic: {groups: {swing: {joints: [hinge]}}}\n"
 
 
-def linkforge(*words: str, cwd: Path, stdin: str = "", **env: str) -> subprocess.CompletedProcess[str]:
+def program(*words: str, cwd: Path, stdin: str = "", **env: str) -> subprocess.CompletedProcess[str]:
+    """Run `linkforge` in a process of its own."""
     return subprocess.run(
         [sys.executable, "-m", "linkforge_compile", *words],
         cwd=cwd,
@@ -49,7 +52,7 @@ def box_height(urdf: str) -> str:
 
 
 def test_urdf_goes_to_standard_output_and_nothing_else_does(pendulum: Path):
-    run = linkforge("compile", "swing.robot.yaml", cwd=pendulum)
+    run = program("compile", "swing.robot.yaml", cwd=pendulum)
     assert (run.returncode, run.stderr) == (0, "")
     robot = etree.fromstring(run.stdout.encode())
     assert robot.get("name") == "pendulum"
@@ -148,7 +151,7 @@ def test_a_mesh_is_found_or_not_whether_or_not_the_output_folder_is_there_alread
 
 
 def test_a_spec_comes_from_standard_input(pendulum: Path):
-    run = linkforge("compile", "-", cwd=pendulum, stdin=PENDULUM)
+    run = program("compile", "-", cwd=pendulum, stdin=PENDULUM)
     assert run.returncode == 0
     assert box_height(run.stdout) == "0.5"
 
@@ -156,7 +159,7 @@ def test_a_spec_comes_from_standard_input(pendulum: Path):
 def test_errors_are_told_with_line_and_caret_and_leave_the_old_output(pendulum: Path):
     (pendulum / "swing.urdf").write_text("old")
     (pendulum / "swing.robot.yaml").write_text(PENDULUM.replace("child: rod", "child: rodd"))
-    run = linkforge("compile", "swing.robot.yaml", "-o", "swing.urdf", cwd=pendulum)
+    run = program("compile", "swing.robot.yaml", "-o", "swing.urdf", cwd=pendulum)
     assert run.returncode == 1
     assert (pendulum / "swing.urdf").read_text() == "old"
     lines = run.stderr.splitlines()
@@ -238,8 +241,8 @@ def test_standard_input_that_is_no_text_is_told(pendulum: Path):
 
 def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp_path_factory: pytest.TempPathFactory):
     elsewhere = tmp_path_factory.mktemp("elsewhere")
-    here = linkforge("compile", "swing.robot.yaml", cwd=pendulum, PYTHONHASHSEED="1")
-    there = linkforge("compile", str(pendulum / "swing.robot.yaml"), cwd=elsewhere, PYTHONHASHSEED="2")
+    here = program("compile", "swing.robot.yaml", cwd=pendulum, PYTHONHASHSEED="1")
+    there = program("compile", str(pendulum / "swing.robot.yaml"), cwd=elsewhere, PYTHONHASHSEED="2")
     assert here.stdout == there.stdout
 
 
