@@ -83,6 +83,8 @@ class Draft:
         if value is None:
             return None
         digits = text.strip() if _TIDY.fullmatch(text.strip()) else number_text(value)
+        if not value:
+            digits = digits.removeprefix("-")
         if unit in _DEGREES and (degrees := _degrees(value, _DEGREES[unit])):
             return YamlScalar(degrees, degrees, span)
         if unit is Dimension.ANGLE and abs(value) > WIDEST_ANGLE:

@@ -252,8 +252,16 @@ def tidy(raw: str) -> str:
     if "<![CDATA[" in raw or _BROKEN_VALUE.search(raw) or any("\n" in text and text.strip() for text in texts):
         return raw
     lines = raw.replace("\r\n", "\n").replace("\r", "\n")
-    whole_comments = _COMMENT.sub(lambda comment: comment[0].replace("\n", _LINE_END), lines)
+    closed = _TAG_OR_COMMENT.sub(_without_space_before_its_end, lines)
+    whole_comments = _COMMENT.sub(lambda comment: comment[0].replace("\n", _LINE_END), closed)
     first, *others = [line.rstrip() for line in whole_comments.split("\n")]
     others = [_INDENT.sub(lambda space: space[0].expandtabs(2), line) for line in others if line]
     margin = min((len(line) - len(line.lstrip(" ")) for line in others), default=0)
     return "\n".join((first, *(line[margin:] for line in others))).replace(_LINE_END, "\n")
+
+
+def _without_space_before_its_end(found: re.Match[str]) -> str:
+    """Return `<tag />` as `<tag/>`, and comments as they are; so is what may end in the middle of an attribute."""
+    tag = found[0]
+    is_whole = tag.endswith("/>") and not tag.startswith("<!--") and not (tag.count('"') % 2 or tag.count("'") % 2)
+    return f"{tag[:-2].rstrip()}/>" if is_whole else tag

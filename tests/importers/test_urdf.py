@@ -523,3 +523,12 @@ def test_a_quaternion_is_no_turn_to_readers_of_urdf_1_0(tmp_path: Path):
     assert whole.text is not None
     assert not whole.losses
     assert "rpy" not in whole.text
+
+
+def test_signs_of_zero_and_spaces_of_generators_stay_behind(read):
+    text = read("""<link name="a"/> <link name="b"/>
+      <joint name="j" type="fixed"><parent link="a"/><child link="b"/><axis xyz="0 0 -0" />
+        <origin xyz="1 -0.0 0" rpy="0 0 0"/><note say="a /> b" /></joint>""")
+    assert "origin: [1, 0.0, 0]" in text
+    assert '<axis xyz="0 0 -0"/>' in text
+    assert '<note say="a /> b" />' in text
