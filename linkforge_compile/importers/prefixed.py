@@ -54,8 +54,12 @@ _NAMES_BY_TEXT = (
 )
 """Elements whose text is the name, each with the tag around it."""
 
-_MARKUP = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<(?P<end>/?)(?P<tag>[^\s/>!?]+)[^<>]*?(?P<empty>/?)>", re.DOTALL)
-_ATTRIBUTE = re.compile(r"""(?<=\s)(?P<name>[^\s=/>]+)\s*=\s*(?P<quote>["'])(?P<value>[^"']*)(?P=quote)""")
+_MARKUP = re.compile(
+    r"""<!--.*?-->|<!\[CDATA\[.*?\]\]>|<(?P<end>/?)(?P<tag>[^\s/<>!?"']+)(?:[^<>"']|"[^"]*"|'[^']*')*>""", re.DOTALL
+)
+"""A comment, a section of characters, or a tag whole: a `>` may stand in an attribute."""
+
+_ATTRIBUTE = re.compile(r"""(?<=\s)(?P<name>[^\s=/>"']+)\s*=\s*(?:"(?P<double>[^"]*)"|'(?P<single>[^']*)')""")
 
 
 def place_of(tag: str, around: str | None) -> str | None:
@@ -97,7 +101,7 @@ def raw_with_prefix(raw: str, around: str) -> str:
             continue
         place = place_of(tag, places[-1])
         pieces.append(_tag_with_prefix(found[0], place) if place in _NAMES else found[0])
-        if not found["empty"]:
+        if not found[0].endswith("/>"):
             is_name = names_by_text(tag, places[-1])
             places.append(place)
     return "".join((*pieces, raw[text_before:]))
@@ -107,8 +111,9 @@ def _tag_with_prefix(start: str, place: str | None) -> str:
     def named(found: re.Match[str]) -> str:
         if not names(place, found["name"]):
             return found[0]
-        before = found.start("value") - found.start()
-        return f"{found[0][:before]}{_with_prefix(found['value'])}{found['quote']}"
+        group = "single" if found["double"] is None else "double"
+        before, behind = found.start(group) - found.start(), found.end(group) - found.start()
+        return f"{found[0][:before]}{_with_prefix(found[group])}{found[0][behind:]}"
 
     return _ATTRIBUTE.sub(named, start)
 

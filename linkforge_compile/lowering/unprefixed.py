@@ -117,6 +117,7 @@ def _topics_and_frames(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
     found: dict[str, Span] = {}
     for text, where, key in passed.plugin_texts:
         is_told = text in robot.links or text in robot.joints
+        # An argument of a xacro may have put it there.
         has_prefix = bool(passed.prefix) and passed.prefix in text
         if _has_no_expressions(where) and _names_topic_or_frame(key, text) and not (is_told or has_prefix):
             found.setdefault(text, where)

@@ -1,5 +1,6 @@
 """A robot in URDF as a module, unchanged: mounted, prefixed, overridden, and told of where it stands."""
 
+import re
 from pathlib import Path
 from shutil import copy
 
@@ -125,6 +126,9 @@ SENSORS = """\
 """
 
 
+USED = "g: {use: vendor/gripper.urdf, parent: table}"
+
+
 def test_names_in_sensors_take_the_prefix_where_they_are_certain(tmp_path):
     urdf = render_urdf(
         compiled(
@@ -161,6 +165,16 @@ def test_topics_and_frames_that_may_be_anything_are_told_once_with_all_of_them(t
             "{finger: {gazebo: {1: {properties: {sensor: {plugin: {on: ...}}}}}}}}' where this file is used",
         ),
     ]
+
+
+def test_the_override_that_is_told_reaches_the_name(tmp_path):
+    gripper = GRIPPER.replace("</robot>", SENSORS)
+    (one,) = (one for one in told(compiled(tmp_path, USED, gripper)) if "LF5704" in one)
+    [override] = re.findall("by '(override: .*)' where", one)
+    (tmp_path / "again").mkdir()
+    again = compiled(tmp_path / "again", USED.replace("}", f", {override.replace('...', 'g_palm')}}}"), gripper)
+    assert "<on>g_palm</on>" in render_urdf(again.result())
+    assert not [line for line in told(again) if "LF5704" in line]
 
 
 def test_a_plugin_is_offered_the_joints_of_its_own_use(tmp_path):
