@@ -23,6 +23,8 @@ from linkforge_compile.core.models.ros2_control import Ros2Control
 
 LONGEST = 70
 """Characters that a word of somebody else, such as raw XML, may take in a line."""
+_LONGEST_PART = 120
+"""Characters of what a part says."""
 _LEAD = 20
 """How many of them stand before the place from which two long texts differ."""
 
@@ -45,7 +47,7 @@ def told(value: object, measure: Measure = BARE, *, slides: bool = False, digits
             numbers = (number_told(number, bare, digits) for number in value.to_tuple())
             return f"{' '.join(numbers)} {measure.unit}".rstrip()
         case Transform():
-            return f"at {told(value.xyz, LENGTH)}, rpy {told(value.rpy, ANGLE)}"
+            return _pose_told(value)
         case Mapping():
             return ", ".join(f"{name} {told(one)}" for name, one in value.items()) or "nothing"
         case tuple() | list():
@@ -74,7 +76,17 @@ def as_json(value: object) -> str:
 def shortened(text: str, longest: int = LONGEST) -> str:
     """Return a text on one line of bearable length."""
     line = " ".join(text.split())
-    return line if len(line) <= longest else f"{line[: longest - 1]}…"
+    if len(line) <= longest:
+        return line
+    # Of a path both ends matter.
+    end = 0 if " " in line else longest // 2
+    return f"{line[: longest - 1 - end]}…{line[len(line) - end :]}"
+
+
+def _pose_told(pose: Transform) -> str:
+    facts = [f"at {told(pose.xyz, LENGTH)}"] if any(pose.xyz) else []
+    facts += [f"rpy {told(pose.rpy, ANGLE)}"] if any(pose.rpy) else []
+    return ", ".join(facts) or "at the origin"
 
 
 def _part_told(part: object, *, slides: bool) -> str:
@@ -90,7 +102,7 @@ def _part_told(part: object, *, slides: bool) -> str:
         case Ros2Control():
             return _hardware_told(part)
         case _ if is_part(part):
-            return shortened(", ".join(_fields_told(part, slides=slides)) or "as by default")
+            return shortened(", ".join(_fields_told(part, slides=slides)) or "as by default", _LONGEST_PART)
     return shortened(str(part))
 
 
@@ -128,7 +140,9 @@ def _fields_told(part: object, *, slides: bool) -> Iterator[str]:
         key = key_of_field(one.name)
         if isinstance(value, tuple) and value and is_part(value[0]):
             yield _members_told(key, value)
-        elif is_part(value) and not isinstance(value, Vector3 | Color | Transform):
+        elif key == "geometry" or isinstance(value, Transform):
+            yield told(value)
+        elif is_part(value) and not isinstance(value, Vector3 | Color):
             yield f"{key} ({told(value, slides=slides)})"
         else:
             yield f"{key} {told(value, measure_of(type(part), one.name, slides=slides))}"

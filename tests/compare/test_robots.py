@@ -158,6 +158,19 @@ def test_two_values_are_told_as_far_as_it_takes_to_see_that_they_differ():
     ]
 
 
+def test_a_shape_that_is_new_is_told_with_its_size_and_where_it_is():
+    assert told(
+        "cart: {visual: {sphere: {radius: 0.1}}}",
+        "cart: {visual: [{sphere: {radius: 0.1}}, {box: [1, 1, 2], origin: [0, 0, 5 mm]}]}",
+    ) == ["added links/cart/visual/1: box, size 1 1 2 m, at 0 0 0.005 m"]
+
+
+def test_of_a_long_path_both_ends_are_told():
+    path = f"package://{'_'.join(['long'] * 20)}/meshes/visual/upper.stl"
+    [text] = told("package://arm/upper.stl", path)
+    assert text.endswith("→ package://long_long_long_long_long…g_long_long/meshes/visual/upper.stl")
+
+
 def test_a_state_that_is_new_is_told_with_its_positions_and_their_units():
     text = "added semantic/group_states/arm/out: elbow 90 deg, rail 0.5 m"
     assert told("home: {elbow: 0, rail: 0}", "home: {elbow: 0, rail: 0}, out: {elbow: 90 deg, rail: 0.5}") == [text]
