@@ -79,6 +79,8 @@ class Code:
     severity: Severity
     message: str
     blame: Blame = Blame.USER
+    is_of_a_name: bool = False
+    """Whether it tells of a name that is declared nowhere: all who use the name have one cause."""
 
     @property
     def title(self) -> str:

@@ -233,6 +233,8 @@ class Fields:
         if not isinstance(node, YamlList):
             self.tell_kind(node, field, _list_meant(node, counts) or f"a list of {expected}")
             return None
+        if any(isinstance(item, YamlFault) for item in node):
+            return None
         if len(node) not in counts:
             self.tell(WRONG_COUNT, node, field=field, expected=expected, count=len(node))
             return None

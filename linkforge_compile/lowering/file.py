@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.constants import IR_VERSION
@@ -23,7 +23,7 @@ from linkforge_compile.lowering.material import lower_materials
 from linkforge_compile.lowering.mesh_solids import MeshReader
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
 from linkforge_compile.units import Quantity
 
 if TYPE_CHECKING:
@@ -59,6 +59,7 @@ def lower_file(
     file = Fields(tree, "robot", sink, trail)
     materials = lower_materials(file, FileScope(mesh_bases))
     lost_materials = gaps_of(name for name, material in materials.items() if material is None)
+    lost_materials |= gaps_of(names_at_fault(tree))
     # What has no name is a part of a robot: the file that includes it has the names that it lacks.
     is_part = tree.get("name") is None
     if is_part or _has_lost(tree, _SECTIONS_OF_MATERIALS):
@@ -88,7 +89,9 @@ def lower_file(
     )
     lost = [name for parts in (links, joints) for name, part in parts.items() if part is None]
     lost += _without_mimic(tree.get("joints"))
-    lost += [name for node in (tree, tree.get("semantic")) for name in _under_unknown_keys(node)]
+    lost += [name for node in (tree, tree.get("semantic")) for name in names_at_fault(node)]
+    modules = (entry for entry in tree if isinstance(entry.value, YamlFault) and "use" in entry.value.keys)
+    lost += [f"{entry.name}_$(…)" for entry in modules]  # whatever name it may have brought
     gaps = gaps_of([*lost, *(semantic.lost if semantic else ())])
     if is_part or _has_lost(tree, _SECTIONS_OF_NAMES) or _has_lost(tree.get("semantic"), _SECTIONS_OF_SEMANTIC_NAMES):
         gaps |= Gaps(prefixes=("",))
@@ -99,14 +102,6 @@ def _without_mimic(joints: YamlNode | None) -> list[str]:
     """Return the joints that follow another, but whose `mimic` has a fault, so that nobody knows which."""
     entries = joints if isinstance(joints, YamlMap) else ()
     return [entry.name for entry in entries if _has_lost(entry.value, ("mimic",))]
-
-
-def _under_unknown_keys(node: YamlNode | None) -> Iterator[str]:
-    """Yield the names that may be written under keys which a map does not have: `shoulder: {type: fixed, …}`."""
-    for entry in node if isinstance(node, YamlMap) else ():
-        if isinstance(entry.value, YamlFault) and entry.value.keys:
-            yield entry.name
-            yield from entry.value.keys
 
 
 def _has_lost(node: YamlNode | None, sections: tuple[str, ...]) -> bool:

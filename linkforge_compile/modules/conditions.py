@@ -215,6 +215,8 @@ def _tells_apart(key: YamlScalar | None, repeated: YamlMap, tree: TreeEvaluator)
     """Whether a key mentions all `for` names; reports those that it does not."""
     if key is None:
         return True
+    if tree.sink.has_error_in(key.span):
+        return False
     missing = [name for name in repeated.entries if name not in tree.names_in(key)]
     for name in missing:
         tree.sink.report(KEY_WITHOUT_NAME.at(key.span, name=name, example=f"{key.text}_$({name})"))

@@ -33,6 +33,7 @@ from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.source import ComputedSpan, SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import fault_of
 
 MAX_COMPUTED_DEPTH = 100
 """How deep the lists and maps of one value may lie in one another: every later stage walks them by recursion."""
@@ -256,7 +257,7 @@ class TreeEvaluator:
         # The key of what is faulty stays as it is: its names may be those of the fault itself.
         key = written.key if isinstance(written.value, YamlFault) else self.key(written.key)
         if key is None or isinstance(written.value, YamlFault):
-            entries.setdefault(written.name, YamlEntry(written.key, YamlFault(written.value.span)))
+            entries.setdefault(written.name, YamlEntry(written.key, fault_of(written.value)))
         elif key.text in entries:
             self._tell_same_key(key, entries[key.text])
         else:

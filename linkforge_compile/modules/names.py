@@ -34,6 +34,7 @@ from linkforge_compile.modules.variants import Variants, variants_of
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar
+from linkforge_compile.syntax.nodes import names_at_fault
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
@@ -227,19 +228,25 @@ class FileNames:
         return key.text if key else FAULT
 
     def _names_unread(self) -> Scope | None:
-        """Return a scope for what a faulty section, or a file around this one, may have declared; None for neither."""
-        is_part = self._spec.tree.get("name") is None
-        return _AnyName({}) if is_part or self._is_faulty(*_KINDS, "include") else None
+        """Return a scope for what a faulty section, an unknown key, or a file around this one may have declared."""
+        if self._spec.tree.get("name") is None or self._is_faulty(*_KINDS, "include"):
+            return _LostNames(None)
+        lost = frozenset(names_at_fault(self._spec.tree))
+        return _LostNames(lost) if lost else None
 
     def _is_faulty(self, *sections: str) -> bool:
         return any(isinstance(self._spec.tree.get(section), YamlFault) for section in sections)
 
 
-class _AnyName(Scope):
-    """Knows every name and has no value for any: their declarations are at fault, which was reported."""
+class _LostNames(Scope):
+    """Knows names, every one for None, and has no value for any: their declarations are at fault, which was told."""
+
+    def __init__(self, names: frozenset[str] | None) -> None:
+        super().__init__({})
+        self._names = names
 
     def __contains__(self, name: object) -> bool:
-        return True
+        return self._names is None or name in self._names
 
     def lookup(self, name: str, sink: Diagnostics) -> Value | Fault:
         return FAULT

@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes.schema import (
     WRONG_LENGTH,
 )
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import mapping
 from linkforge_compile.schema.keys_meant import unknown_keys
 from linkforge_compile.schema.meant import Misfit, Path, is_row, way_out, word_meant
@@ -34,15 +35,21 @@ if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError
 
 
+_LOOKED_AT = 100
+"""How many unknown keys may be what is missing; a hostile file has a hundred thousand."""
+
+
 class Judgement(NamedTuple):
     """A fault, and the path of the node that must not go on: a YamlFault takes its place.
 
-    `also` are the paths of others that are part of the same fault.
+    `also` are the paths of others that are part of the same fault; `wrong_kind` is a number for what the schema takes
+    where a value is of another kind, else 0.
     """
 
     diagnostic: Diagnostic
     path: Path
     also: tuple[Path, ...] = ()
+    wrong_kind: int = 0
 
 
 def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
@@ -81,10 +88,11 @@ def _missing_keys(misfit: Misfit) -> Iterator[Judgement]:
         return
     first = next((entry.key.span for entry in node), node.span)
     known = mapping(schema["properties"])
-    around = [entry.value for entry in node if entry.name not in known]
+    unknown = [entry for entry in node if entry.name not in known]
     for name in map(str, required):
-        # What stands in a map that does not belong around it is told by that map's key.
-        if node.get(name) is None and not any(one.child(name) for one in around):
+        # What is misspelt, or stands in a map that does not belong around it, is told by its key.
+        is_told = any(entry.value.child(name) or nearest(entry.name, known) == name for entry in unknown[:_LOOKED_AT])
+        if node.get(name) is None and not is_told:
             code = MISSING_VERSION if name == "linkforge" else MISSING_NAME
             yield Judgement(code.at(first), (*path, name))
 
@@ -106,7 +114,8 @@ def _wrong_word(misfit: Misfit) -> Iterator[Judgement]:
 def _wrong_kind(misfit: Misfit) -> Iterator[Judgement]:
     node, path, schema, _ = misfit
     seen = f"{found(node)}{way_out(misfit)}"
-    yield Judgement(WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=seen), path)
+    fault = WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=seen)
+    yield Judgement(fault, path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0)
 
 
 def _no_branch(misfit: Misfit) -> Iterator[Judgement]:

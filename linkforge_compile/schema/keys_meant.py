@@ -36,12 +36,25 @@ def unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
     )
     together: dict[str, list[YamlEntry]] = {}
     for entry in islice(unknown, MAX_TOLD + 1):  # a hostile map has a hundred thousand
-        together.setdefault(_whole(entry, schema) or f"{entry.name}:", []).append(entry)
-    for whole, entries in together.items():
-        if whole in known:
-            yield UnknownKeys(entries, _in_its_home(whole, entries, node))
-        else:
-            yield _unknown_key(entries, node, schema)
+        together.setdefault(_slip(entry, node, schema), []).append(entry)
+    for slip, entries in together.items():
+        if slip in known:
+            yield UnknownKeys(entries, _in_its_home(slip, entries, node))
+            continue
+        hint, near = _meant(entries[0], node, schema)
+        many = len(entries) > 1 and slip not in _PARTS.get(str(schema["title"]), {}).values()
+        yield UnknownKeys(entries, f"{hint}; the same with {len(entries) - 1} more beside it" if many else hint, near)
+
+
+def _slip(entry: YamlEntry, node: YamlMap, schema: Schema) -> str:
+    """Return what an unknown key has in common with others of one slip: where they belong, or that nobody knows."""
+    known, name = mapping(schema.get("properties", {})), entry.name
+    if whole := _whole(entry, schema):
+        return whole
+    if _of_a_table(entry, node, schema):
+        return f"{name}:"
+    place = _place(entry, known)
+    return place.replace(name, "…") or (f"{name}:" if nearest(name, known) else "")
 
 
 def _whole(entry: YamlEntry, schema: Schema) -> str | None:
@@ -65,28 +78,32 @@ def _in_its_home(home: str, entries: Sequence[YamlEntry], node: YamlMap) -> str:
     return f"write '{home}: {{{written}}}'"
 
 
-def _unknown_key(entries: Sequence[YamlEntry], node: YamlMap, schema: Schema) -> UnknownKeys:
-    """Say what is written instead, else which key was meant, else which there are."""
-    entry, owner = entries[0], str(schema["title"])
+def _meant(entry: YamlEntry, node: YamlMap, schema: Schema) -> tuple[str, Sequence[str]]:
+    """Return what is written instead of a key, else which keys may be meant, else which there are."""
+    owner, name = str(schema["title"]), entry.name
     known = mapping(schema.get("properties", {}))
-    own, name = [key for key in known if key not in COMMON_KEYS], entry.name
-    hint = (
+    if hint := _of_a_table(entry, node, schema) or _place(entry, known):
+        return hint, ()
+    if nearest(name, known):
+        return "", [*known]
+    if owner == "an override" and _says_nothing(entry.value):
+        return f"write it in its section, such as 'links: {{{name}: …}}'", ()
+    own = [key for key in known if key not in COMMON_KEYS]
+    if not 0 < len(own) <= _SHOWN_KEYS:
+        return "", ()
+    return f"its keys are {alternatives(own, 'and')}" if len(own) > 1 else f"its key is {own[0]}", ()
+
+
+def _of_a_table(entry: YamlEntry, node: YamlMap, schema: Schema) -> str:
+    """Return what is known to be meant by a word, or by how a number is written."""
+    owner, name = str(schema["title"]), entry.name
+    return (
         _PARTS.get(owner, {}).get(name)
         or _HINTS_FOR_OWNER.get((owner, name))
         or _HINTS.get(name)
-        or _way_in_one_key(name, known)
+        or _way_in_one_key(name, mapping(schema.get("properties", {})))
         or _decimal_comma(entry, node)
-        or _place(entry, known)
     )
-    if hint:
-        return UnknownKeys(entries, hint)
-    meant = nearest(name, known)
-    if owner == "an override" and meant is None and _says_nothing(entry.value):
-        return UnknownKeys(entries, f"write it in its section, such as 'links: {{{name}: …}}'")
-    if meant is None and 0 < len(own) <= _SHOWN_KEYS:
-        listed = alternatives(own, "and")
-        return UnknownKeys(entries, f"its keys are {listed}" if len(own) > 1 else f"its key is {listed}")
-    return UnknownKeys(entries, "", [*known])
 
 
 def _way_in_one_key(key: str, known: Mapping[str, Json]) -> str:

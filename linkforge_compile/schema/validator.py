@@ -62,11 +62,16 @@ def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics)
 
 def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> YamlMap:
     """Report what was found; return the tree without what it is about."""
+    if not judgements:
+        return tree
+    from linkforge_compile.schema.missing_level import told_once
+
+    judgements = told_once(judgements, tree)
     for judgement in sorted(judgements, key=lambda judgement: judgement.diagnostic.order):
         sink.report(judgement.diagnostic)
     if len(judgements) > MAX_TOLD:
         raise too_many_errors(judgements[-1].diagnostic.span)
-    return _pruned(tree, judgements) if judgements else tree
+    return _pruned(tree, judgements)
 
 
 def _is_right(tree: YamlMap, is_included: bool) -> bool:

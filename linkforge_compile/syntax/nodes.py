@@ -139,7 +139,15 @@ YamlNode: TypeAlias = YamlScalar | YamlList | YamlMap | YamlFault
 
 def fault_of(node: YamlNode) -> YamlFault:
     """Return what takes the place of a node that is at fault."""
-    return YamlFault(node.span, frozenset(_keys_in(node)))
+    return node if isinstance(node, YamlFault) else YamlFault(node.span, frozenset(_keys_in(node)))
+
+
+def names_at_fault(node: YamlNode | None) -> Iterator[str]:
+    """Yield the keys of a map whose values are at fault, and the keys in those: names that somebody may look for."""
+    for entry in node if isinstance(node, YamlMap) else ():
+        if isinstance(entry.value, YamlFault):
+            yield entry.name
+            yield from entry.value.keys
 
 
 def _keys_in(node: YamlNode) -> Iterator[str]:

@@ -4,6 +4,7 @@ import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Code, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.bounds import MORE_WARNINGS, TOO_MANY_ERRORS
+from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
 from linkforge_compile.diagnostics.render import MOST_SHOWN, render_first, summary
 from linkforge_compile.diagnostics.sink import MAX_TOLD
 from linkforge_compile.source import SourceFile, Span
@@ -26,6 +27,20 @@ def test_one_place_is_told_of_three_times_and_the_rest_counted():
     assert [one.message for one in told] == ["no 0", "no 1", "no 2", "no other"]
     assert [note.message for one in told for note in one.notes] == ["and 997 more like this at the same place"]
     assert summary(told) == "1,001 errors"
+
+
+def test_a_name_that_a_file_has_nowhere_is_told_three_times_and_the_rest_counted():
+    sink, other = Diagnostics(), SourceFile("b.yaml", "some text")
+    sink.report_all(UNKNOWN_LINK.at(at(line), name="arm") for line in range(9, 0, -1))
+    sink.report_all(UNKNOWN_LINK.at(at(line), name="leg") for line in range(1, 4))
+    sink.report(UNKNOWN_LINK.at(Span(other, 1, 1, 1, 2), name="arm"))
+    sink.report_all(ERROR.at(at(line), name="x") for line in range(1, 6))
+    told = sink.sorted()
+    places = [one.span.line for one in told if one.message == "no link named 'arm'" and one.span]
+    assert places == [1, 2, 3, 1]
+    [note] = [note for one in told for note in one.notes]
+    assert (note.message, note.span) == ("and 6 more like this, the next one here", at(4))
+    assert summary(told) == "18 errors"
 
 
 def test_behind_a_thousand_errors_the_compile_ends():

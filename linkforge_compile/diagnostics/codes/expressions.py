@@ -8,7 +8,7 @@ UNCLOSED_TEXT = Code("LF3103", Severity.ERROR, "no closing quote for the text th
 EMPTY_EXPRESSION = Code("LF3104", Severity.ERROR, "expected an expression between '$(' and ')', found nothing")
 EXPRESSION_TOO_LARGE = Code("LF3105", Severity.ERROR, "the expression {fault}; move parts of it into 'variables'")
 NOT_IN_EXPRESSIONS = Code("LF3106", Severity.ERROR, "{what} cannot stand in an expression; {instead}")
-UNKNOWN_NAME = Code("LF3107", Severity.ERROR, "no parameter, variable or 'for' name '{name}' here")
+UNKNOWN_NAME = Code("LF3107", Severity.ERROR, "no parameter, variable or 'for' name '{name}' here", is_of_a_name=True)
 UNKNOWN_FUNCTION = Code("LF3108", Severity.ERROR, "no function named '{name}'")
 FUNCTION_NOT_CALLED = Code("LF3110", Severity.ERROR, "'{function}' is a function; write {signature}")
 WRONG_ARGUMENT_COUNT = Code("LF3111", Severity.ERROR, "expected {signature}, found {count} arguments")
