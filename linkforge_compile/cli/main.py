@@ -69,7 +69,10 @@ def _run(words: list[str]) -> int:
     name, *rest = words
     # `import` is a word of Python, and no name of a module.
     command = import_module(f"linkforge_compile.cli.commands.{name.replace('import', 'import_')}")
+    from linkforge_compile.cli.options import Once
+
     parser = _parser(f"linkforge {name}", _COMMANDS[name])
+    parser.register("action", None, Once)
     command.add_arguments(parser)
     # Intermixed, so that `linkforge compile arm.robot.yaml -o build/ reach:=0.7` works as it does with ROS's tools.
     arguments = parser.parse_intermixed_args(rest)

@@ -10,7 +10,10 @@ from linkforge_compile.cli.exits import UsageError
 
 
 class Once(argparse.Action):
-    """Takes the value of an option that may be given once: of two, none is forgotten in silence."""
+    """Takes the value of an option that may be given once, as every one is that collects nothing.
+
+    Of two values, none is forgotten in silence.
+    """
 
     def __call__(
         self,
@@ -19,9 +22,10 @@ class Once(argparse.Action):
         values: str | Sequence[object] | None,
         option_string: str | None = None,
     ) -> None:
-        before = getattr(namespace, self.dest)
-        if before is not None:
-            raise argparse.ArgumentError(self, f"may be given once, found '{before}' and '{values}'")
+        given: dict[str, object] = namespace.__dict__.setdefault("given", {})
+        if option_string is not None and self.dest in given:
+            raise argparse.ArgumentError(self, f"may be given once, found '{given[self.dest]}' and '{values}'")
+        given[self.dest] = values
         setattr(namespace, self.dest, values)
 
 
@@ -30,7 +34,6 @@ def add_spec_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--variant",
         metavar="NAME",
-        action=Once,
         help="the variant of the spec that sets what -p does not, before the defaults",
     )
     add_package_option(parser)

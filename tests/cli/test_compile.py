@@ -262,6 +262,13 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         (("compile", "swing.robot.yaml", "length=1"), "write '-p length=1' to set a parameter"),
         (("complie", "swing.robot.yaml"), "'complie' is no command; did you mean 'compile'?"),
         (("--verbose",), "'--verbose' is no command"),
+        (
+            ("compile", "swing.robot.yaml", "--gazebo", "gz", "--gazebo", "classic"),
+            "argument --gazebo: may be given once, found 'gz' and 'classic'",
+        ),
+        (("check", "--format", "json", "--diagnostics", "json"), "may be given once"),
+        (("schema", "-o", "a.json", "-o", "b.json"), "argument -o/--output: may be given once"),
+        (("init", "arm", "--dir", "a", "--dir", "b"), "argument --dir: may be given once, found 'a' and 'b'"),
     ],
 )
 def test_wrong_usage_is_told(pendulum: Path, words: tuple[str, ...], said: str):

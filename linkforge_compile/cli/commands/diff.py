@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.differences import Side
 from linkforge_compile.cli.exits import OK, UsageError
-from linkforge_compile.cli.options import Once, add_spec_options, name_set_by, packages_of, split_assignments
+from linkforge_compile.cli.options import add_spec_options, name_set_by, packages_of, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
@@ -59,12 +59,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             default=[],
             help=f"set a parameter of the robot {side} alone",
         )
-        parser.add_argument(
-            f"--{side}-variant", metavar="NAME", action=Once, help=f"the variant of the robot {side} alone"
-        )
-        parser.add_argument(
-            f"--{side}-srdf", metavar="SRDF", action=Once, help=f"the SRDF of the robot {side}, which is a URDF"
-        )
+        parser.add_argument(f"--{side}-variant", metavar="NAME", help=f"the variant of the robot {side} alone")
+        parser.add_argument(f"--{side}-srdf", metavar="SRDF", help=f"the SRDF of the robot {side}, which is a URDF")
     add_spec_options(parser)
     add_telling_options(parser)
 
