@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
@@ -31,12 +32,12 @@ def check_plugin_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     bears the module's prefix, which `$(joint('name'))` adds. Nothing is wrong if the joint is one of another
     model in the simulator.
     """
+    joints: defaultdict[tuple[Span, ...], list[str]] = defaultdict(list)
+    for joint in robot.joints:
+        joints[_trail(joint)].append(joint.name)
     for plugin in _plugins(robot):
-        uses = _named_joints(plugin)
-        offered = [joint.name for joint in robot.joints if _trail(joint) == _trail(plugin)]
-        yield from unknown(
-            uses, UNKNOWN_PLUGIN_JOINT, robot.joints.names, gaps, offered=offered or None, plugin=plugin.name
-        )
+        uses, offered = _named_joints(plugin), joints.get(_trail(plugin))
+        yield from unknown(uses, UNKNOWN_PLUGIN_JOINT, robot.joints.names, gaps, offered=offered, plugin=plugin.name)
 
 
 def _trail(part: Part) -> tuple[Span, ...]:
