@@ -22,6 +22,7 @@ from linkforge_compile.stack import with_room
 from linkforge_compile.syntax import YamlMap, read
 
 if TYPE_CHECKING:
+    from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
     from linkforge_compile.modules.semantic import Semantic
 
@@ -67,6 +68,34 @@ def import_urdf(
     """
     settings = Settings(arguments, packages, allow_outside=allow_outside, output=Path(output) if output else None)
     return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), settings))
+
+
+def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> Robot:
+    """Return a robot as its URDF and SRDF say it, for whoever lays it beside one that was read from those.
+
+    Its sensors are Gazebo's then, and it has no metadata. It is the robot itself where it does not come back.
+    """
+    return with_room(lambda: _read_back(robot, gazebo) or robot)
+
+
+def _read_back(robot: Robot, gazebo: Gazebo) -> Robot | None:
+    from linkforge_compile.importers.srdf import with_srdf
+    from linkforge_compile.importers.urdf import read_urdf
+
+    unheard, loader = Diagnostics(), Settings().loader(None)
+    file = SourceFile("<urdf>", render_urdf(robot, gazebo=gazebo))
+    imported = read_urdf(file, unheard)
+    if imported is None:
+        return None
+    spec, meshes = SpecFile(file, imported.tree, None), MeshSolids(loader.budget)
+
+    def judge(tree: YamlMap) -> Judged:
+        return judged(meshes, replace(spec, tree=tree), loader)
+
+    if not robot.says_semantic:
+        return judge(imported.tree).robot
+    both = with_srdf(imported, SourceFile("<srdf>", render_srdf(robot)), judge, unheard)
+    return both[1].robot if both else None
 
 
 def _imported(urdf: Path, srdf: Path | None, settings: Settings) -> Import:

@@ -1,11 +1,14 @@
 """`linkforge diff`, run as a program."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
 from jsonschema import Draft7Validator
 
+from linkforge_compile.writers import write_spec
+from tests.backends.everything import everything
 from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
 
@@ -57,6 +60,19 @@ def test_the_same_robot_is_no_difference(arms: Path):
     run = linkforge("diff", "old.robot.yaml", "old.urdf", cwd=arms)
     told = "old.robot.yaml and old.urdf are the same robot\nthe semantic part is left out: old.urdf has none\n"
     assert (run.returncode, run.stdout) == (0, told)
+
+
+def test_a_spec_is_the_same_robot_as_what_it_compiles_to(tmp_path: Path):
+    """Its sensors are Gazebo's there, its raw XML is read in other places, and its metadata are nowhere."""
+    spec = tmp_path / "all.robot.yaml"
+    spec.write_text(write_spec(everything()), "utf-8")
+    assert linkforge("compile", spec.name, "-o", ".", cwd=tmp_path).returncode == 0
+    run = linkforge("diff", spec.name, "all.urdf", "--after-srdf", "all.srdf", cwd=tmp_path)
+    assert run.stdout == "all.robot.yaml and all.urdf (all.srdf) are the same robot\n"
+    urdf = tmp_path / "all.urdf"
+    urdf.write_text(re.sub(r"<update_rate>[^<]*", "<update_rate>7", urdf.read_text("utf-8"), count=1), "utf-8")
+    run = linkforge("diff", spec.name, "all.urdf", "--after-srdf", "all.srdf", cwd=tmp_path)
+    assert (run.returncode, run.stdout.count("update_rate: ")) == (1, 1)
 
 
 def test_parameters_go_to_every_spec(arms: Path):

@@ -24,9 +24,9 @@ _SIDES = ("before", "after")
 
 _EXAMPLES = """\
 A and B are specs, URDFs (.urdf, .xml) or xacros. `-p` goes to each of them that has the parameter and `--variant` to
-specs; `--before` and `--after` go to A or B alone, and come before what `-p` and a variant say. The semantic part of a
-URDF is its SRDF, which `--before-srdf` and `--after-srdf` name; without it that part is left out, which is said. Only
-errors of theirs are told; `linkforge check` tells the rest.
+specs; `--before` and `--after` go to A or B alone, and come before what `-p` and a variant say. A spec is laid beside a
+URDF as the URDF that it compiles to. The semantic part of a URDF is its SRDF, which `--before-srdf` and `--after-srdf`
+name; without it that part is left out, which is said. Only their errors are told; `linkforge check` tells the rest.
 Exit codes: 0 for the same robot, 1 for another one, 2 for wrong usage and for what is no robot.
 
 examples:
@@ -81,6 +81,15 @@ def run(arguments: argparse.Namespace) -> int:
     )
     if before is None or after is None:
         return NO_ROBOT
+    urdfs = [_is_urdf(side.word) for side in sides]
+    if any(urdfs) and not all(urdfs):
+        # A spec has words for what a URDF says in Gazebo's, and says what no URDF can.
+        from linkforge_compile.importing import as_read_back
+
+        before, after = (
+            robot if is_urdf else as_read_back(robot, gazebo=arguments.gazebo)
+            for robot, is_urdf in zip((before, after), urdfs, strict=True)
+        )
     from linkforge_compile.cli.differences import Comparison, json_of, lines_of
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.compare import TOLERANCE, compare, vanished
