@@ -22,11 +22,17 @@ def prefixed_copy(part: P, prefix: str) -> P:
     one goes through the constructor, which says what is wrong with it. So does a part of somebody else's class, which
     may check or compute more than ours.
     """
-    kind = part.__class__
-    if kind not in _COPIERS:
-        _COPIERS[kind] = _written_copier(kind) if kind.__module__.startswith(_OURS) else _constructed_copy
-    copy: P = _COPIERS[kind](part, prefix)
-    return copy if _is_harmless(prefix) else replace(copy)  # type: ignore[type-var]  # P is a dataclass, see above
+    copier = _COPIERS.get(part.__class__) or _copier_of(part.__class__)
+    copy: P = copier(part, prefix) if _is_harmless(prefix) else _constructed_copy(part, prefix)
+    return copy
+
+
+def _copier_of(kind: type[Any]) -> _Copier:
+    copier = _written_copier(kind) if kind.__module__.startswith(_OURS) else _constructed_copy
+    _COPIERS[kind] = copier
+    if kind.with_prefix.__module__ == _HOME_OF_WITH_PREFIX:
+        _DIRECT[kind] = copier
+    return copier
 
 
 @lru_cache
@@ -36,6 +42,14 @@ def _is_harmless(prefix: str) -> bool:
 
 _OURS = f"{__name__.partition('.')[0]}."
 _COPIERS: dict[type, _Copier] = {}
+
+_HOME_OF_WITH_PREFIX = f"{_OURS}core.part"
+_DIRECT: dict[type, _Copier] = {}
+"""The copiers of classes that have no `with_prefix` of their own: what holds such parts need not ask them for it."""
+
+
+def _ask(part: Any, prefix: str) -> Any:
+    return part.with_prefix(prefix)
 
 
 def _constructed_copy(part: Any, prefix: str) -> Any:
@@ -60,6 +74,7 @@ def _written_copier(kind: type[Any]) -> _Copier:
     any_name = " or ".join(f"part.{name}" for name in kind.PREFIXED)
     lines = ["def copy(part, prefix):", f"    if not ({any_name}):", "        return part", "    copy = new(kind)"]
     scope: dict[str, Any] = {"new": object.__new__, "kind": kind, "FrozenMap": FrozenMap}
+    scope |= {"direct": _DIRECT.get, "ask": _ask}
     for field in fields(kind):
         scope[f"set_{field.name}"] = getattr(kind, field.name).__set__
         lines.append(f"    value = part.{field.name}")
@@ -77,7 +92,7 @@ def _prefixed(field: Field[Any]) -> str:
     if kind == "Sequence[str]":
         return "value and tuple([name and prefix + name for name in value])"
     if kind.startswith("Sequence["):
-        return "value and tuple([each.with_prefix(prefix) for each in value])"
+        return "value and tuple([direct(each.__class__, ask)(each, prefix) for each in value])"
     if kind.startswith("Mapping[str"):
         return "FrozenMap({prefix + name: each for name, each in value.items()})"
-    return "value and value.with_prefix(prefix)"
+    return "value and direct(value.__class__, ask)(value, prefix)"
