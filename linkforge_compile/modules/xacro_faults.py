@@ -41,17 +41,12 @@ class Written:
             loader.note_read(path)
 
     def element(self, place: Place) -> XmlElement | None:
-        if place.file not in self._elements:
-            self._elements[place.file] = self._read(place.file)
-        elements = self._elements[place.file]
+        elements = self._elements_of(place.file)
         return elements[place.element] if place.element < len(elements) else None
 
     @property
     def all_elements(self) -> Iterator[XmlElement]:
-        for number in range(len(self._paths)):
-            if number not in self._elements:
-                self._elements[number] = self._read(number)
-            yield from self._elements[number]
+        return (element for number in range(len(self._paths)) for element in self._elements_of(number))
 
     def named(self, tag: str) -> Iterator[str]:
         """Yield the names of all elements of a tag of xacro's."""
@@ -60,6 +55,11 @@ class Written:
     def open(self, path: Path) -> SourceFile | None:
         """Read one of the others, which the first names, so that it is no word of the user's."""
         return self._loader.open_xml(path, Diagnostics(), Used(str(path), self.main.whole))
+
+    def _elements_of(self, number: int) -> tuple[XmlElement, ...]:
+        if number not in self._elements:
+            self._elements[number] = self._read(number)
+        return self._elements[number]
 
     def _read(self, number: int) -> tuple[XmlElement, ...]:
         from linkforge_compile.importers.xml import read_xml
@@ -108,14 +108,22 @@ class Telling:
             what = f"parameter '{name}' has"
             self.sink.report(PARAMETER_NOT_SET.at(where or place, what=what, remedy=f"'{remedy}'"))
 
+    def _where(self, failed: Failed, place: Span | None) -> tuple[Span | None, list[Note]]:
+        """Return where the expression at fault is written; if that is elsewhere, with the place that needs it."""
+        where = place or self.use.used.where
+        if not failed.expressions:
+            return where, []
+        innermost = failed.expressions[-1]
+        if stopped := self.written.element(failed.place) if failed.place else None:
+            own = self._expression(innermost, [stopped])
+            if own or f"${{{innermost}}}" in stopped.raw:
+                return own or where, []
+        cause = self._expression(innermost, self.written.all_elements)
+        return (cause, [Note("it is needed here", where)]) if cause else (where, [])
+
     def _fault(self, failed: Failed, reason: str, place: Span | None) -> Diagnostic:
         """Return what xacro could not do, at the expression at fault."""
-        innermost = failed.expressions[-1] if failed.expressions else None
-        stopped = self.written.element(failed.place) if failed.place else None
-        span = self._expression(innermost, [stopped] if stopped else []) if innermost else None
-        cause = None if span or not innermost else self._expression(innermost, self.written.all_elements)
-        notes = [Note("it is needed here", place)] if cause and place else []
-        where = span or cause or place or self.use.used.where
+        where, notes = self._where(failed, place)
         if failed.missing:
             name, near = failed.missing.name, names_in(failed.missing.parent)
             return XACRO_FILE_MISSING.at(where, path=as_typed(failed.missing), name=name, near=near, notes=notes)
@@ -127,7 +135,7 @@ class Telling:
             return XACRO_UNKNOWN_NAME.at(
                 where, kind="macro", name=unknown[1], near=self.written.named("xacro:macro"), notes=notes
             )
-        within = f", in '${{{innermost}}}'" if innermost else ""
+        within = f", in '${{{failed.expressions[-1]}}}'" if failed.expressions else ""
         return XACRO_FAILED.at(where, problem=_in_our_words(reason, failed.kind) + within, notes=notes)
 
     def _names(self) -> Iterator[str]:

@@ -119,13 +119,15 @@ def test_one_variant_or_all_of_them(arm: Path):
 def test_a_xacro_has_its_arguments_and_a_urdf_none(tmp_path: Path):
     (tmp_path / "a.urdf.xacro").write_text(
         '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">'
-        '<xacro:arg name="reach" default="0.5"/><xacro:arg name="serial"/><link name="a"/></robot>'
+        '<xacro:arg name="reach" default="0.5"/><xacro:arg name="prefix" default=""/>'
+        '<xacro:arg name="serial"/><link name="a"/></robot>'
     )
     (tmp_path / "a.urdf").write_text('<robot name="arm"><link name="a"/></robot>')
     run = linkforge("params", "a.urdf.xacro", cwd=tmp_path)
     assert (run.returncode, run.stderr) == (0, "")
     assert [line.split() for line in run.stdout.splitlines()[3:]] == [
         ["reach", "string", "0.5"],
+        ["prefix", "string", '""'],
         ["serial", "string", "(required)"],
     ]
     assert linkforge("params", "a.urdf", cwd=tmp_path).stdout == "arm\n\nIt has no parameters.\n"

@@ -62,7 +62,7 @@ def _table(listing: Listing) -> Iterator[str]:
 
 
 def _row(parameter: ListedParameter) -> tuple[str, ...]:
-    default = "(required)" if parameter.default is None else parameter.default
+    default = "(required)" if parameter.default is None else parameter.default or '""'
     if parameter.default is not None and parameter.computed not in {"", default}:
         default = f"{default} = {parameter.computed}"
     return parameter.name, parameter.type or "?", default, parameter.limits, " ".join(parameter.description.split())
