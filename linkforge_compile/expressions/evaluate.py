@@ -10,6 +10,7 @@ from typing import TypeAlias, TypeVar
 from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expressions.access import field, item
 from linkforge_compile.expressions.comparisons import COMPARISONS
 from linkforge_compile.expressions.functions import CONSTANTS, FILE_FUNCTIONS, FUNCTIONS
@@ -19,6 +20,7 @@ from linkforge_compile.expressions.scope import Scope
 from linkforge_compile.expressions.template import Expression, Template
 from linkforge_compile.expressions.types import FAULT, Fault, RefusedError, Value, as_text, joined, kind_name
 from linkforge_compile.source import Span
+from linkforge_compile.units import WIDEST_ANGLE
 
 T = TypeVar("T")
 
@@ -29,6 +31,8 @@ Trace: TypeAlias = Callable[[str, Span], Span]
 def _untraced(_expression: str, where: Span) -> Span:
     return where
 
+
+_TAKE_AN_ANGLE = ("sin", "cos", "tan")
 
 _CHARACTERS_A_STEP = 4
 """How long the text of an expression is for each step that computing it takes, roughly."""
@@ -115,11 +119,20 @@ def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagn
     if name.id in _PYTHON_MODULES:
         instead = "constants and functions are called by their names alone, pi"
         return codes.NOT_IN_EXPRESSIONS.at(expression.span(name), what=f"'{name.id}'", instead=instead)
-    return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, near=[*scope, *CONSTANTS])
+    near = [*scope, *CONSTANTS]
+    is_text = _is_compared(name, expression.tree) and nearest(name.id, near) is None
+    hint = f"; text is written in quotes: '{name.id}'" if is_text else ""
+    return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, hint=hint, near=near)
 
 
 _PYTHON_MODULES = ("math", "numpy", "np")
 """What Python programs write before pi and sin."""
+
+
+def _is_compared(name: ast.Name, tree: ast.expr) -> bool:
+    """Whether a name is one side of a comparison, where text is often meant."""
+    comparisons = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
+    return any(name is side for node in comparisons for side in (node.left, *node.comparators))
 
 
 class _FaultError(Exception):
@@ -193,7 +206,17 @@ class _Evaluation:
     def _called(self, call: ast.Call, function: ast.Name, arguments: list[ast.expr]) -> Value:
         if function.id in FILE_FUNCTIONS:
             return self._asked_of_the_file(function, arguments[0])
+        if function.id in _TAKE_AN_ANGLE:
+            self._doubt_angle(function.id, arguments[0])
         return self._apply(self._counted(FUNCTIONS[function.id]), call, *arguments)
+
+    def _doubt_angle(self, function: str, argument: ast.expr) -> None:
+        """Warn of a number that stands there itself and is likely meant in degrees."""
+        node = argument.operand if isinstance(argument, ast.UnaryOp) else argument
+        number = node.value if isinstance(node, ast.Constant) else None
+        if isinstance(number, int | float) and number > WIDEST_ANGLE:
+            found = self.expression.written(argument)
+            self.sink.report(codes.WIDE_LITERAL.at(self.expression.span(argument), function=function, found=found))
 
     def _asked_of_the_file(self, name: ast.Name, argument: ast.expr) -> Value:
         text = self._apply(partial(_text, f"{name.id}()"), name, argument)

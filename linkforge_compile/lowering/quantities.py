@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.scalars import scalar_value
 from linkforge_compile.units import (
     WIDEST_ANGLE,
     Dimension,
@@ -135,6 +136,8 @@ def found(node: YamlNode) -> str:
             return f"'{quantity}'"
         case YamlScalar(text=text, value=int() | float() as value) if not isinstance(value, bool):
             return text
+        case YamlScalar(text=text, value=str()) if isinstance(scalar_value(text), int | float):
+            return f"the text '{text}'"
         case YamlScalar(text=text):
             return f"'{text}'"
         case YamlList():

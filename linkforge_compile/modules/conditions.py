@@ -94,6 +94,8 @@ def _body(node: YamlMap, shape: Shape, sink: Diagnostics) -> YamlNode | None:
     if shape.is_object and not (shape.has_short_form and "value" in node.entries):
         return YamlMap({name: entry for name, entry in node.entries.items() if name not in _WORDS}, node.span)
     others = [entry.key for entry in node if entry.name not in _WORDS | {"value"}]
+    if any(isinstance(entry.value, YamlFault) for entry in node):
+        return None  # the schema has told of it
     if others or "value" not in node.entries:
         where = others[0].span if others else next(iter(node)).key.span
         sink.report(LONG_FORM.at(where, found=f"'{others[0].text}'" if others else "no 'value'"))

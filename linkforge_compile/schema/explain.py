@@ -20,6 +20,7 @@ from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import mapping
 from linkforge_compile.schema.keys_meant import unknown_keys
 from linkforge_compile.schema.meant import Misfit, Path, is_row, way_out, word_meant
+from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.schema.words import (
     branch_meant,
     expected,
@@ -57,6 +58,9 @@ def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
     path = tuple(error.absolute_path)
     node = _node_at(tree, path)
     if isinstance(node, YamlFault) or (is_null(node) and not isinstance(path[-1], int)):
+        return
+    if nameless := _thing_without_name(tree, path):
+        yield nameless
         return
     misfit = Misfit(node, path, mapping(error.schema), tree)
     meant = None if error.validator != "anyOf" or _is_text(node) else branch_meant(misfit.schema, node)
@@ -129,6 +133,30 @@ def _wrong_length(misfit: Misfit) -> Iterator[Judgement]:
     if isinstance(node, YamlList) and not any(map(is_row, node)):
         seen = f"{len(node)}{way_out(misfit)}"
         yield Judgement(WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=seen), path)
+
+
+def _thing_without_name(tree: YamlMap, path: Path) -> Judgement | None:
+    """Tell of one thing that stands where several would by their names: all that is wrong in it comes of that."""
+    node, shape = tree, shapes()
+    # What an expression made stands alone in its tree.
+    for length, key in enumerate(path if "linkforge" in tree.entries else ()):
+        entry = shape.under(str(key))
+        if shape.has_names and _is_one_of(node, entry):
+            field, said = path[length - 1], next(iter(node))
+            seen = f"the keys of one; write '{field}: {{NAME: {{{said.name}: …}}}}'"
+            where = said.key.span
+            return Judgement(WRONG_KIND.at(where, field=f"'{field}'", expected=shape.title, found=seen), path[:length])
+        inner = node.child(key)
+        if not isinstance(inner, YamlMap):
+            return None
+        node, shape = inner, entry
+    return None
+
+
+def _is_one_of(node: YamlMap, thing: Shape) -> bool:
+    """Whether a map has the keys of a thing, and values of which not all can be things."""
+    are_things = all(is_null(entry.value) or isinstance(entry.value, YamlMap) for entry in node)
+    return not are_things and all(entry.name in thing.keys for entry in node)
 
 
 _EXPLAIN: dict[str, Callable[[Misfit], Iterator[Judgement]]] = {

@@ -86,6 +86,10 @@ def _meant(entry: YamlEntry, node: YamlMap, schema: Schema) -> tuple[str, Sequen
         return hint, ()
     if nearest(name, known):
         return "", [*known]
+    if owner in _BEYOND_ITS_KEYS:
+        return _BEYOND_ITS_KEYS[owner].format(name), ()
+    if owner == "a parameter" and node.entries.keys().isdisjoint(known):
+        return "a map that is its value stands under 'default'", ()
     if owner == "an override" and _says_nothing(entry.value):
         return f"write it in its section, such as 'links: {{{name}: …}}'", ()
     own = [key for key in known if key not in COMMON_KEYS]
@@ -104,6 +108,15 @@ def _of_a_table(entry: YamlEntry, node: YamlMap, schema: Schema) -> str:
         or _way_in_one_key(name, mapping(schema.get("properties", {})))
         or _decimal_comma(entry, node)
     )
+
+
+_BEYOND_ITS_KEYS = {
+    "a module": "a parameter is set by 'with: {{{0}: …}}'",
+    "the long form": "beside 'for' and 'when' stands 'value', and nothing else",
+    "a gazebo block": "a tag that has no key stands under 'properties'",
+    "a robot's gazebo block": "a tag that has no key stands under 'properties'",
+}
+"""What is meant by a key that is like none of an object's, where others can be said at another place."""
 
 
 def _way_in_one_key(key: str, known: Mapping[str, Json]) -> str:
@@ -187,6 +200,11 @@ _PARTS = {
 _POSE = "write 'origin: {xyz: [x, y, z], rpy: [roll, pitch, yaw]}'"
 
 _HINTS_FOR_OWNER = {
+    ("a robot", "srdf"): "write 'semantic'",
+    ("a parameter", "min"): "write 'minimum'",
+    ("a parameter", "max"): "write 'maximum'",
+    ("defaults", "frame"): "they do not reach frames",
+    ("an override", "name"): "a module is named by its key under 'modules'",
     ("an override", "frames"): "a frame is a link and a joint here: write what is to change under 'links' or 'joints'",
     ("an override", "parameters"): "parameters are set by 'with'",
     ("a module", "parameters"): "parameters are set by 'with'",

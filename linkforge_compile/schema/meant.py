@@ -158,6 +158,12 @@ def _leader(node: YamlScalar, misfit: Misfit) -> str:
     return f"'{{joint: {node.text}}}'" if misfit.field == "mimic" and isinstance(node.value, str) else ""
 
 
+def _use(node: YamlScalar, misfit: Misfit) -> str:
+    """The file of a module in place of its entry."""
+    is_module = len(misfit.path) == 2 and misfit.path[0] == "modules"
+    return f"'{{use: {node.text}}}'" if is_module and node.text.endswith(_FILES_OF_MODULES) else ""
+
+
 def _item(node: YamlScalar, misfit: Misfit) -> str:
     """One thing where a list of them belongs."""
     if not isinstance(node.value, str):
@@ -197,7 +203,7 @@ def _pose(numbers: Sequence[str]) -> str:
 
 def _by_name(node: YamlList, misfit: Misfit) -> str:
     """Things whose list says their names, or has none, where they stand in a map by name."""
-    if not any("additionalProperties" in branch for branch in branches(misfit.schema)):
+    if not any(isinstance(branch.get("additionalProperties"), dict) for branch in branches(misfit.schema)):
         return ""
     said: YamlNode | None = next(iter(node), None)
     if isinstance(said, YamlMap):
@@ -249,6 +255,7 @@ _OF_SCALARS: tuple[Callable[[YamlScalar, Misfit], str], ...] = (
     _row,
     _number,
     _leader,
+    _use,
     _item,
 )
 _OF_LISTS: tuple[Callable[[YamlList, Misfit], str], ...] = (_example, _object_in_order, _six_of_a_pose, _by_name)
@@ -256,6 +263,8 @@ _OF_MAPS: tuple[Callable[[YamlMap, Misfit], str], ...] = (_interfaces, _parts, _
 
 _EXAMPLES = {"for": "'{side: [left, right]}'"}
 """What to write under keys of which it is easily forgotten."""
+
+_FILES_OF_MODULES = (".yaml", ".yml", ".urdf", ".xacro")
 
 _INTERFACES = ("command_interfaces", "state_interfaces")
 """The lists that become maps where an item has parameters."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from functools import cache
 from typing import Final
 
@@ -49,6 +50,11 @@ class Shape:
     def is_free(self) -> bool:
         """Whether the compiler knows no keys, names or items in it: it is one value, or plain."""
         return not (self.is_object or self.has_names or self._list)
+
+    @property
+    def keys(self) -> Collection[str]:
+        """The keys of the object that it may be; none for what is no object whose keys the schema knows."""
+        return mapping(self._object.get("properties", {})) if self._object else ()
 
     @property
     def title(self) -> str:

@@ -8,7 +8,9 @@ UNCLOSED_TEXT = Code("LF3103", Severity.ERROR, "no closing quote for the text th
 EMPTY_EXPRESSION = Code("LF3104", Severity.ERROR, "expected an expression between '$(' and ')', found nothing")
 EXPRESSION_TOO_LARGE = Code("LF3105", Severity.ERROR, "the expression {fault}; move parts of it into 'variables'")
 NOT_IN_EXPRESSIONS = Code("LF3106", Severity.ERROR, "{what} cannot stand in an expression; {instead}")
-UNKNOWN_NAME = Code("LF3107", Severity.ERROR, "no parameter, variable or 'for' name '{name}' here", is_of_a_name=True)
+UNKNOWN_NAME = Code(
+    "LF3107", Severity.ERROR, "no parameter, variable or 'for' name '{name}' here{hint}", is_of_a_name=True
+)
 UNKNOWN_FUNCTION = Code("LF3108", Severity.ERROR, "no function named '{name}'")
 FUNCTION_NOT_CALLED = Code("LF3110", Severity.ERROR, "'{function}' is a function; write {signature}")
 WRONG_ARGUMENT_COUNT = Code("LF3111", Severity.ERROR, "expected {signature}, found {count} arguments")
@@ -29,6 +31,11 @@ CIRCULAR_NAMES = Code("LF3141", Severity.ERROR, "'{first}' is computed from itse
 CHAIN_TOO_LONG = Code("LF3142", Severity.ERROR, "'{first}' is computed through {count} other names")
 TRUTH_AS_TEXT = Code(
     "LF3143", Severity.ERROR, "'{name}' is text in YAML 1.2, not true or false; write {meant}", Blame.WRITER
+)
+WIDE_LITERAL = Code(
+    "LF3144",
+    Severity.WARNING,
+    "{function}() of {found} radians, more than a whole turn; write '{function}(radians({found}))' for degrees",
 )
 
 SEEN_IN_THE_TEXT = (
