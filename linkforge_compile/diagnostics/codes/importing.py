@@ -53,9 +53,9 @@ URDF_FOR_SRDF = Code(
 )
 SRDF_OF_ANOTHER = Code(
     "LF8154",
-    _E,
+    _W,
     "none of the links and joints that this SRDF names is in '{robot}', '{name}' the first of {count}; give the SRDF "
-    "of this robot",
+    "of this robot, for all of this one is kept as raw XML",
 )
 MESH_BESIDE_THE_URDF = Code(
     "LF8130",

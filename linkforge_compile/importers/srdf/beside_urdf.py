@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Protocol, TypeVar
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
-from linkforge_compile.diagnostics.codes.importing import SRDF_OF_ANOTHER, URDF_FOR_SRDF
+from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, SRDF_OF_ANOTHER, URDF_FOR_SRDF
 from linkforge_compile.importers.comments import Comments
 from linkforge_compile.importers.document import Imported, Move, read_document
 from linkforge_compile.importers.draft import DeclinedError
@@ -51,9 +51,6 @@ def with_srdf(
     if part := next((child for child in document.root.children if child.tag in ("link", "joint")), None):
         sink.report(URDF_FOR_SRDF.at(part.span, tag=part.tag))
         return None
-    if other := _of_another_robot(document, urdf.tree):
-        sink.report(other)
-        return None
     refused: dict[Span, DeclinedError] = {}
     sections = sum(len(entry.value) for entry in urdf.tree if isinstance(entry.value, YamlMap))
     elements = 1 + sections + sum(1 for _ in _inside(document.root))
@@ -65,7 +62,11 @@ def with_srdf(
         if found.keys() <= refused.keys():
             break
         refused |= found
-    sink.report_all(told)
+    other = _of_another_robot(document, urdf.tree)
+    if other:
+        sink.report(other)
+    # That all of another robot's SRDF is kept raw is told in one.
+    sink.report_all(one for one in told if not (other and one.code is KEPT_RAW))
     return whole, judged
 
 
