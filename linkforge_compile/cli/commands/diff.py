@@ -81,15 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
     )
     if before is None or after is None:
         return NO_ROBOT
-    urdfs = [_is_urdf(side.word) for side in sides]
-    if any(urdfs) and not all(urdfs):
-        # A spec has words for what a URDF says in Gazebo's, and says what no URDF can.
-        from linkforge_compile.importing import as_read_back
-
-        before, after = (
-            robot if is_urdf else as_read_back(robot, gazebo=arguments.gazebo)
-            for robot, is_urdf in zip((before, after), urdfs, strict=True)
-        )
+    before, after = _beside_each_other(sides, (before, after), arguments)
     from linkforge_compile.cli.differences import Comparison, json_of, lines_of
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.compare import TOLERANCE, compare, vanished
@@ -162,6 +154,19 @@ def _for_side(name: str, side: Side, common: Iterable[str], arguments: argparse.
     ours.parameters = [*(pair for pair in common if name_set_by(pair) not in side.parameters), *vars(arguments)[name]]
     ours.variant = side.variant or arguments.variant
     return ours
+
+
+def _beside_each_other(
+    sides: Sequence[Side], robots: Sequence[Robot], arguments: argparse.Namespace
+) -> Sequence[Robot]:
+    """Return the robots, a spec beside a URDF as what it compiles to: it has words for what a URDF says in Gazebo's."""
+    urdfs = [_is_urdf(side.word) for side in sides]
+    if all(urdfs) or not any(urdfs):
+        return robots
+    from linkforge_compile.importing import as_read_back
+
+    both = zip(robots, urdfs, strict=True)
+    return [robot if is_urdf else as_read_back(robot, gazebo=arguments.gazebo) for robot, is_urdf in both]
 
 
 def _has_no_semantic(side: Side) -> bool:
