@@ -103,9 +103,7 @@ class Fields:
         """Read the name that a thing of this kind takes; its characters are judged."""
         node = self.said(key, required)
         text = None if node is None else self.text_at(node, key)
-        if node is None or text is None:
-            return None
-        return text if self.name_is_valid(text, kind, node) else None
+        return text if node is not None and text is not None and self.name_is_valid(text, kind, node) else None
 
     def vector3(
         self, key: str, *dimensions: Dimension, bound: Bound | None = None, required: str = ""

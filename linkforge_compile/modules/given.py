@@ -36,6 +36,9 @@ from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, 
 _SHOWN = 8
 """How many parameters, choices and variants a message shows."""
 
+_SHOWN_TEXT = 60
+"""How long choices may be that a message shows."""
+
 
 class Unset(Enum):
     """What it is when nothing sets a required parameter of the compiled file."""
@@ -158,8 +161,9 @@ def _placeholder(declaration: Declaration) -> str:
     choices = declaration.constraints.get("enum")
     items = choices.value.items if choices and isinstance(choices.value, YamlList) else ()
     words = [item.text for item in items if isinstance(item, YamlScalar) and not has_expression(item.text)]
-    if 0 < len(words) == len(items) <= _SHOWN:
-        return "|".join(words)
+    written = "|".join(words[:_SHOWN])
+    if 0 < len(words) == len(items) <= _SHOWN and len(written) <= _SHOWN_TEXT:
+        return written
     return declaration.kind.name.upper() if declaration.kind else "VALUE"
 
 
