@@ -44,7 +44,8 @@ def make_rules(outputs: Iterable[Path], inputs: Sequence[Path]) -> str:
     """
     targets = " ".join(_escaped(output, _UNWRITABLE_IN_TARGETS) for output in outputs)
     rule = " \\\n  ".join((f"{targets}:", *map(_escaped, inputs)))
-    empty = (f"{_escaped(path)}:" for path in inputs if not _UNWRITABLE_IN_TARGETS.search(path.as_posix()))
+    # Without the blank, CMake 3.20 takes the colon for a part of the name.
+    empty = (f"{_escaped(path)}: " for path in inputs if not _UNWRITABLE_IN_TARGETS.search(path.as_posix()))
     return "\n".join((rule, *empty, ""))
 
 

@@ -135,6 +135,9 @@ def test_a_file_that_is_gone_stops_no_make(cell: Path):
     for name in (*FILES, "die.stl"):
         (cell / name).unlink()
     assert makefile.compiles()
+    _, *empty = (cell / "robot.d").read_text().replace("\\\n", "").splitlines()
+    assert "arm.robot.yaml: " in empty
+    assert all(line.endswith(": ") for line in empty), "CMake 3.20 would read 'arm.robot.yaml:' as a name"
 
 
 @pytest.mark.parametrize("name", ["a b.yaml", "a#b.yaml", "a$b.yaml", "a:b.yaml", "a%b.yaml", "a'b.yaml", "ä.yaml"])
