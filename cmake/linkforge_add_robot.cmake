@@ -75,6 +75,9 @@ function(_linkforge_refuse why)
 endfunction()
 
 function(_linkforge_require_spec)
+  if(path MATCHES ";")
+    _linkforge_refuse("CMake cannot depend on '${path}', for it has ';' in it; rename it")
+  endif()
   # One that another command makes comes with the build.
   get_source_file_property(is_generated "${path}" GENERATED)
   if(IS_DIRECTORY "${path}" OR NOT (is_generated OR EXISTS "${path}"))

@@ -210,6 +210,8 @@ def test_a_spec_that_is_not_there_is_told_when_cmake_configures_unless_the_build
     add = "linkforge_add_robot(amr.robot.yaml)"
     run = script(tmp_path, f"{find}\n{add}", "-DLINKFORGE_EXECUTABLE=true")
     assert "linkforge_add_robot(amr.robot.yaml): there is no spec '" in " ".join(run.stderr.split())
+    run = script(tmp_path, f'{find}\nlinkforge_add_robot("a;b.robot.yaml")', "-DLINKFORGE_EXECUTABLE=true")
+    assert "for it has ';' in it; rename it" in " ".join(run.stderr.split())
     makes = "set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/amr.robot.yaml PROPERTIES GENERATED TRUE)"
     assert script(tmp_path, f"{find}\n{makes}\n{add}", "-DLINKFORGE_EXECUTABLE=true").returncode == 0
 
