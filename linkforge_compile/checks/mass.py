@@ -56,7 +56,7 @@ def check_density(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
 
     Told where its mass, spread over its shapes, is less than 1 kg/m³, or more than 25,000 kg/m³ though it filled the
     whole box around them. Shapes in millimetres or a mass in grams or tonnes are the usual causes: write the units.
-    Of meshes, as far as they are .stl or .obj files at hand, a few corners are looked at: with them less than a
+    Of meshes, as far as they are .stl, .obj or .dae files at hand, a few corners are looked at: with them less than a
     hundredth of the one bound, or ten times the other, is told. Links with less than a hundredth of the robot's mass
     are not judged.
     """
@@ -112,8 +112,8 @@ def check_centre_of_mass(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnost
     """The centre of mass lies in or near the shapes of its link.
 
     Told where it is ten times the size of the shapes away from them: millimetres instead of metres, or a pose in
-    the frame of another link. `origin` is in the frame of the link. Meshes are measured as far as they are .stl or
-    .obj files at hand.
+    the frame of another link. `origin` is in the frame of the link. Meshes are measured as far as they are .stl,
+    .obj or .dae files at hand.
     """
     for link, inertial in _bodies_with_a_tensor(robot):
         around = room.box if (room := _room(link, meshes)) else None

@@ -27,6 +27,9 @@ HEADER, TRIANGLE, SAMPLES = 84, 50, 128
 WIDEST = 100.0
 """Beyond this a mesh was meant in millimetres [m]."""
 
+LARGEST = 8 * 1024 * 1024
+"""Of a larger COLLADA file, which is looked at as a whole, no corners are taken [bytes]."""
+
 PIECES, PIECE = 8, 8192
 """How many pieces of a mesh that is text are looked at, and how many bytes each has."""
 
@@ -167,6 +170,11 @@ def look_at(path: Path) -> MeshFile:
                 return MeshFile(None, count, _around(corners)) if count else MeshFile(hollow="it has no triangles")
             if ending == ".obj" or (ending == ".stl" and start.lstrip().lower().startswith(b"solid")):
                 return MeshFile(box=_around(_corners_in_text(stream, length)))
+            if ending == ".dae" and length <= LARGEST:
+                from linkforge_compile.checks.collada import corners_of_scene
+
+                stream.seek(0)
+                return MeshFile(box=_around(corners_of_scene(stream.read(LARGEST))))
     except (OSError, struct.error):
         pass
     return MeshFile()

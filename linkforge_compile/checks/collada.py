@@ -1,0 +1,177 @@
+"""COLLADA at a first look: the corners of a scene, as far as the ends of its arrays of numbers tell.
+
+The long arrays are cut before anything is parsed, so that a look takes a few milliseconds for a file of megabytes.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+_END = 1024
+"""How much of each end of an array is looked at [bytes]."""
+
+_MOST_PLACED, _DEEPEST = 1_000, 50
+"""How many nodes of a scene are looked at, and how deep in one another; nodes may hold nodes without end."""
+
+_PREFIX = re.compile(r"\{[^}]*\}")
+
+Corner: TypeAlias = tuple[float, float, float]
+Matrix: TypeAlias = tuple[tuple[float, float, float, float], ...]
+"""The first three rows of a homogeneous matrix."""
+
+_IDENTITY: Matrix = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))
+
+
+class _UnknownError(Exception):
+    """The scene is made of what a first look does not understand."""
+
+
+def corners_of_scene(content: bytes) -> Sequence[Corner]:
+    """Return corners of a scene where its nodes place them [m]; () where that cannot be told at a look.
+
+    `<unit meter>` scales all of it, and `<up_axis>` turns nothing, as where meshes are read whole.
+    """
+    from xml.etree import ElementTree
+
+    if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
+        return ()
+    try:
+        pieces = (piece if len(piece) <= 2 * _END else _shortened(piece) for piece in content.split(b"<"))
+        root = ElementTree.fromstring(b"<".join(pieces))
+        return tuple(_Scene(root).corners())
+    except (ElementTree.ParseError, ValueError, KeyError, _UnknownError):
+        return ()
+
+
+def _shortened(piece: bytes) -> bytes:
+    """Return a tag and the long text behind it with the ends of that only, each of whole triples of numbers.
+
+    Indices go, as all corners are taken.
+    """
+    tag, _, text = piece.partition(b">")
+    if b"float_array" not in tag:
+        return tag + b">"
+    head, tail = text[:_END].split()[:-1], text[-_END:].split()[1:]
+    return tag + b">" + b" ".join((*head[: len(head) // 3 * 3], *tail[len(tail) % 3 :]))
+
+
+class _Scene:
+    """A document whose arrays are cut."""
+
+    def __init__(self, root: Element) -> None:
+        self._root = root
+        for element in root.iter():
+            element.tag = _PREFIX.sub("", element.tag)
+        self._by_id = {name: element for element in root.iter() if (name := element.get("id"))}
+        self._placed = 0
+
+    def corners(self) -> Iterator[Corner]:
+        unit = self._root.find("asset/unit")
+        meter = float(unit.get("meter", "1")) if unit is not None else 1.0
+        scene = self._root.find("scene/instance_visual_scene")
+        shapes: dict[str, Sequence[Corner]] = {}
+        for url, matrix in self._geometries(self._at(scene), _IDENTITY) if scene is not None else ():
+            if url not in shapes:
+                shapes[url] = tuple(self._shape(url))
+            for corner in shapes[url]:
+                yield _scaled(_moved(corner, matrix), meter)
+
+    def _at(self, instance: Element) -> Element:
+        return self._by_id[instance.get("url", "").removeprefix("#")]
+
+    def _geometries(self, node: Element, around: Matrix, depth: int = 0) -> Iterator[tuple[str, Matrix]]:
+        """Yield each geometry that a node places, with the matrix to the scene."""
+        self._placed += 1
+        if self._placed > _MOST_PLACED or depth > _DEEPEST:
+            raise _UnknownError
+        matrix = around
+        for part in node:
+            match part.tag:
+                case "matrix" | "translate" | "rotate" | "scale":
+                    matrix = _product(matrix, _transform(part))
+                case "node":
+                    yield from self._geometries(part, matrix, depth + 1)
+                case "instance_node":
+                    yield from self._geometries(self._at(part), matrix, depth + 1)
+                case "instance_geometry":
+                    yield part.get("url", "").removeprefix("#"), matrix
+                case "instance_controller" | "lookat" | "skew":
+                    raise _UnknownError
+
+    def _shape(self, url: str) -> Iterator[Corner]:
+        """Yield the corners of a geometry in its own frame."""
+        for given in self._by_id[url].findall("mesh/vertices/input[@semantic='POSITION']"):
+            source = self._by_id[given.get("source", "").removeprefix("#")]
+            accessor, array = source.find("technique_common/accessor"), source.find("float_array")
+            if accessor is None or array is None or accessor.get("stride") != "3":
+                raise _UnknownError
+            numbers = [float(number) for number in (array.text or "").split()]
+            yield from zip(numbers[::3], numbers[1::3], numbers[2::3], strict=True)
+
+
+def _matrix(*numbers: float) -> Matrix:
+    if len(numbers) != 16:
+        raise _UnknownError
+    a, b, c, d, e, f, g, h, i, j, k, m = numbers[:12]
+    return ((a, b, c, d), (e, f, g, h), (i, j, k, m))
+
+
+def _translation(x: float, y: float, z: float) -> Matrix:
+    return ((1, 0, 0, x), (0, 1, 0, y), (0, 0, 1, z))
+
+
+def _scaling(x: float, y: float, z: float) -> Matrix:
+    return ((x, 0, 0, 0), (0, y, 0, 0), (0, 0, z, 0))
+
+
+def _turn(x: float, y: float, z: float, degrees: float) -> Matrix:
+    """Return the turn about an axis, of any length (Rodrigues)."""
+    length = math.hypot(x, y, z)
+    if not length:
+        return _IDENTITY
+    x, y, z = x / length, y / length, z / length
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    t = 1 - c
+    return (
+        (t * x * x + c, t * x * y - s * z, t * x * z + s * y, 0),
+        (t * x * y + s * z, t * y * y + c, t * y * z - s * x, 0),
+        (t * x * z - s * y, t * y * z + s * x, t * z * z + c, 0),
+    )
+
+
+_TRANSFORMS: Mapping[str, Callable[..., Matrix]] = {
+    "matrix": _matrix,
+    "translate": _translation,
+    "rotate": _turn,
+    "scale": _scaling,
+}
+
+
+def _transform(part: Element) -> Matrix:
+    try:
+        return _TRANSFORMS[part.tag](*map(float, (part.text or "").split()))
+    except TypeError as error:  # of more numbers, or fewer
+        raise _UnknownError from error
+
+
+def _product(left: Matrix, right: Matrix) -> Matrix:
+    whole = (*right, (0.0, 0.0, 0.0, 1.0))
+    columns = tuple(zip(*whole, strict=True))
+    rows = [[sum(a * b for a, b in zip(row, column, strict=True)) for column in columns] for row in left]
+    return tuple((a, b, c, d) for a, b, c, d in rows)
+
+
+def _moved(corner: Corner, matrix: Matrix) -> Corner:
+    x, y, z = (a * corner[0] + b * corner[1] + c * corner[2] + d for a, b, c, d in matrix)
+    return x, y, z
+
+
+def _scaled(corner: Corner, factor: float) -> Corner:
+    x, y, z = corner
+    return x * factor, y * factor, z * factor
