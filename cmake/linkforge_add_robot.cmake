@@ -1,11 +1,12 @@
 # linkforge_add_robot(SPEC
 #   [PARAMS NAME:=VALUE ...]      # its parameters; a relative file among them starts in the build folder
-#   [VARIANT NAME]                # one of its variants
+#   [VARIANT NAME]                # one of its variants; no text is no variant
 #   [PACKAGES NAME=FOLDER ...]    # where package://NAME/ is, before any other place
 #   [ALLOW_OUTSIDE]               # lets it read files outside its package, as --allow-outside does
 #   [GAZEBO gz|classic]           # the simulator that reads the sensors
 #   [FORMATS urdf srdf]           # what to write; urdf unless said
-#   [NAME NAME]                   # NAME.urdf and NAME.srdf in the build folder; the spec's name unless said
+#   [NAME NAME]                   # NAME.urdf and NAME.srdf in the build folder; the spec's name unless said. Folders in
+#                                 # it are those of the installation as well
 #   [TARGET TARGET]               # the target, which is part of `all`; robot_NAME unless said
 #   [OUTPUT VARIABLE]             # where to leave the paths of what is written
 #   [INSTALL [DESTINATION DIR]])  # into share/PROJECT/DIR, or DIR itself from share/ on or absolute; urdf unless said
@@ -20,6 +21,8 @@ function(linkforge_add_robot spec)
     set(taken "PARAMS, VARIANT, PACKAGES, ALLOW_OUTSIDE, GAZEBO, FORMATS, NAME, TARGET, OUTPUT, INSTALL and DESTINATION")
     _linkforge_refuse("it has no argument '${word}'; it takes ${taken}")
   endif()
+  # A variable behind PARAMS, VARIANT or PACKAGES may well be empty.
+  list(FILTER ROBOT_KEYWORDS_MISSING_VALUES EXCLUDE REGEX "^(PARAMS|VARIANT|PACKAGES)$")
   if(ROBOT_KEYWORDS_MISSING_VALUES)
     _linkforge_refuse("nothing is said behind ${ROBOT_KEYWORDS_MISSING_VALUES}")
   endif()
@@ -36,6 +39,7 @@ function(linkforge_add_robot spec)
       string(REGEX REPLACE "\\.${ending}$" "" ROBOT_NAME "${ROBOT_NAME}")
     endforeach()
   endif()
+  _linkforge_require_name()
   if(NOT DEFINED ROBOT_TARGET)
     string(REGEX REPLACE "[^A-Za-z0-9_.+-]" "_" ROBOT_TARGET "robot_${ROBOT_NAME}")
   endif()
@@ -61,6 +65,7 @@ function(linkforge_add_robot spec)
   add_custom_target("${ROBOT_TARGET}" ALL DEPENDS ${outputs} SOURCES "${path}")
 
   if(ROBOT_INSTALL)
+    _linkforge_require_places()
     install(FILES ${outputs} DESTINATION "${destination}")
   endif()
   if(DEFINED ROBOT_OUTPUT)
@@ -83,6 +88,29 @@ function(_linkforge_require_spec)
   if(IS_DIRECTORY "${path}" OR NOT (is_generated OR EXISTS "${path}"))
     _linkforge_refuse("there is no spec '${path}'")
   endif()
+endfunction()
+
+function(_linkforge_require_name)
+  set(file "${ROBOT_NAME}")
+  cmake_path(NORMAL_PATH file)
+  # Each has one spelling, by which another one is found to have it.
+  if(NOT file STREQUAL ROBOT_NAME OR IS_ABSOLUTE "${file}" OR file MATCHES "^$|^\\.\\.?(/|$)|/$")
+    _linkforge_refuse("NAME is that of files in the build folder, without their ending; found '${ROBOT_NAME}'")
+  endif()
+endfunction()
+
+function(_linkforge_require_places)
+  get_property(others GLOBAL PROPERTY linkforge_installed)
+  foreach(output IN LISTS outputs)
+    cmake_path(GET output FILENAME file)
+    cmake_path(APPEND destination "${file}" OUTPUT_VARIABLE place)
+    cmake_path(ABSOLUTE_PATH place BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}" NORMALIZE)
+    if(place IN_LIST others)
+      _linkforge_refuse(
+        "another one installs '${place}' already; call the files of this one by NAME, or their folder by DESTINATION")
+    endif()
+    set_property(GLOBAL APPEND PROPERTY linkforge_installed "${place}")
+  endforeach()
 endfunction()
 
 function(_linkforge_options result)
@@ -109,7 +137,7 @@ function(_linkforge_options result)
   if(ROBOT_ALLOW_OUTSIDE)
     list(APPEND options --allow-outside)
   endif()
-  if(DEFINED ROBOT_VARIANT)
+  if(NOT "${ROBOT_VARIANT}" STREQUAL "")
     list(APPEND options --variant "${ROBOT_VARIANT}")
   endif()
   if(DEFINED ROBOT_GAZEBO)
@@ -159,6 +187,10 @@ function(_linkforge_destination result)
   endif()
   if(NOT IS_ABSOLUTE "${destination}" AND NOT destination MATCHES "^share/")
     set(destination "share/${PROJECT_NAME}/${destination}")
+  endif()
+  get_filename_component(folder "${ROBOT_NAME}" DIRECTORY)
+  if(NOT folder STREQUAL "")
+    cmake_path(APPEND destination "${folder}")
   endif()
   set(${result} "${destination}" PARENT_SCOPE)
 endfunction()

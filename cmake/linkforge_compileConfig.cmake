@@ -9,6 +9,10 @@ endif()
 
 # What the functions do is not to depend on how old a CMake their caller asks for.
 cmake_policy(VERSION 3.20)
+# Empty text behind a keyword is a value; a newer CMake warns of one that takes it for nothing.
+if(POLICY CMP0174)
+  cmake_policy(SET CMP0174 NEW)
+endif()
 
 # pip puts this file into PREFIX/share/linkforge_compile/cmake, and the command into PREFIX/bin.
 get_filename_component(_linkforge_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)

@@ -184,7 +184,9 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
         ("PARAMS reach:=1 FORMAT urdf", "PARAMS takes NAME:=VALUE, found 'FORMAT'"),
         ("FORMATS sdf", "FORMATS takes urdf and srdf, found 'sdf'"),
         ("GAZEBO ignition", "GAZEBO takes gz or classic, found 'ignition'"),
-        ("VARIANT", "nothing is said behind VARIANT"),
+        ("FORMATS INSTALL", "nothing is said behind FORMATS"),
+        ("NAME ../arm", "NAME is that of files in the build folder, without their ending; found '../arm'"),
+        ('NAME ""', "NAME is that of files in the build folder, without their ending; found ''"),
         ("DESTINATION urdf", "DESTINATION is of INSTALL, which is not there"),
         ("PACKAGES arm", "PACKAGES takes NAME=FOLDER, found 'arm'"),
         ("PACKAGES arm=nowhere", "PACKAGES arm=nowhere: there is no folder '"),
@@ -203,6 +205,33 @@ def test_wrong_arguments_are_told_when_cmake_configures(tmp_path: Path, argument
     run = script(tmp_path, f"{find}\nlinkforge_add_robot(arm.robot.yaml {arguments})", "-DLINKFORGE_EXECUTABLE=true")
     assert run.returncode != 0
     assert f"linkforge_add_robot(arm.robot.yaml): {said}" in " ".join(run.stderr.split())
+
+
+def test_two_robots_install_into_files_of_their_own(tmp_path: Path):
+    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
+    adds = [f"linkforge_add_robot(arm.robot.yaml {name} INSTALL)" for name in ("NAME a/head", "NAME b/head", "")]
+    (tmp_path / "sub").mkdir()
+    beneath = tmp_path / "sub" / "CMakeLists.txt"
+    text = "\n".join((find, *adds, "add_subdirectory(sub)"))
+    words = ("-DLINKFORGE_EXECUTABLE=true", "-DCMAKE_INSTALL_PREFIX=/prefix")
+    beneath.write_text("linkforge_add_robot(../arm.robot.yaml TARGET other INSTALL DESTINATION ./urdf)\n")
+    said = " ".join(script(tmp_path, text, *words).stderr.split())
+    assert "(../arm.robot.yaml): another one installs '/prefix/share/p/urdf/arm.urdf' already; call the files" in said
+    beneath.write_text("linkforge_add_robot(../arm.robot.yaml TARGET other INSTALL DESTINATION config)\n")
+    assert script(tmp_path, text, *words).returncode == 0
+    installs = "".join(path.read_text() for path in (tmp_path / "b").rglob("cmake_install.cmake"))
+    for folder in ("urdf/a", "urdf/b", "urdf", "config"):
+        assert f'"${{CMAKE_INSTALL_PREFIX}}/share/p/{folder}" TYPE FILE' in installs
+
+
+@pytest.mark.parametrize("said", ["${none}", '"${none}"'])
+def test_an_empty_variable_is_no_variant(tmp_path: Path, said: str):
+    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
+    add = f"linkforge_add_robot(arm.robot.yaml VARIANT {said} PARAMS ${{none}} INSTALL)"
+    run = script(tmp_path, f"{find}\n{add}", "-DLINKFORGE_EXECUTABLE=true")
+    assert (run.returncode, run.stderr) == (0, "")
+    rules = "".join(path.read_text() for path in (tmp_path / "b").rglob("build.make"))
+    assert "arm.robot.yaml --installed-in" in rules
 
 
 def test_a_spec_that_is_not_there_is_told_when_cmake_configures_unless_the_build_makes_it(tmp_path: Path):
