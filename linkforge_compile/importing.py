@@ -112,7 +112,7 @@ def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diag
     from linkforge_compile.backends.relative_paths import lost_on_the_way
     from linkforge_compile.importers.losses import unread
     from linkforge_compile.importers.srdf import with_srdf
-    from linkforge_compile.syntax import write
+    from linkforge_compile.syntax.writer import write
 
     loader = settings.loader(urdf)
     arguments = settings.arguments(loader, sink)

@@ -14,7 +14,7 @@ from linkforge_compile.editor.module_words import entry_of, where_used
 from linkforge_compile.editor.spec_paths import SpecPaths
 from linkforge_compile.editor.vocabulary import Vocabulary
 from linkforge_compile.editor.words import ARGUMENT, NAMES, Words, mark_of
-from linkforge_compile.schema import bundle
+from linkforge_compile.schema.bundle import bundle
 from linkforge_compile.schema.json_types import Json, Schema, mapping
 
 

@@ -1,6 +1,5 @@
-"""Is the tree the language? The schemas, the judgement by them in human sentences, and the bundle for editors."""
+"""Is the tree the language? The schemas, and the judgement by them in human sentences; `bundle` is for editors."""
 
-from linkforge_compile.schema.bundle import bundle, bundle_text
 from linkforge_compile.schema.validator import validate, validate_computed
 
-__all__ = ["bundle", "bundle_text", "validate", "validate_computed"]
+__all__ = ["validate", "validate_computed"]

@@ -1,4 +1,4 @@
-"""Text to positioned tree and back: YAML as the language reads it, every key and value with its place."""
+"""Text to positioned tree: YAML as the language reads it, every key and value with its place; `writer` leads back."""
 
 from linkforge_compile.syntax.ignore_comments import ignore_comments
 from linkforge_compile.syntax.nodes import (
@@ -13,10 +13,8 @@ from linkforge_compile.syntax.nodes import (
 )
 from linkforge_compile.syntax.reader import Tags, read, read_data
 from linkforge_compile.syntax.scalars import scalar_value, word_value
-from linkforge_compile.syntax.writer import Comments, write
 
 __all__ = [
-    "Comments",
     "ScalarValue",
     "Tags",
     "YamlEntry",
@@ -31,5 +29,4 @@ __all__ = [
     "read_data",
     "scalar_value",
     "word_value",
-    "write",
 ]

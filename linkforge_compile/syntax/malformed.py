@@ -14,9 +14,9 @@ from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.marks import Marks
+from linkforge_compile.syntax.scalars import IN_QUOTES, is_cut_expression
 from linkforge_compile.syntax.xacro import XACRO_EXPRESSION, xacro_facts
 
-_IN_QUOTES = re.compile(r"'[^']*'|\"[^\"]*\"")
 _LINE = re.compile(r"[^\r\n]+")
 _MARK_OF_COMMENT = re.compile(r"(?<!\S)#")
 _COMMENT = re.compile(r"(?:^|\s)#.*")
@@ -26,15 +26,6 @@ _WORD = re.compile(r"\w[\w$().-]*")
 _ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
 _IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
 _LONGEST_EXPRESSION = 2_000
-
-
-def is_cut_expression(text: str) -> bool:
-    """Whether a plain scalar holds `$(` without its `)`: in a flow list a comma or a bracket ended it early."""
-    start = text.find("$(")
-    if start < 0:
-        return False
-    rest = _IN_QUOTES.sub("", text[start:])
-    return rest.count("(") > rest.count(")")
 
 
 def explain_cut(event: ScalarEvent, marks: Marks) -> Diagnostic:
@@ -225,7 +216,7 @@ def _comment_with(closing: str, trouble: _Trouble) -> Span | None:
     """Return the first word of a comment that was meant as a value, such as #ff0000, and holds a bracket."""
     for comment in _COMMENT_AS_VALUE.finditer(trouble.marks.text, trouble.began, trouble.at):
         span = trouble.marks.part(comment.start(1), len(comment[1]))
-        before = _IN_QUOTES.sub("", span.file.line(span.line)[: span.column - 1])
+        before = IN_QUOTES.sub("", span.file.line(span.line)[: span.column - 1])
         if closing in comment[0] and not re.search("['\"]", before):
             return span
     return None

@@ -15,10 +15,9 @@ from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.syntax.entries import STUCK, entries_of, kind_of
-from linkforge_compile.syntax.malformed import explain_cut, explain_every, is_cut_expression
 from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.nodes import ScalarValue, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.syntax.scalars import is_overflow, scalar_value
+from linkforge_compile.syntax.scalars import is_cut_expression, is_overflow, scalar_value
 
 MAX_DEPTH = 100
 """How deep lists and maps may nest: every later stage walks the tree by recursion."""
@@ -80,6 +79,8 @@ def _document(marks: Marks, sink: Diagnostics, budget: Budget, tags: Tags | None
         is_empty_field = parser is not yaml.BaseLoader and error.problem == "found unexpected ':'"
         if is_empty_field and len(marks.text) <= MAX_READ_TWICE:
             return _document(marks, sink, budget, tags, yaml.BaseLoader)
+        from linkforge_compile.syntax.malformed import explain_every
+
         sink.report_all(explain_every(error, marks, reader.last_scalar))
     return None
 
@@ -243,6 +244,8 @@ class _Reader:
             self._sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
             return YamlFault(span)
         if flow and not event.style and is_cut_expression(text):
+            from linkforge_compile.syntax.malformed import explain_cut
+
             self._sink.report(explain_cut(event, self._marks))
             self._is_any_cut = True
             return _CutExpression(span)

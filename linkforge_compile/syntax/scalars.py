@@ -26,6 +26,8 @@ _NUMBER = re.compile(
       | (?P<fraction> [-+]? (?: \.[0-9]+ | [0-9]+ (?: \.[0-9]* )? ) (?: [eE] [-+]? [0-9]+ )? )""",
     re.VERBOSE,
 )
+IN_QUOTES = re.compile(r"'[^']*'|\"[^\"]*\"")
+
 _BASES = {"decimal": 10, "octal": 8, "hexadecimal": 16}
 _MOST_DIGITS = 400
 """A double ends at 309 digits; Python refuses to read integers of more than 4,300."""
@@ -50,6 +52,15 @@ def scalar_value(text: str) -> ScalarValue:
 def is_overflow(text: str, value: ScalarValue) -> bool:
     """Whether plain text was a number too large for a double; a written `.inf` is not."""
     return isinstance(value, float) and math.isinf(value) and text not in _WORDS
+
+
+def is_cut_expression(text: str) -> bool:
+    """Whether a plain scalar holds `$(` without its `)`: in a flow list a comma or a bracket ended it early."""
+    start = text.find("$(")
+    if start < 0:
+        return False
+    rest = IN_QUOTES.sub("", text[start:])
+    return rest.count("(") > rest.count(")")
 
 
 def word_value(text: str) -> ScalarValue:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.syntax import write
+from linkforge_compile.syntax.writer import write
 from linkforge_compile.writers.computed_inertia import ComputedFrom
 from linkforge_compile.writers.explain import Explanation, UnknownPathError, explain
 from linkforge_compile.writers.pen import Pen

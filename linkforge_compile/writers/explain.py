@@ -9,7 +9,8 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Change, Span
 from linkforge_compile.source.ref import Located
-from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, write
+from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.writer import write
 from linkforge_compile.writers.computed_inertia import ComputedFrom, computed_from
 from linkforge_compile.writers.pen import Pen
 from linkforge_compile.writers.place import Place, place_of

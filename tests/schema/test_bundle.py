@@ -8,7 +8,7 @@ import sys
 import pytest
 from jsonschema import Draft7Validator
 
-from linkforge_compile.schema import bundle, bundle_text
+from linkforge_compile.schema.bundle import bundle, bundle_text
 
 SPEC = {
     "linkforge": 1,
@@ -54,9 +54,7 @@ def test_the_bundle_names_its_version_and_the_draft():
 
 
 def test_the_bundle_is_the_same_bytes_in_every_process():
-    command = (
-        "import sys; from linkforge_compile.schema import bundle_text; sys.stdout.buffer.write(bundle_text().encode())"
-    )
+    command = "import sys; from linkforge_compile.schema.bundle import bundle_text; sys.stdout.buffer.write(bundle_text().encode())"
     for seed in ("1", "2"):
         run = subprocess.run(
             [sys.executable, "-c", command], capture_output=True, check=True, env={"PYTHONHASHSEED": seed}, timeout=60

@@ -3,7 +3,7 @@
 import pytest
 from jsonschema import Draft7Validator
 
-from linkforge_compile.schema import bundle
+from linkforge_compile.schema.bundle import bundle
 from linkforge_compile.schema.registry import definitions, load_files
 from linkforge_compile.schema.repetition import PLAIN, WORDS
 

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER
-from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, read, scalar_value, write
+from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, read, scalar_value
+from linkforge_compile.syntax.writer import write
 from linkforge_compile.units import Dimension, Quantity, number_text
 
 NOWHERE = SourceFile("<test>", "").whole

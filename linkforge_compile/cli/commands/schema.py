@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import put_json
-    from linkforge_compile.schema import bundle_text
+    from linkforge_compile.schema.bundle import bundle_text
 
     if arguments.workspace is None:
         put_json(bundle_text(), arguments.output, quiet=arguments.quiet)
