@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
-from collections.abc import Iterable
+import textwrap
+from collections.abc import Callable, Iterable
 from pathlib import Path, PurePath
 
 from linkforge_compile.frozen import dataclass
@@ -16,15 +18,16 @@ NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 SCHEMA = PurePath(".linkforge", "robot.schema.json")
 """Where the schema of a repository lies in it, unless said."""
 
-_SPEC, _CMAKE, _PRE_COMMIT = "{name}.robot.yaml", "CMakeLists.txt", ".pre-commit-config.yaml"
+_SPEC, _CMAKE, _PRE_COMMIT, _GITIGNORE = "{name}.robot.yaml", "CMakeLists.txt", ".pre-commit-config.yaml", ".gitignore"
+_SETTINGS, _EXTENSIONS = ".vscode/settings.json", ".vscode/extensions.json"
 
 _TEMPLATES = {
     _SPEC: "robot.robot.yaml",
     _CMAKE: "CMakeLists.txt",
-    ".gitignore": "gitignore",
+    _GITIGNORE: "gitignore",
     _PRE_COMMIT: "pre-commit-config.yaml",
-    ".vscode/settings.json": "settings.json",
-    ".vscode/extensions.json": "extensions.json",
+    _SETTINGS: "settings.json",
+    _EXTENSIONS: "extensions.json",
 }
 
 _FIND = "find_package(linkforge_compile REQUIRED)"
@@ -50,42 +53,89 @@ class RobotFolder:
         return cls(folder, workspace_of(folder), package, repository)
 
     def files(self, name: str) -> dict[Path, str]:
-        """Return the text of each file by its path; the schema that the spec names is not among them."""
+        """Return the text of each file by its path; the schema that the spec names is not among them.
+
+        What stands once for all robots is among them where it is that of the folder itself, or there is none yet.
+        """
+        texts = self._texts(name)
+        homes = {path: self._home(path) for path in texts}
+        return {
+            homes[path] / path.format(name=name): text
+            for path, text in texts.items()
+            if homes[path] == self.folder or (path in _AT_THE_TOP and not (homes[path] / path).exists())
+        }
+
+    def _texts(self, name: str) -> dict[str, str]:
         from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
         # Nothing is escaped: the name is letters, digits, `_` and `-`, and no file is XML.
         environment = Environment(
             loader=FileSystemLoader(templates_folder() / "init"), undefined=StrictUndefined, keep_trailing_newline=True
         )
-        words = {"name": name, "schema": _way(self.folder, self.workspace / SCHEMA), "find": _FIND}
-        words["add_robot"] = self._add_robot(name)
-        return {
-            self.folder / path.format(name=name): environment.get_template(f"{template}.j2").render(words)
-            for path, template in _TEMPLATES.items()
-            if self._goes_here(path)
+        words = {
+            "name": name,
+            "schema": _way(self.folder, self.workspace / SCHEMA),
+            "find": _FIND,
+            "add_robot": self._add_robot(name),
+            "folder": _prefix(self.repository, self.folder),
+            "yaml_schemas": self._yaml_schemas(),
         }
+        return {path: environment.get_template(f"{template}.j2").render(words) for path, template in _TEMPLATES.items()}
 
-    def _goes_here(self, path: str) -> bool:
-        home = {_SPEC: self.folder, _CMAKE: self.package, _PRE_COMMIT: self.repository}
-        return home.get(path, self.workspace) == self.folder
+    def _home(self, path: str) -> Path:
+        homes = {_SPEC: self.folder, _CMAKE: self.package, _GITIGNORE: self.workspace}
+        return homes.get(path, self.repository)
 
     def _add_robot(self, name: str) -> str:
         spec = _way(self.package, self.folder / _SPEC.format(name=name))
         return f"linkforge_add_robot({spec} FORMATS urdf srdf INSTALL)"
 
+    def _yaml_schemas(self) -> str:
+        below = _prefix(self.repository, self.workspace)
+        patterns = [f"{below}**/*.robot.{ending}" if below else f"*.robot.{ending}" for ending in ("yaml", "yml")]
+        return f'"yaml.schemas": {json.dumps({f"{below}{SCHEMA.as_posix()}": patterns}, ensure_ascii=False)}'
+
     def missing(self, name: str) -> dict[Path, tuple[str, ...]]:
         """Return the lines that files which were there before lack of the robot."""
-        wanted = {
-            self.package / _CMAKE: (_FIND, self._add_robot(name)),
-            self.repository / _PRE_COMMIT: ("- id: linkforge-check",),
+        lacks: dict[str, Callable[[str, str], list[str]]] = {
+            _CMAKE: _lines_of_cmake,
+            _PRE_COMMIT: _hooks,
+            _GITIGNORE: _ignored,
+            _SETTINGS: self._settings,
+            _EXTENSIONS: _extensions,
         }
-        found = {path: path.read_text("utf-8", "replace") for path in wanted if path.is_file()}
-        # Whoever wrote a line himself may have given it other options.
-        missed = {
-            path: tuple(line for line in wanted[path] if line.partition(" FORMATS")[0] not in text)
-            for path, text in found.items()
-        }
+        texts = self._texts(name)
+        homes = {self._home(path) / path: path for path in lacks}
+        found = {path: path.read_text("utf-8", "replace") for path in homes if path.is_file()}
+        missed = {path: tuple(lacks[homes[path]](text, texts[homes[path]])) for path, text in found.items()}
         return {path: lines for path, lines in missed.items() if lines}
+
+    def _settings(self, found: str, _text: str) -> list[str]:
+        schema = f"{_prefix(self.repository, self.workspace)}{SCHEMA.as_posix()}"
+        return [] if f'"{schema}"' in found or f'"./{schema}"' in found else [self._yaml_schemas()]
+
+
+_AT_THE_TOP = (_PRE_COMMIT, _SETTINGS, _EXTENSIONS)
+"""What tools read at the top of a repository only."""
+
+
+def _lines_of_cmake(found: str, text: str) -> list[str]:
+    # Whoever wrote a line himself may have given it other options.
+    return [line for line in text.splitlines()[-2:] if line.partition(" FORMATS")[0] not in found]
+
+
+def _hooks(found: str, text: str) -> list[str]:
+    block = text.partition("repos:\n")[2]
+    return [] if "id: linkforge-check" in found else textwrap.dedent(block).splitlines()
+
+
+def _ignored(found: str, text: str) -> list[str]:
+    there = {line.strip().strip("/") for line in found.splitlines()}
+    return [line for line in text.splitlines() if line.strip("/") not in there]
+
+
+def _extensions(found: str, text: str) -> list[str]:
+    return [] if "redhat.vscode-yaml" in found else [line.strip() for line in text.splitlines()[1:-1]]
 
 
 def workspace_of(folder: Path) -> Path:
@@ -105,6 +155,12 @@ def schemas_below(root: Path, specs: Iterable[Path]) -> tuple[Path, ...]:
     """Return the folders between one and its specs that have a schema of their own, which editors read there."""
     between = {folder for spec in specs for folder in spec.parents if folder != root and folder.is_relative_to(root)}
     return tuple(sorted(folder for folder in between if (folder / SCHEMA).is_file()))
+
+
+def _prefix(start: Path, folder: Path) -> str:
+    """Return what stands before a path from the folder to make it one from the start: nothing where they are one."""
+    way = _way(start, folder)
+    return "" if way == "." else f"{way}/"
 
 
 def _way(start: Path, path: Path) -> str:

@@ -92,13 +92,53 @@ def test_what_stands_at_the_top_of_a_package_or_repository_is_not_written_twice(
     told = linkforge("init", "arm", "--dir", "robots", cwd=package).stderr
     add = "linkforge_add_robot(robots/arm.robot.yaml FORMATS urdf srdf INSTALL)"
     assert f"put into CMakeLists.txt:\n  find_package(linkforge_compile REQUIRED)\n  {add}\n" in told
-    assert "put into ../../.pre-commit-config.yaml:\n  - id: linkforge-check\n" in told
-    absent = {".pre-commit-config.yaml", "CMakeLists.txt", "my-arm.robot.yaml"}
-    assert files_in(package / "robots").keys() == (FILES - absent) | {"arm.robot.yaml"}
+    assert files_in(package / "robots").keys() == {".gitignore", ".linkforge/robot.schema.json", "arm.robot.yaml"}
+    settings = json.loads((tmp_path / ".vscode/settings.json").read_text())
+    (schema,) = settings["yaml.schemas"]
+    assert (tmp_path / schema).is_file()
     assert "wrote .linkforge/robot.schema.json" in linkforge("init", "hand", cwd=package / "robots").stderr
     assert files_in(package / "robots" / "hand").keys() == {"hand.robot.yaml"}
     spec = (package / "robots" / "hand" / "hand.robot.yaml").read_text()
     assert spec.startswith("# yaml-language-server: $schema=../.linkforge/robot.schema.json\n")
+
+
+def test_what_tools_read_at_the_top_of_a_repository_is_written_there(tmp_path: Path):
+    (tmp_path / ".git").mkdir()
+    told = linkforge("init", "arm", cwd=tmp_path).stderr
+    top = {".pre-commit-config.yaml", ".vscode/settings.json", ".vscode/extensions.json"}
+    assert all(f"wrote {name}\n" in told for name in top)
+    assert top <= files_in(tmp_path).keys()
+    assert "compile --check arm/arm.robot.yaml -o arm/urdf/" in (tmp_path / ".pre-commit-config.yaml").read_text()
+    _, missed = linkforge("init", "hand", cwd=tmp_path / "arm").stderr.split("\nput into ")
+    assert missed.startswith("CMakeLists.txt:")
+
+
+def test_what_kept_files_lack_is_told_as_one_would_put_it_in(tmp_path: Path):
+    (tmp_path / ".git").mkdir()
+    mine = {
+        ".pre-commit-config.yaml": "repos:\n",
+        "robots/.gitignore": "build/\n",
+        ".vscode/settings.json": '{"editor.tabSize": 2}\n',
+        ".vscode/extensions.json": "{}\n",
+    }
+    for name, text in mine.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+    run = linkforge("init", "arm", "--dir", "robots", cwd=tmp_path)
+    _, *blocks = run.stderr.split("\nput into ")
+    missed = dict(block.split(":\n", 1) for block in blocks)
+    assert missed.keys() == mine.keys()
+    hooks = yaml.safe_load(mine[".pre-commit-config.yaml"] + missed[".pre-commit-config.yaml"])
+    (hook,) = hooks["repos"][0]["hooks"]
+    assert (hook["id"], hook["pass_filenames"]) == ("linkforge-check", False)
+    assert missed["robots/.gitignore"].split() == ["/install/", "/log/"]
+    settings = json.loads(f"{{{missed['.vscode/settings.json']}}}")
+    assert settings["yaml.schemas"].keys() == {"robots/.linkforge/robot.schema.json"}
+    assert missed[".vscode/extensions.json"].strip() == '"recommendations": ["redhat.vscode-yaml"]'
+    # Once they are put in, nothing is missed.
+    for name, text in missed.items():
+        (tmp_path / name).write_text(mine[name] + text)
+    assert "put into" not in linkforge("init", "arm", "--dir", "robots", cwd=tmp_path).stderr
 
 
 def test_what_is_beside_it_is_not_run(

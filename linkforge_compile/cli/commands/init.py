@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 _EXAMPLES = """\
 Writes NAME.robot.yaml, which compiles, the schema by which editors complete it, settings of VS Code, .gitignore,
 .pre-commit-config.yaml and CMakeLists.txt. What is there already is kept as it is, and what it lacks is told; only the
-schema is renewed. A folder within a package or repository gets no second one of what stands once at its top.
+schema is renewed. A folder within a package or repository gets no second one of what stands once at its top; what is
+read only at the top of a repository, settings of VS Code and .pre-commit-config.yaml, goes there.
 
 examples:
   linkforge init my_arm               in a new folder my_arm
