@@ -7,6 +7,7 @@ from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import MODULE_FIELD, MODULE_WITHOUT_FILE, NOT_A_MODULE, SAME_KEY
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
@@ -89,8 +90,14 @@ def with_fields(entry: ModuleEntry, fields: YamlMap, sink: Diagnostics) -> Modul
         ref=replace(entry.ref, node=fields),
         use=use if isinstance(use, YamlScalar) else None,
         prefix=prefix.text if isinstance(prefix, YamlScalar) else f"{entry.name}_",
-        is_named=entry.is_named and not isinstance(prefix, YamlFault),
+        is_named=entry.is_named and not isinstance(prefix, YamlFault) and not _is_misspelt(fields),
     )
+
+
+def _is_misspelt(fields: YamlMap) -> bool:
+    """Whether a key that nobody knows was meant for what decides about the names in the module."""
+    faulty = (entry.name for entry in fields if isinstance(entry.value, YamlFault))
+    return any(nearest(name, ("prefix", "override")) for name in faulty)
 
 
 def _override(written: YamlNode | None, name: str, tree: TreeEvaluator) -> Override | YamlFault | None:
