@@ -87,15 +87,25 @@ def lower_file(
         source=SourceRef(tree, said.span if said else None, trail),
         **outer_extras_of(file),
     )
-    lost = [name for parts in (links, joints) for name, part in parts.items() if part is None]
-    lost += _without_mimic(tree.get("joints"))
-    lost += [name for node in (tree, tree.get("semantic")) for name in names_at_fault(node)]
-    modules = (entry for entry in tree if isinstance(entry.value, YamlFault) and "use" in entry.value.keys)
-    lost += [f"{entry.name}_$(…)" for entry in modules]  # whatever name it may have brought
-    gaps = gaps_of([*lost, *(semantic.lost if semantic else ())])
-    if is_part or _has_lost(tree, _SECTIONS_OF_NAMES) or _has_lost(tree.get("semantic"), _SECTIONS_OF_SEMANTIC_NAMES):
-        gaps |= Gaps(prefixes=("",))
+    gaps = _gaps(tree, [name for parts in (links, joints) for name, part in parts.items() if part is None])
+    gaps |= gaps_of(semantic.lost if semantic else ())
     return LoweredFile(robot, semantic.states if semantic else (), gaps, tuple(_mounts(file)))
+
+
+def _gaps(tree: YamlMap, lost: Iterable[str]) -> Gaps:
+    """Return the names that a file has lost: those of faulty entries, and what may be in what could not be read."""
+    semantic = tree.get("semantic")
+    if (
+        tree.get("name") is None
+        or _has_lost(tree, _SECTIONS_OF_NAMES)
+        or _has_lost(semantic, _SECTIONS_OF_SEMANTIC_NAMES)
+    ):
+        return gaps_of(lost) | Gaps(prefixes=("",))
+    modules = (entry.name for entry in tree if isinstance(entry.value, YamlFault) and "use" in entry.value.keys)
+    brought = [f"{name}_$(…)" for name in modules]  # whatever names those have
+    return gaps_of(
+        [*lost, *_without_mimic(tree.get("joints")), *names_at_fault(tree), *names_at_fault(semantic), *brought]
+    )
 
 
 def _without_mimic(joints: YamlNode | None) -> list[str]:

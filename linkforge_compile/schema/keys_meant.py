@@ -47,14 +47,16 @@ def unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
 
 
 def _slip(entry: YamlEntry, node: YamlMap, schema: Schema) -> str:
-    """Return what an unknown key has in common with others of one slip: where they belong, or that nobody knows."""
+    """Return what an unknown key has in common with others of one slip: where they belong, or what is said of it."""
     known, name = mapping(schema.get("properties", {})), entry.name
     if whole := _whole(entry, schema):
         return whole
     if _of_a_table(entry, node, schema):
         return f"{name}:"
-    place = _place(entry, known)
-    return place.replace(name, "…") or (f"{name}:" if nearest(name, known) else "")
+    hint, near = _meant(entry, node, schema)
+    # Where it has no other key either, the whole map stands in the wrong place.
+    is_misplaced = hint and not near and node.entries.keys().isdisjoint(known)
+    return hint.replace(name, "…") if is_misplaced and name else f"{name}:"
 
 
 def _whole(entry: YamlEntry, schema: Schema) -> str | None:
