@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.backends.marks import mark, mark_of_line
+from linkforge_compile.backends.marks import is_recording, mark, mark_of_line
 from linkforge_compile.backends.markup import (
     Xml,
     escaped,
@@ -21,6 +22,9 @@ from linkforge_compile.source import SourceRef
 
 _MOST_SHOWN = 80
 """Characters of raw XML that a message quotes."""
+
+_LONGEST_KEPT = 10_000
+"""Characters of raw XML that is remembered laid out."""
 
 Content: TypeAlias = "str | Node"
 """What stands in an element: text, an element, or a comment, which is Xml."""
@@ -57,6 +61,18 @@ def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -
             instruction, which most readers refuse.
 
     """
+    if is_recording() or len(text) > _LONGEST_KEPT:
+        return _laid_out(text, source, path)
+    return _kept(str(text))  # one that knows its place would keep its whole file
+
+
+# A text is asked for by the limits of its format and by the rendering, and by each compile of a watcher.
+@lru_cache(maxsize=256)
+def _kept(text: str) -> Xml:
+    return _laid_out(text, None, ())
+
+
+def _laid_out(text: str, source: SourceRef | None, path: Path) -> Xml:
     require_writable(text)
     content = _parse(text, source, path)
     if any(map(is_text, content)):
