@@ -19,13 +19,13 @@ def workspaces_at(here: Path) -> tuple[Path, ...]:
 
 def schema_of(root: Path, packages: Mapping[str, Path], *, runs_xacro: bool = True) -> str:
     """Return the schema of the specs below a folder; UsageError for none, or more than a repository has."""
-    from linkforge_compile.editor import vocabulary_of, workspace_text
+    from linkforge_compile.editor import vocabulary_of, without_parts, workspace_text
     from linkforge_compile.editor.robot_folder import schemas_below
 
     specs = _specs(root)
     for folder in schemas_below(root, specs):
         to_stderr(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it\n")
-    vocabularies = [vocabulary_of(spec, root, packages, runs_xacro=runs_xacro) for spec in specs]
+    vocabularies = without_parts(vocabulary_of(spec, root, packages, runs_xacro=runs_xacro) for spec in specs)
     remedy = "`linkforge check` tells why" if runs_xacro else "`linkforge schema --workspace` may find them"
     for vocabulary in vocabularies:
         if not vocabulary.is_whole:

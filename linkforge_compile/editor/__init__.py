@@ -2,6 +2,6 @@
 
 from linkforge_compile.editor.specs import TooManyFilesError, specs_below
 from linkforge_compile.editor.vocabulary import Vocabulary, vocabulary_of
-from linkforge_compile.editor.workspace import workspace_text
+from linkforge_compile.editor.workspace import without_parts, workspace_text
 
-__all__ = ["TooManyFilesError", "Vocabulary", "specs_below", "vocabulary_of", "workspace_text"]
+__all__ = ["TooManyFilesError", "Vocabulary", "specs_below", "vocabulary_of", "without_parts", "workspace_text"]

@@ -34,7 +34,7 @@ class Vocabulary:
     `files` are the spec and what it includes, relative to the workspace, with `/`. `arguments` are the parameters of
     the modules that it uses, by the text of `use`. `entries` are what an override of it reaches: its own names, without
     those of its modules, by section. `is_whole` says that nothing is missing because of errors; what depends on a
-    parameter without a value is always.
+    parameter without a value is always. `has_name` says that the spec is a robot, and no part for others to include.
     """
 
     files: tuple[str, ...]
@@ -43,6 +43,7 @@ class Vocabulary:
     arguments: Mapping[str, tuple[ListedParameter, ...]] = field(default_factory=dict)
     entries: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     is_whole: bool = True
+    has_name: bool = True
 
 
 def vocabulary_of(
@@ -68,7 +69,8 @@ def _vocabulary_of(path: Path, root: Path, packages: Mapping[str, Path], *, runs
         files = dict.fromkeys((*found.files, *(_relative(part, root) for part in included)))
         own = list_parameters(spec, loader, Diagnostics()).parameters
         used = {use: listing.parameters for use, listing in list_used(spec, loader).items()}
-        found = replace(found, files=tuple(files), parameters=own, arguments=used)
+        has_name = spec.tree.get("name") is not None
+        found = replace(found, files=tuple(files), parameters=own, arguments=used, has_name=has_name)
         expanded = expand(spec, Arguments(), loader, sink, unset=Unset.NOTE)
         robot = lower(_without_meshes(expanded), sink).robot
     except BeyondLimitError:

@@ -15,8 +15,10 @@ from linkforge_compile.syntax.scalars import scalar_value
 NAMES, KEYS = "names", "keys"
 """How a `$comment` of the schemas begins whose values, or whose keys, are names: `names: link, joint`."""
 
-FILE, PARAMETER, ARGUMENT = "file", "parameter", "argument"
-"""What is marked beside the parts of a robot: specs, the file's own parameters, those of the module that is used."""
+FILE, INCLUDED, PARAMETER, ARGUMENT = "file", "included", "parameter", "argument"
+"""What is marked beside the parts of a robot: specs, files that specs include, the file's own parameters, those of the
+module that is used.
+"""
 
 _BARE = re.compile(r"[\w./-]+")
 
@@ -35,16 +37,17 @@ class Words:
         definitions: Mapping[str, Schema],
         words: Vocabulary,
         paths: Schema,
+        included: Sequence[str],
         modules: Sequence[Json],
         *,
         prefix: str,
     ) -> None:
-        """`definitions` are those of the language; `paths` offers what `use` may name in this file, and `modules` are
-        what there is to offer in an entry that uses one.
+        """`definitions` are those of the language; `paths` offers what `use` may name in this file, `included` are
+        paths for `include`, and `modules` are what there is to offer in an entry that uses one.
         """
         self._definitions = definitions
         self._parameters = words.parameters
-        self._names = words.names
+        self._names = {**words.names, INCLUDED: included}
         self._paths = paths
         self._modules = modules
         self._prefix = prefix
@@ -92,7 +95,9 @@ class Words:
         if FILE in kinds:
             return self._paths
         snippets: list[Json] = [
-            snippet(name, f"a {kind} of this robot") for kind in kinds for name in self._names.get(kind, ())
+            snippet(name, "a file that specs include" if kind == INCLUDED else f"a {kind} of this robot")
+            for kind in kinds
+            for name in self._names.get(kind, ())
         ]
         if not snippets:
             return {}

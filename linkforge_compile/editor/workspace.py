@@ -18,6 +18,13 @@ from linkforge_compile.schema.bundle import bundle
 from linkforge_compile.schema.json_types import Json, Schema, mapping
 
 
+def without_parts(vocabularies: Iterable[Vocabulary]) -> tuple[Vocabulary, ...]:
+    """Leave out files without a name that others include: they have the words of those, and are no modules."""
+    known = tuple(vocabularies)
+    included = {file for words in known for file in words.files[1:]}
+    return tuple(words for words in known if words.has_name or words.files[0] not in included)
+
+
 def workspace_text(vocabularies: Sequence[Vocabulary]) -> str:
     """Return the schema as JSON text, the same bytes for the same words."""
     import json
@@ -33,12 +40,15 @@ def workspace_schema(vocabularies: Sequence[Vocabulary]) -> Schema:
     files = [(file, words) for words in vocabularies for file in words.files if not file.startswith("../")]
     known = dict(files)
     modules = _Modules(vocabularies)
+    included = sorted({file for file, words in files if file != words.files[0]})
     offers: list[Json] = []
     made: Schema = {}
     for file, vocabulary in files:
-        paths = modules.paths.paths_from(posixpath.dirname(file), vocabulary.files)
+        folder = posixpath.dirname(file)
+        paths = modules.paths.paths_from(folder, vocabulary.files)
+        others = [posixpath.relpath(part, folder or ".") for part in included if part != file]
         used = modules.used_in(file, vocabulary)
-        words = Words(definitions, vocabulary, paths, used, prefix=f"words_{len(offers) + 1}_")
+        words = Words(definitions, vocabulary, paths, others, used, prefix=f"words_{len(offers) + 1}_")
         offers.append(_in_file(file, words.of(whole), known))
         made |= words.made
     return {**whole, "allOf": offers, "definitions": {**definitions, **modules.made, **made}}

@@ -85,6 +85,25 @@ def test_a_folder_stands_for_every_spec_in_it_and_below(tmp_path: Path):
         assert run.stderr.splitlines()[-1] == "checked 2 specs: 3 errors"
 
 
+def test_a_part_without_a_name_is_judged_with_the_spec_that_includes_it(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text("linkforge: 1\nname: arm\ninclude: [links.robot.yaml]\n")
+    part = tmp_path / "links.robot.yaml"
+    part.write_text("linkforge: 1\nlinks: {base: }\n")
+    run = linkforge("check", cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "checked 1 spec: no errors\n")
+    assert linkforge("check", "arm.robot.yaml", "./links.robot.yaml", cwd=tmp_path).returncode == 0
+    part.write_text("linkforge: 1\nlinks: {base: {visual: {sphere: -1}}}\n")
+    run = linkforge("check", cwd=tmp_path)
+    assert run.stderr.splitlines()[-1] == "checked 1 spec: 1 error"
+    # What nobody includes, and what is used as a module, is to be a robot.
+    (tmp_path / "arm.robot.yaml").write_text(
+        "linkforge: 1\nname: arm\nlinks: {a: }\nmodules: {m: {use: links.robot.yaml, parent: a}}\n"
+    )
+    assert "[LF2003]" in linkforge("check", cwd=tmp_path).stderr
+    (tmp_path / "arm.robot.yaml").unlink()
+    assert "[LF2003]" in linkforge("check", cwd=tmp_path).stderr
+
+
 def test_a_folder_without_specs_is_no_clean_one(tmp_path: Path):
     (tmp_path / "empty").mkdir()
     (tmp_path / "good.robot.yaml").write_text(PENDULUM)

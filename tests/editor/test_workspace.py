@@ -118,6 +118,7 @@ OFFERED = {
     "a joint of hardware": ("ros2_control:\n  arm:\n    joints:\n      |", ["joint", "left_elbow", "left_joint"]),
     "a material": ("links:\n  a:\n    visual: {material: |}", ["steel"]),
     "a file": ("modules:\n  left:\n    use: |", ["../faulty.robot.yaml", "../parts/arm.robot.yaml"]),
+    "a file to include": ("include: [|]", ["palette.yaml"]),
     "a module's parameters": ("modules:\n  a:\n    use: ../parts/arm.robot.yaml\n    with:\n      |", ARGUMENTS),
     "them before the file": ("modules:\n  a:\n    with:\n      |\n    use: ../parts/arm.robot.yaml\n", ARGUMENTS),
     "half of one in flow style": ("modules: {a: {use: ../parts/arm.robot.yaml, with: {re|}}}", ARGUMENTS),
@@ -145,6 +146,23 @@ def test_what_is_offered(server: LanguageServer, shop: str, document: str, label
 def test_an_included_file_has_the_names_of_the_robot(server: LanguageServer, shop: str):
     document = f"{MODELINE}linkforge: 1\njoints:\n  weld: {{parent: |}}"
     assert [found.label for found in server.completions(document, f"{shop}/cells/palette.yaml")] == CELL_LINKS
+
+
+def test_a_file_to_include_is_one_that_specs_include(server: LanguageServer, shop: str):
+    document = HEAD.replace("../", "") + "include: [|]\n"
+    assert [found.label for found in server.completions(document, f"{shop}/faulty.robot.yaml")] == [
+        "cells/palette.yaml"
+    ]
+
+
+def test_a_part_that_is_called_as_a_robot_is_no_module(tmp_path: Path):
+    cell = CELL.replace("palette.yaml", "palette.robot.yaml")
+    files = {"parts/arm.robot.yaml": ARM, "cells/cell.robot.yaml": cell, "cells/palette.robot.yaml": PALETTE}
+    run = linkforge("schema", "--workspace", cwd=written(tmp_path, files))
+    assert run.stderr == "wrote .linkforge/robot.schema.json\n"
+    schema = json.loads((tmp_path / ".linkforge/robot.schema.json").read_text())
+    modules = {name for name in schema["definitions"] if name.startswith("module_")}
+    assert len({name for name in modules if name.removeprefix("module_").isdecimal()}) == 2
 
 
 def test_another_spec_has_its_own_names(server: LanguageServer, shop: str):

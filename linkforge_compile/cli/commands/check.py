@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import check_spec
@@ -62,15 +62,14 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("--all-variants takes files, not standard input")
     # Specs that use one module share its faults: each is told and counted once.
     found = {str(one): one for one in _without_specs(meant)}
-    variants = 0
-    for spec in specs:
-        compilations = _checked(spec, assignments, arguments)
-        variants += len(compilations) - 1
-        for diagnostic in _one_report(compilations):
+    reports = _without_parts({spec: _report(_checked(spec, assignments, arguments)) for spec in specs})
+    for report in reports.values():
+        for diagnostic in report.diagnostics:
             found.setdefault(str(diagnostic), diagnostic)
     told = selected(found.values(), arguments)
     _write(told, arguments)
-    checked = f"checked {_counted(len(specs), 'spec')}"
+    checked = f"checked {_counted(len(reports), 'spec')}"
+    variants = sum(report.variants for report in reports.values())
     if arguments.all_variants:
         checked += f" with the defaults and {_counted(variants, 'variant')}"
     if not arguments.quiet:
@@ -120,14 +119,41 @@ def _write(told: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
         write_to_stdout(text)
 
 
-def _one_report(compilations: Mapping[str | None, Compilation]) -> tuple[Diagnostic, ...]:
+class _Report(NamedTuple):
+    """What is told of a spec, how many variants of it were checked, and the real paths of its files."""
+
+    diagnostics: tuple[Diagnostic, ...]
+    variants: int
+    files: frozenset[str]
+
+
+def _report(compilations: Mapping[str | None, Compilation]) -> _Report:
     from linkforge_compile.diagnostics.runs import told_once
 
     runs = {
         "the defaults" if variant is None else f"variant '{variant}'": compilation.diagnostics
         for variant, compilation in compilations.items()
     }
-    return told_once(runs)
+    files = frozenset(os.path.realpath(file) for compilation in compilations.values() for file in compilation.files)
+    return _Report(told_once(runs), len(compilations) - 1, files)
+
+
+def _without_parts(reports: Mapping[str, _Report]) -> dict[str, _Report]:
+    """Leave out files without a name that one with a name is made from: what is wrong with them is told there.
+
+    One that is not included but used as a module has its missing name told there as well.
+    """
+    nameless = {spec for spec, report in reports.items() if _lacks_name(spec, report)}
+    judged = {file for spec, report in reports.items() if spec not in nameless for file in report.files}
+    parts = {spec for spec in nameless if os.path.realpath(spec) in judged}
+    return {spec: report for spec, report in reports.items() if spec not in parts}
+
+
+def _lacks_name(spec: str, report: _Report) -> bool:
+    from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
+
+    spans = (one.span for one in report.diagnostics if one.code is MISSING_NAME)
+    return any(span is not None and span.file.path == Path(spec) for span in spans)
 
 
 def _counted(count: int, noun: str) -> str:
