@@ -69,7 +69,7 @@ def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> 
     judgements = told_once(judgements, tree)
     for judgement in sorted(judgements, key=lambda judgement: judgement.diagnostic.order):
         sink.report(judgement.diagnostic)
-    if len(judgements) > MAX_TOLD:
+    if sum(1 + len(judgement.also) for judgement in judgements) > MAX_TOLD:
         raise too_many_errors(judgements[-1].diagnostic.span)
     return _pruned(tree, judgements)
 
