@@ -26,6 +26,7 @@ _WORD = re.compile(r"\w[\w$().-]*")
 _ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
 _IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
 _LONGEST_EXPRESSION = 2_000
+_LINE_OF_ENTRY = re.compile(r"\s*(?:-[ \t]+)?[\w$().-]+:(?!\S)")
 
 
 def explain_cut(event: ScalarEvent, marks: Marks) -> Diagnostic:
@@ -82,6 +83,15 @@ class _Trouble:
         found = pattern.match(self.marks.file.line(line))
         return Span(self.marks.file, line, found.start(1) + 1, line, found.end(1) + 1) if found else None
 
+    def quoted_before(self) -> Span | None:
+        """Return the text in quotes that ended just before it, if that goes over several lines."""
+        last = self.last_scalar
+        if last is None or last.style not in ("'", '"'):
+            return None
+        span = self.marks.scalar(last)
+        is_just_before = span.end_line == self.here.line and not self.before[span.end_column - 1 :].strip()
+        return span if is_just_before and span.line < span.end_line else None
+
     def line_above(self) -> int:
         """Return the number of the last line above that says something, 0 for none."""
         line = self.here.line - 1
@@ -96,6 +106,8 @@ def explain(error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent | Non
     at = min(error.problem_mark.index, end) if error.problem_mark else end
     began = error.context_mark.index if error.context_mark else at
     trouble = _Trouble(error.problem or "", error.context or "", at, began, marks, last_scalar)
+    if quoted := trouble.quoted_before():
+        return _text_in_quotes_ended(trouble, quoted)
     for pattern, tell in _SENTENCES:
         if re.search(pattern, trouble.problem):
             return tell(trouble)
@@ -224,6 +236,16 @@ def _comment_with(closing: str, trouble: _Trouble) -> Span | None:
 
 def _unclosed_quote(trouble: _Trouble) -> Diagnostic:
     return codes.UNCLOSED_QUOTE.at(trouble.marks.part(trouble.began, 1))
+
+
+def _text_in_quotes_ended(trouble: _Trouble, quoted: Span) -> Diagnostic:
+    """Tell a closing quote that is missing from text behind one; the next of its kind ends the text, lines below."""
+    opening = Span(quoted.file, quoted.line, quoted.column, quoted.line, quoted.column + 1)
+    lines = range(quoted.line + 1, quoted.end_line + 1)
+    if any(_LINE_OF_ENTRY.match(quoted.file.line(line)) for line in lines):
+        ending = Span(quoted.file, quoted.end_line, quoted.end_column - 1, quoted.end_line, quoted.end_column)
+        return codes.UNCLOSED_QUOTE.at(opening, notes=[Note("the next quote of its kind stands here", ending)])
+    return codes.TEXT_AFTER_VALUE.at(trouble.here, notes=[Note("the text in quotes begins here", opening)])
 
 
 def _unknown_escape(trouble: _Trouble) -> Diagnostic:
