@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from linkforge_compile.checks.circles import told_circles
-from linkforge_compile.checks.ranges import passed_range, says_unit
+from linkforge_compile.checks.ranges import is_known, measured, passed_range, says_unit, unit_at
 from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointMimic, JointSafetyController, JointType
 from linkforge_compile.core.models.robot import Robot
@@ -105,8 +105,10 @@ def check_mimic_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
 
 
 def _driven_range(mimic: JointMimic, leader: Joint) -> tuple[float, float] | None:
-    """Return how far a leader drives its follower [rad] or [m]; None where its own range is not said."""
+    """Return how far a leader drives its follower [rad] or [m]; None where its own range is not said, or not known."""
     if leader.limits is None or leader.limits.lower is None or leader.limits.upper is None:
+        return None
+    if not is_known(leader.limits.lower, leader.limits.upper, mimic.multiplier, mimic.offset):
         return None
     ends = [mimic.multiplier * end + mimic.offset for end in (leader.limits.lower, leader.limits.upper)]
     return min(ends) + 0.0, max(ends) + 0.0  # no -0, which a person would not write
@@ -194,10 +196,17 @@ def check_soft_limits(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         safety, limits = joint.safety_controller, joint.limits
         if safety is None or not safety.k_position or joint.type not in BOUNDED_JOINTS or limits is None:
             continue
+        if not is_known(safety.soft_lower_limit, safety.soft_upper_limit):
+            continue
         lower, upper = safety.soft_lower_limit or 0.0, safety.soft_upper_limit or 0.0
         if lower >= upper:
+            unit = unit_at(joint, *(("safety_controller", f"soft_{side}_limit") for side in ("lower", "upper")))
             yield SOFT_LIMITS_CROSSED.at(
-                joint.source, "safety_controller", joint=joint.name, lower=f"{lower:.6g}", upper=f"{upper:.6g}"
+                joint.source,
+                "safety_controller",
+                joint=joint.name,
+                lower=measured(joint, lower, unit),
+                upper=measured(joint, upper, unit),
             )
         else:
             yield from _idle_soft_limits(joint, safety, limits)
@@ -208,14 +217,15 @@ def _idle_soft_limits(joint: Joint, safety: JointSafetyController, limits: Joint
         soft: float | None = getattr(safety, f"soft_{side}_limit")
         hard: float | None = getattr(limits, side)
         if soft is not None and hard is not None and sign * soft < sign * hard - ROUNDING:
+            where = ("safety_controller", f"soft_{side}_limit")
+            unit = unit_at(joint, where, ("limits", side))
             yield IDLE_SOFT_LIMIT.at(
                 joint.source,
-                "safety_controller",
-                f"soft_{side}_limit",
+                *where,
                 joint=joint.name,
                 side=side,
-                hard=f"{hard:.6g}",
-                soft=f"{soft:.6g}",
+                hard=measured(joint, hard, unit),
+                soft=measured(joint, soft, unit),
             )
 
 

@@ -23,6 +23,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     TURNED_PRODUCTS,
     WIDE_INERTIA,
 )
+from linkforge_compile.units import UNITS, Dimension, units_of
 
 LEAST_SHARE = 0.01
 """What part of the robot's mass a link has to have: small parts often get masses and tensors that only keep a solver
@@ -44,8 +45,8 @@ LARGEST, SMALLEST = 100.0, 1e-3
 USUAL = 0.4
 """What part of the inertia of the box around it a body often has."""
 
-UNITS = {1e3: "g*m^2", 1e4: "kg*cm^2", 1e6: "kg*mm^2", 1e7: "g*cm^2", 1e9: "g*mm^2"}
-"""By how much a number in one of these units is too large in kg·m²."""
+TOO_LARGE = {float(1 / UNITS[name].ratio): name for name in units_of(Dimension.INERTIA) if UNITS[name].ratio != 1}
+"""The units of inertia that the language reads, by how much a number in one is too large in kg·m²."""
 
 FARTHEST = 10.0
 """How many times the size of its shapes a centre of mass may lie outside of them."""
@@ -98,14 +99,17 @@ def check_inertia_scale(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnosti
 
 
 def _power(factor: float) -> str:
-    """Return a factor as people write it: 3e4, 2e-5."""
-    return re.sub("e([+-])0*", lambda sign: "e-" if sign[1] == "-" else "e", f"{factor:.0e}")
+    """Return a factor as people write it: 300, 3e4, 2e-5."""
+    rounded = f"{factor:.0e}"
+    if 1e-4 <= float(rounded) < 1e4:
+        return f"{float(rounded):g}"
+    return re.sub("e([+-])0*", lambda sign: "e-" if sign[1] == "-" else "e", rounded)
 
 
 def _unit_hint(part: float) -> str:
     """Return which unit the number is probably in, if any."""
-    factor = min(UNITS, key=lambda factor: abs(math.log10(part / USUAL / factor)))
-    return f"; write the unit if it is in {UNITS[factor]}" if 0.3 < part / USUAL / factor < 3 else ""
+    factor = min(TOO_LARGE, key=lambda factor: abs(math.log10(part / USUAL / factor)))
+    return f"; write the unit if it is in {TOO_LARGE[factor]}" if 0.3 < part / USUAL / factor < 3 else ""
 
 
 def check_centre_of_mass(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 import re
 
+from linkforge_compile.core.constants import UNKNOWN
 from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.source import Key
 
 WITHIN_LIMITS: dict[str, str] = {JointType.REVOLUTE: "rad", JointType.PRISMATIC: "m"}
 """The joints whose limits bound their position, and its unit."""
@@ -38,6 +40,22 @@ def in_unit(position: float, unit: str | None) -> str:
     return f"{position:.6g}" if unit is None else f"{position / _SIZES[unit]:.6g} {unit}"
 
 
+def is_known(*numbers: float | None) -> bool:
+    """Whether none of these stands in for a number whose fault was told."""
+    return all(number is None or abs(number) < UNKNOWN for number in numbers)
+
+
+def unit_at(joint: Joint, *paths: tuple[str | Key, ...]) -> str | None:
+    """Return the unit in which the first of some positions that says one is written."""
+    places = (joint.source.at(*path) for path in paths) if joint.source else ()
+    return next((unit for place in places if (unit := unit_in(place.text))), None)
+
+
+def measured(joint: Joint, position: float, unit: str | None) -> str:
+    """Return a position [rad] or [m] with its unit, the SI one for None."""
+    return in_unit(position, unit) if unit else f"{in_unit(position, None)} {WITHIN_LIMITS[joint.type]}"
+
+
 def missed_range(joint: Joint, lowest: float, highest: float, unit: str | None = None) -> str | None:
     """Return "from -1 to 1 rad" if the joint can be nowhere between two positions [rad] or [m]; None if it can.
 
@@ -64,11 +82,11 @@ def passed_range(joint: Joint, lowest: float, highest: float) -> tuple[str, str]
     above = limits.upper is not None and highest > limits.upper + ROUNDING
     if not (below or above):
         return None
-    ends = (joint.source.at("limits", side) for side in ("lower", "upper")) if joint.source else ()
-    unit = next((unit for end in ends if (unit := unit_in(end.text))), None)
+    unit = unit_at(joint, ("limits", "lower"), ("limits", "upper"))
     return _range(joint, limits.lower, limits.upper, unit), _range(joint, lowest, highest, unit)
 
 
 def _range(joint: Joint, lower: float | None, upper: float | None, unit: str | None) -> str:
-    bounds = [f"{way} {in_unit(bound, unit)}" for way, bound in (("from", lower), ("to", upper)) if bound is not None]
+    ends = (("from", lower), ("to", upper))
+    bounds = [f"{way} {in_unit(end, unit)}" for way, end in ends if end is not None and is_known(end)]
     return " ".join((*bounds, *(() if unit else (WITHIN_LIMITS[joint.type],))))

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.groups import group_links
-from linkforge_compile.checks.ranges import ROUNDING, in_unit, missed_range, unit_in
+from linkforge_compile.checks.ranges import ROUNDING, in_unit, is_known, missed_range, unit_in
 from linkforge_compile.checks.references import SHOWN, Use, listed, own_positions
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
@@ -117,7 +117,7 @@ def check_states_of_mimics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             if joint is None or joint.mimic is None:
                 continue
             found, led = _position(state.joint_values, name), _position(state.joint_values, joint.mimic.joint)
-            if found is None or led is None:
+            if found is None or led is None or not is_known(joint.mimic.multiplier, joint.mimic.offset):
                 continue
             expected = joint.mimic.multiplier * led + joint.mimic.offset
             if not math.isclose(found, expected, rel_tol=ROUNDING, abs_tol=MIMIC_ROUNDING):

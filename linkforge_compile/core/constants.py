@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+import sys
 from typing import Final
 
 PI: Final = math.pi
 HALF_PI: Final = math.pi / 2
+
+UNKNOWN: Final = sys.float_info.max
+"""Stands in for a number whose fault was told, so that what bears it stays; never written or spoken of."""
 
 EPSILON: Final = 1e-9
 """How far a unit vector's length may be from 1, and below which a length, an axis or a reduction counts as zero."""

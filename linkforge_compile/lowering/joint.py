@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from linkforge_compile.core.constants import EPSILON
+from linkforge_compile.core.constants import EPSILON, UNKNOWN
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.models.joint import (
     HAVE_NO_AXIS,
@@ -62,7 +61,7 @@ _ANY_MOTION = _Motion(
 # Nothing of it is ever written: a compile that told an error gives no robot.
 _STAND_IN_TYPE = JointType.REVOLUTE
 _STAND_IN_AXIS = Vector3(0.0, 0.0, 1.0)
-_STAND_IN_LIMITS = JointLimits(-sys.float_info.max, sys.float_info.max, 1.0, 1.0)
+_STAND_IN_LIMITS = JointLimits(-UNKNOWN, UNKNOWN, 1.0, 1.0)
 
 _EXAMPLES = {Dimension.TORQUE: "50 N*m", Dimension.FORCE: "50 N", Dimension.ANGULAR_VELOCITY: "90 deg/s"}
 
@@ -218,14 +217,20 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: _Motion) -> Jo
     are_crossed = lower is not None and upper is not None and lower > upper
     if are_crossed:
         _tell_crossed(limits)
-    is_one_lost = (lower is None and limits.said("lower")) or (upper is None and limits.said("upper"))
-    if are_crossed or is_one_lost or limits.is_faulty:
-        # A continuous joint has none, and is told of those that it has.
-        has_range = joint_type is not JointType.CONTINUOUS
-        lower, upper = (_STAND_IN_LIMITS.lower, _STAND_IN_LIMITS.upper) if has_range else (None, None)
+    # A continuous joint has none, and is told of those that it has.
+    has_range = joint_type is not JointType.CONTINUOUS
+    if are_crossed or (lower is None and _is_lost(limits, "lower")):
+        lower = _STAND_IN_LIMITS.lower if has_range else None
+    if are_crossed or (upper is None and _is_lost(limits, "upper")):
+        upper = _STAND_IN_LIMITS.upper if has_range else None
     effort = _STAND_IN_LIMITS.effort if effort is None else effort
     velocity = _STAND_IN_LIMITS.velocity if velocity is None else velocity
     return limits.build(lambda: JointLimits(lower, upper, effort, velocity, source=limits.ref, **extras_of(limits)))
+
+
+def _is_lost(fields: Fields, key: str) -> bool:
+    """Whether a field that gave nothing was said: faulty, or under another key that is none."""
+    return fields.said(key) is not None or fields.is_faulty
 
 
 def _tell_crossed(limits: Fields) -> None:
@@ -251,10 +256,13 @@ def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:
     multiplier, offset = mimic.number("multiplier"), mimic.number("offset", *motion.position)
     if joint is None:
         return None
-    factor = 1.0 if multiplier is None else multiplier
+    if multiplier is None:
+        multiplier = UNKNOWN if _is_lost(mimic, "multiplier") else 1.0
+    if offset is None:
+        offset = UNKNOWN if _is_lost(mimic, "offset") else 0.0
     stated = [name for name in ("multiplier", "offset") if mimic.node.get(name) is not None]
     return mimic.build(
-        lambda: JointMimic(joint, factor, offset or 0.0, stated=stated, source=mimic.ref, **extras_of(mimic))
+        lambda: JointMimic(joint, multiplier, offset, stated=stated, source=mimic.ref, **extras_of(mimic))
     )
 
 
@@ -264,6 +272,10 @@ def _safety_controller(fields: Fields, motion: _Motion) -> JointSafetyController
         return None
     lower = safety.number("soft_lower_limit", *motion.position)
     upper = safety.number("soft_upper_limit", *motion.position)
+    if lower is None and _is_lost(safety, "soft_lower_limit"):
+        lower = -UNKNOWN
+    if upper is None and _is_lost(safety, "soft_upper_limit"):
+        upper = UNKNOWN
     k_position, k_velocity = safety.number("k_position"), safety.number("k_velocity") or 0.0
     return safety.build(
         lambda: JointSafetyController(lower, upper, k_position, k_velocity, source=safety.ref, **extras_of(safety))
