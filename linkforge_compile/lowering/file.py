@@ -24,7 +24,7 @@ from linkforge_compile.lowering.mesh_solids import MeshReader
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
-from linkforge_compile.units import Quantity
+from linkforge_compile.units import Quantity, number_text
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement
@@ -212,7 +212,10 @@ def _metadata(tree: YamlMap) -> dict[str, object]:
 
 
 def _plain(node: YamlNode) -> Plain:
+    """Return an author's own data; a number spelled as none is written, such as the version 1.10, is that text."""
     match node:
+        case YamlScalar(text=text, value=int() | float() as value) if not isinstance(value, bool):
+            return value if number_text(value) == text else text
         case YamlScalar(text=text, value=value):
             return text if isinstance(value, Quantity) else value
         case YamlList():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.syntax import YamlMap
+from linkforge_compile.syntax import YamlMap, YamlScalar
 from linkforge_compile.writers.frames import frames_of, written_frame
 from linkforge_compile.writers.gazebo import GazeboPlaces, gazebo_places, written_blocks
 from linkforge_compile.writers.joint import written_joint
@@ -34,6 +34,7 @@ def spec_of(robot: Robot, pen: Pen) -> YamlMap:
         linkforge=pen.number(_LANGUAGE_VERSION),
         name=pen.text(robot.name),
         version=pen.text(robot.version) if robot.version_stated else None,
+        description=_description(pen, robot),
         metadata=pen.data(robot.metadata) if robot.metadata else None,
         materials=pen.named("material", ((name, written_material(pen, one)) for name, one in robot.materials.items())),
         **_tree_sections(pen, robot, gazebo),
@@ -47,6 +48,12 @@ def spec_of(robot: Robot, pen: Pen) -> YamlMap:
         gazebo=written_blocks(pen, gazebo.robot, beside=False),
         semantic=written_semantic(pen, robot.semantic, robot.joints) if robot.says_semantic else None,
     )
+
+
+def _description(pen: Pen, robot: Robot) -> YamlScalar | None:
+    """Return what a spec says of its robot to people; a Robot has no field for it, its source does."""
+    said = robot.source.node.child("description") if robot.source else None
+    return pen.text(said.text) if isinstance(said, YamlScalar) and said.text else None
 
 
 def _tree_sections(pen: Pen, robot: Robot, gazebo: GazeboPlaces) -> dict[str, YamlMap | None]:

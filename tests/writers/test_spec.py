@@ -279,6 +279,25 @@ def test_raw_xml_and_metadata_are_kept():
     assert compile_text(write_spec(robot)).result() == robot
 
 
+def test_what_people_wrote_about_the_robot_comes_back_as_written():
+    robot = compile_text("""
+linkforge: 1
+name: r
+description: "It's an arm: $$(x)"
+metadata: {version: 1.10, rev: 007, sha: 1e6, on: yes, count: 3, share: 0.5, made: $(1 / 4), of: [1.0, 0x10]}
+links: {a: }
+""").result()
+    assert robot.metadata == {
+        **{"version": "1.10", "rev": "007", "sha": "1e6", "on": "yes"},
+        **{"count": 3, "share": 0.5, "made": 0.25, "of": ["1.0", "0x10"]},
+    }
+    written = write_spec(robot)
+    assert '''description: "It's an arm: $$(x)"''' in written
+    again = compile_text(written).result()
+    assert again == robot
+    assert write_spec(again) == written
+
+
 def test_two_things_of_one_name_cannot_be_written():
     sensor = Sensor("eye", SensorType.RAY, "a")
     with pytest.raises(RobotGeneratorError, match="a spec holds one sensor 'eye', found two"):
