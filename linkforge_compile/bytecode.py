@@ -6,8 +6,8 @@ PYTHONDONTWRITEBYTECODE. Of what it was made from it asks what Python asks of a 
 
 from __future__ import annotations
 
+import marshal
 import os
-import pickle
 import sys
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -17,7 +17,7 @@ from typing import TypeVar
 
 T = TypeVar("T")
 
-BROKEN = (OSError, EOFError, ValueError, LookupError, TypeError, pickle.UnpicklingError)
+BROKEN = (OSError, EOFError, ValueError, LookupError, TypeError)
 """What reading a file raises that is not there, or that is not whole."""
 
 
@@ -27,29 +27,34 @@ def folder_beside(module: str) -> Path:
 
 
 def stamp(files: Iterable[str | Path]) -> str:
-    """Return what changes when one of the files does; OSError where one is not there."""
-    seen = [Path(file).stat() for file in files]
-    return " ".join(f"{file.st_mtime_ns}:{file.st_size}" for file in seen)
+    """Return what changes when one of the files does, or its name; OSError where one is not there."""
+    seen = [(Path(file).name, Path(file).stat()) for file in files]
+    return " ".join(f"{name}:{file.st_mtime_ns}:{file.st_size}" for name, file in seen)
 
 
 def kept(module: str, name: str, files: Iterable[Path], make: Callable[[], T]) -> T:
     """Return what `make` makes of plain values, from the file beside a module where an earlier process left it.
 
-    `files` are all that it is made from, the modules that make it among them.
+    `files` are all that it is made from, the modules that make it among them. What changes while it is made is made
+    again by the next process.
     """
-    place = folder_beside(module) / f"{name}.{sys.implementation.cache_tag}.pickle"
+    place = folder_beside(module) / f"{name}.{sys.implementation.cache_tag}.marshal"
     try:
         made_from = stamp(files)
-        left_from, left = pickle.loads(place.read_bytes())
+    except OSError:
+        return make()  # somebody is replacing them
+    try:
+        left_from, left = marshal.loads(place.read_bytes())
+        if left_from == made_from:
+            value: T = left
+            return value
     except BROKEN:
-        left_from = None
-    if left_from is not None and left_from == made_from:
-        value: T = left
-        return value
+        pass  # made anew
     made = make()
     if not sys.dont_write_bytecode:
         with suppress(OSError):
-            _leave(place, pickle.dumps((stamp(files), made), pickle.HIGHEST_PROTOCOL))
+            # The type is ignored: only marshal knows which values are plain; it raises ValueError for another.
+            _leave(place, marshal.dumps((made_from, made)))  # type: ignore[arg-type]
     return made
 
 

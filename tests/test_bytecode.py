@@ -32,11 +32,29 @@ def test_what_was_made_from_other_files_is_made_again(tmp_path: Path) -> None:
     assert [_asked(tmp_path, "second"), _asked(tmp_path, "third")] == ["second", "second"]
 
 
+def test_what_changes_while_it_is_read_is_made_again(tmp_path: Path) -> None:
+    def make_slowly() -> str:
+        (tmp_path / "source.json").write_text("{ }")
+        return "old"
+
+    kept(str(tmp_path / "made.py"), "value", [tmp_path / "source.json"], make_slowly)
+    assert kept(str(tmp_path / "made.py"), "value", [tmp_path / "source.json"], lambda: "new") == "new"
+
+
+def test_what_is_shared_or_holds_itself_does_so_again(tmp_path: Path) -> None:
+    part: dict[str, object] = {"title": "a link"}
+    part["inside"] = part
+    for _ in range(2):
+        first, second = _asked(tmp_path, [part, part])
+        assert first is second
+        assert first["inside"] is first
+
+
 def test_a_broken_file_is_made_again(tmp_path: Path) -> None:
     _asked(tmp_path, "first")
-    [place] = (tmp_path / "cache").rglob("*.pickle")
+    [place] = (tmp_path / "cache").rglob("*.marshal")
     whole = place.read_bytes()
-    for broken in (b"", whole[:-3], b"\x80\x05N.", b"no pickle"):
+    for broken in (b"", whole[:-3], b"N", b"nothing of that"):
         place.write_bytes(broken)
         assert _asked(tmp_path, "again") == "again"
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import sys
 from contextlib import suppress
 from pathlib import Path
+from pickle import UnpicklingError
 
 from jinja2 import FileSystemBytecodeCache, compiler
 from jinja2.bccache import Bucket
@@ -33,7 +34,7 @@ class TemplateBytecode(FileSystemBytecodeCache):
     def load_bytecode(self, bucket: Bucket) -> None:
         try:
             super().load_bytecode(bucket)
-        except BROKEN:
+        except (*BROKEN, UnpicklingError, AttributeError, ImportError):  # the last three of Jinja's own pickle
             bucket.reset()  # a broken file is none
 
     def dump_bytecode(self, bucket: Bucket) -> None:
