@@ -22,6 +22,7 @@ from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.parameter_descriptions import ParameterValue
 
+from linkforge_compile.modules import XACRO
 from linkforge_compile.pipeline import CompileError, ListedParameter, Packages, Told, compile_file, parameters_of
 
 if TYPE_CHECKING:
@@ -83,10 +84,13 @@ class RobotDescription:
 
         Raises:
             CompileError: The parameters of the spec cannot be listed.
-            TypeError: A value is nothing that a launch file can give.
-            ValueError: The spec has no such variant.
+            TypeError: A value is nothing that a launch file can give, or the parameters are no map.
+            ValueError: The spec has no such variant or parameter.
 
         """
+        if not isinstance(parameters, Mapping | None):
+            raise TypeError(f"the parameters are values by name, {{'NAME': VALUE}}; found {parameters!r}")
+        variant = None if variant == "" else variant
         self.spec, self.gazebo = Path(spec), gazebo
         self._given = {name: _substitutions(name, value) for name, value in (parameters or {}).items()}
         self._variant: list[Substitution] | None = None if variant is None else _substitutions("variant", variant)
@@ -96,6 +100,7 @@ class RobotDescription:
         if listing is None:
             raise CompileError(diagnostics)
         self._listing = listing
+        self._refuse_unknown()
         # Of a variant that is known at a launch only, the defaults that show are those of the spec.
         sets = self._sets_of(variant) if isinstance(variant, str) else {}
         self._defaults = {one.name: sets.get(one.name, one.default) for one in listing.parameters}
@@ -118,6 +123,20 @@ class RobotDescription:
         return DeclareLaunchArgument(
             self._prefix + parameter.name, default_value=default, description=description, choices=choices
         )
+
+    def _refuse_unknown(self) -> None:
+        # What a xacro file includes may depend on its arguments, and declare more.
+        if self.spec.suffix.lower() == XACRO:
+            return
+        declared = [one.name for one in self._listing.parameters]
+        for name in self._given:
+            if name not in declared:
+                from linkforge_compile.diagnostics.suggest import did_you_mean
+
+                there_are = f"; its parameters are {', '.join(declared)}" if declared else "; it declares no parameters"
+                raise ValueError(
+                    f"{self.spec} has no parameter named '{name}'{did_you_mean(name, declared) or there_are}"
+                )
 
     def compiled(self, context: LaunchContext) -> Robot:
         """Compile the spec with the values that hold in a launch, once for all texts; tell of it in the launch's log.

@@ -33,7 +33,7 @@ MAY_IMPORT = {
     "compare": "core backends",
     "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core roots stack",
     "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
-    "launch": "diagnostics backends core pipeline",
+    "launch": "diagnostics backends core modules pipeline",
     "editor": "diagnostics syntax schema modules lowering core roots stack resources",
     "cli": (
         "banner source diagnostics bounds core checks schema pipeline importing backends writers compare editor "

@@ -55,7 +55,7 @@ def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespac
     outputs = None if compilation.robot is None else _outputs(compilation.robot, order, arguments)
     if outputs is not None:
         _refuse_to_replace(compilation.files, outputs, arguments.depfile)
-    stale = _stale(outputs, order.spec) if arguments.check and outputs else ()
+    stale = _stale(outputs, order.spec, compilation.robot) if arguments.check and outputs else ()
     if tell((*_report(compilation, outputs), *stale), arguments) or outputs is None:
         return FAULTY_SPEC
     for output in outputs:
@@ -127,12 +127,15 @@ def _with_maps(
         yield Output(path.with_name(path.name + ENDING), map_text(mapped, path.name, path.parent))
 
 
-def _stale(outputs: Sequence[Output], spec: str) -> Iterator[Diagnostic]:
+def _stale(outputs: Sequence[Output], spec: str, robot: Robot | None) -> Iterator[Diagnostic]:
     from linkforge_compile.cli.uptodate import difference
+    from linkforge_compile.source import Span
 
+    # Tools that gather diagnostics show those that have a place only.
+    whole = Span(robot.source.span.file, 1, 1, 1, 1) if robot and robot.source else None
     for path, text in outputs:
         assert path is not None, "only files are compared"
-        if found := difference(path, text, spec):
+        if found := difference(path, text, spec, whole):
             yield found
 
 

@@ -17,12 +17,15 @@ _LONGEST = 120
 """How many characters of a line a message quotes: a whole mesh's worth of numbers helps nobody."""
 
 
-def difference(path: Path, text: str, spec: str) -> Diagnostic | None:
-    """Return what is wrong with a file that should hold `text`, at the first line that differs; None for nothing."""
+def difference(path: Path, text: str, spec: str, source: Span | None) -> Diagnostic | None:
+    """Return what is wrong with a file that should hold `text`, at the first line that differs; None for nothing.
+
+    A file that is not there is told at `source`, the place of the spec.
+    """
     try:
         found = path.read_bytes().decode("utf-8", errors="replace")
     except FileNotFoundError:
-        return MISSING_OUTPUT.at(None, path=path, spec=spec)
+        return MISSING_OUTPUT.at(source, path=path, spec=spec)
     except OSError as error:
         raise UsageError(f"cannot read '{path}': {error.strerror}") from error
     # git hands out text with the line ends of the machine; it commits it with those that we write.

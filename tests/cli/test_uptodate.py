@@ -53,7 +53,8 @@ def test_a_file_that_is_not_there_is_told_and_not_written(arm: Path, capfd: pyte
     (arm / "urdf" / "arm.srdf").unlink()
     assert check() == 1
     told = capfd.readouterr().err
-    assert "error: there is no 'urdf/arm.srdf', which 'arm.robot.yaml' compiles to; compile it again [LF7096]" in told
+    missed = "there is no 'urdf/arm.srdf', which 'arm.robot.yaml' compiles to; compile it again [LF7096]"
+    assert f"arm.robot.yaml:1:1: error: {missed}" in told
     assert not (arm / "urdf" / "arm.srdf").exists()
 
 

@@ -96,6 +96,16 @@ def test_a_file_that_is_missed_is_waited_for(watch: Callable[..., list[str]]):
     assert told[-2:] == ["out/cell.urdf is up to date", WATCHING]
 
 
+def test_several_outputs_that_somebody_deletes_are_told_as_such(cell: Path, watch: Callable[..., list[str]]):
+    def removes_both(folder: Path) -> None:
+        for path in (folder / "out").iterdir():
+            path.unlink()
+
+    semantic = f"{CELL}semantic: {{groups: {{all: {{links: [base]}}}}}}\n"
+    told = watch(sets("cell.robot.yaml", semantic), removes_both, nothing)
+    assert "out/cell.urdf and 1 more are gone" in told
+
+
 def test_a_file_that_is_used_no_more_is_watched_no_more(watch: Callable[..., list[str]]):
     alone = CELL.partition("modules")[0]
     told = watch(sets("cell.robot.yaml", alone), sets("arm.robot.yaml", "x"), nothing)
@@ -231,6 +241,8 @@ def test_a_file_where_the_output_has_its_folder_does_not_end_it(cell: Path, watc
     [
         (("cell.robot.yaml",), "watch renews files, so it takes -o with a folder or a file"),
         (("-", "-o", "out/"), "takes a file, not standard input"),
+        ((".", "-o", "out/"), "takes a spec, NAME.robot.yaml, found the folder '.'"),
+        (("cell.robot.yaml", "-o", "out/", "--then", " "), "--then takes a command, found nothing"),
     ],
 )
 def test_what_cannot_be_watched_is_told(

@@ -67,6 +67,12 @@ def test_json_says_all_and_fits_its_schema():
     }
 
 
+def test_github_is_told_of_no_file_where_there_is_none():
+    assert render_github([UNKNOWN.at(Span(STDIN, 1, 1, 1, 2), name="tool")], root=CHECKOUT) == (
+        "::error title=LF4102::<stdin>:1:1: no link named 'tool'\n"
+    )
+
+
 def test_json_of_nothing_is_an_empty_list():
     assert json.loads(render_json(())) == {"version": 1, "diagnostics": []}
 

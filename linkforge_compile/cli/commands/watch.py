@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -45,6 +46,11 @@ def run(arguments: argparse.Namespace) -> int:
     order = compile_command.order(arguments)
     if order.spec == "-":
         raise UsageError("takes a file, not standard input")
+    # Path.is_dir raises for a name that is too long.
+    if os.path.isdir(order.spec):  # noqa: PTH112
+        raise UsageError(f"takes a spec, NAME.robot.yaml, found the folder '{order.spec}'")
+    if arguments.then is not None and not arguments.then.strip():
+        raise UsageError("--then takes a command, found nothing")
     order.targets.require_files("watch", "renews files")
     stamps = Stamps([Path(order.spec)])
     exit_code = _build(order, stamps, arguments)
@@ -58,7 +64,7 @@ def run(arguments: argparse.Namespace) -> int:
         if changed:
             say(f"{_listed(changed)} changed", arguments)
         if gone:
-            say(f"{_listed(gone)} is gone", arguments)
+            say(f"{_listed(gone)} {'is' if len(gone) == 1 else 'are'} gone", arguments)
         exit_code = _build_again(order, stamps, arguments)
 
 

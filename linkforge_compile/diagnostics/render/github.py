@@ -24,13 +24,13 @@ def render_github(diagnostics: Iterable[Diagnostic], *, root: Path) -> str:
 
 def _command(diagnostic: Diagnostic, root: Path) -> str:
     properties = [*_place(diagnostic.span, root), ("title", diagnostic.code.id)]
-    text = "\n".join((diagnostic.message, *map(_told, diagnostic.notes)))
+    text = "\n".join((_message(diagnostic), *map(_told, diagnostic.notes)))
     listed = ",".join(f"{name}={_property(str(value))}" for name, value in properties)
     return f"::{_COMMANDS[diagnostic.severity]} {listed}::{_data(text)}"
 
 
 def _place(span: Span | None, root: Path) -> Iterator[tuple[str, str | int]]:
-    if span is None:
+    if span is None or span.file.path is None:
         return
     yield "file", name_under(root, span.file) or span.file.name
     yield "line", span.line
@@ -41,6 +41,12 @@ def _place(span: Span | None, root: Path) -> Iterator[tuple[str, str | int]]:
         yield "endColumn", span.end_column
     else:
         yield "endLine", span.end_line
+
+
+def _message(diagnostic: Diagnostic) -> str:
+    span = diagnostic.span
+    # The command line and standard input are no files that GitHub could show.
+    return diagnostic.message if span is None or span.file.path else f"{span}: {diagnostic.message}"
 
 
 def _told(note: Note) -> str:
