@@ -8,7 +8,9 @@ from dataclasses import field, replace
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.expressions import UNKNOWN_NAME
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TREE_TOO_LARGE
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expressions import (
     FAULT,
     Fault,
@@ -234,6 +236,11 @@ class TreeEvaluator:
             yield from tree.entries(node, shape)
             return
         for written in node:
+            if shape.has_names and has_expression(written.name):
+                tree = self._without_for(written, shape)
+                if tree is not self:
+                    yield tree, written
+                    continue
             if not self.expressions.change(written.value):
                 yield self, written
                 continue
@@ -245,6 +252,21 @@ class TreeEvaluator:
             key = written.key if shape.has_names else None
             for tree, copy in occurrences(value, inner, self, key=key):
                 yield tree, written if copy is value else YamlEntry(written.key, copy)
+
+    def _without_for(self, entry: YamlEntry, shape: Shape) -> TreeEvaluator:
+        """Return what computes an entry; where its key uses names that nobody gives, that is told here, and once.
+
+        Wherever else in the entry one of them stands, it is the same `for` that is missing.
+        """
+        if isinstance(entry.value, YamlFault) or (isinstance(entry.value, YamlMap) and "for" in entry.value.entries):
+            return self
+        unknown = sorted(name for name in self.names_in(entry.key) if name not in self.scope)
+        if not unknown or any(nearest(name, self.scope) for name in unknown):
+            return self
+        example = f"for: {{{', '.join(f'{name}: …' for name in unknown)}}}"
+        hint = f"; to repeat {shape.things}, write '{example}' in the entry"
+        self.sink.report(UNKNOWN_NAME.at(entry.key.span, name=unknown[0], hint=hint))
+        return replace(self, scope=self.scope.inside(dict.fromkeys(unknown, FAULT)))
 
     def _map(self, node: YamlMap, shape: Shape, is_free: bool) -> YamlMap:
         entries: dict[str, YamlEntry] = {}

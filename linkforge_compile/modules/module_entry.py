@@ -55,10 +55,14 @@ def read_entry(entry: YamlEntry, tree: TreeEvaluator, folder: Path | None, trail
     assert isinstance(fields, YamlMap), "a map that is computed is a map"
     arguments, is_computed = _arguments(body, name, tree, folder)
     override = _override(body.get("override"), name, tree)
+    if key is None:
+        # What its name would have made, such as that of its joint, is not judged.
+        fault = SourceRef(YamlFault(body.span), entry.key.span, trail)
+        return ModuleEntry(name, fault, is_named=False, arguments=arguments, tree=None if is_computed else tree)
     read = ModuleEntry(
         name,
         SourceRef(fields, entry.key.span, trail),
-        is_named=key is not None and not isinstance(override, YamlFault),
+        is_named=not isinstance(override, YamlFault),
         arguments=arguments,
         tree=None if is_computed or body is not written else tree,
         overrides=(override,) if isinstance(override, Override) else (),
