@@ -16,8 +16,14 @@ from linkforge_compile.schema.json_types import Json, Schema
 class SpecPaths:
     """Offers for the specs of a workspace; `made` are the definitions that they need."""
 
-    def __init__(self, entries: Mapping[str, Schema]) -> None:
-        """`entries` say for each spec, by its path from the workspace, what to offer where it is used."""
+    def __init__(self, entries: Mapping[str, Schema], *, kind: str = "spec", is_list: bool = False) -> None:
+        """`entries` say for each spec, by its path from the workspace, what to offer where it is used.
+
+        `kind` is what they are called; two of one kind would make definitions of the same names. Where `is_list`,
+        files name several of them in a list.
+        """
+        self._kind = kind
+        self._is_list = is_list
         self._entries = {spec: entries[spec] for spec in sorted(entries)}
         self._below: dict[str, tuple[str, ...]] = {}
         self._names: dict[tuple[object, ...], str] = {}
@@ -55,11 +61,12 @@ class SpecPaths:
         if key not in self._names:
             if size == 1:
                 path = _path(above, steps_up, self._specs_below(above)[first])
-                offer: Schema = {"defaultSnippets": [snippet(path, "a spec")]}
+                named: Schema = {"defaultSnippets": [snippet(path, f"a {self._kind}")]}
+                offer: Schema = {"items": named} if self._is_list else named
             else:
                 half = size // 2
                 offer = {"allOf": [self._path_block(above, steps_up, at, half) for at in (first, first + half)]}
-            self._define(key, "paths", offer)
+            self._define(key, f"paths_of_{self._kind}", offer)
         return {"$ref": f"#/definitions/{self._names[key]}"}
 
     def _define(self, key: tuple[object, ...], kind: str, schema: Schema) -> None:

@@ -37,17 +37,18 @@ class Words:
         definitions: Mapping[str, Schema],
         words: Vocabulary,
         paths: Schema,
-        included: Sequence[str],
+        included: Schema,
         modules: Sequence[Json],
         *,
         prefix: str,
     ) -> None:
-        """`definitions` are those of the language; `paths` offers what `use` may name in this file, `included` are
-        paths for `include`, and `modules` are what there is to offer in an entry that uses one.
+        """`definitions` are those of the language; `paths` offers what `use` may name in this file, `included` what
+        `include` may, and `modules` are what there is to offer in an entry that uses one.
         """
         self._definitions = definitions
         self._parameters = words.parameters
-        self._names = {**words.names, INCLUDED: included}
+        self._names = words.names
+        self._included = included
         self._paths = paths
         self._modules = modules
         self._prefix = prefix
@@ -94,10 +95,10 @@ class Words:
         """Return the names of some kinds, as a value or as the items of a list."""
         if FILE in kinds:
             return self._paths
+        if INCLUDED in kinds:
+            return self._included
         snippets: list[Json] = [
-            snippet(name, "a file that specs include" if kind == INCLUDED else f"a {kind} of this robot")
-            for kind in kinds
-            for name in self._names.get(kind, ())
+            snippet(name, f"a {kind} of this robot") for kind in kinds for name in self._names.get(kind, ())
         ]
         if not snippets:
             return {}

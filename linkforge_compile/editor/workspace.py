@@ -40,18 +40,19 @@ def workspace_schema(vocabularies: Sequence[Vocabulary]) -> Schema:
     files = [(file, words) for words in vocabularies for file in words.files if not file.startswith("../")]
     known = dict(files)
     modules = _Modules(vocabularies)
-    included = sorted({file for file, words in files if file != words.files[0]})
+    parts = SpecPaths({file: {} for file, words in files if file != words.files[0]}, kind="part", is_list=True)
     offers: list[Json] = []
     made: Schema = {}
     for file, vocabulary in files:
         folder = posixpath.dirname(file)
         paths = modules.paths.paths_from(folder, vocabulary.files)
-        others = [posixpath.relpath(part, folder or ".") for part in included if part != file]
         used = modules.used_in(file, vocabulary)
-        words = Words(definitions, vocabulary, paths, others, used, prefix=f"words_{len(offers) + 1}_")
+        words = Words(
+            definitions, vocabulary, paths, parts.paths_from(folder, (file,)), used, prefix=f"words_{len(offers) + 1}_"
+        )
         offers.append(_in_file(file, words.of(whole), known))
         made |= words.made
-    return {**whole, "allOf": offers, "definitions": {**definitions, **modules.made, **made}}
+    return {**whole, "allOf": offers, "definitions": {**definitions, **modules.made, **parts.made, **made}}
 
 
 def _in_file(file: str, offer: Schema, files: Iterable[str]) -> Schema:
