@@ -24,7 +24,13 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
     if name.casefold() in folded:
         return folded[name.casefold()]
     matches = get_close_matches(name, list(pool), n=1, cutoff=0.7)
-    return matches[0] if matches else _without_prefix(name, pool)
+    return matches[0] if matches else _with_letters_swapped(name, pool) or _without_prefix(name, pool)
+
+
+def _with_letters_swapped(name: str, candidates: Iterable[str]) -> str | None:
+    """Return the candidate that is `name` but for two neighbours: in short names that makes all the difference."""
+    swapped = {f"{name[:at]}{name[at + 1]}{name[at]}{name[at + 2 :]}" for at in range(len(name) - 1)}
+    return next((other for other in candidates if other in swapped), None) if len(name) > 2 else None
 
 
 def _without_prefix(name: str, candidates: Iterable[str]) -> str | None:

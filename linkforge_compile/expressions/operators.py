@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics.codes import expressions as codes
+from linkforge_compile.diagnostics.suggest import did_you_mean
 from linkforge_compile.expressions.types import (
     RefusedError,
     Value,
@@ -19,7 +20,7 @@ from linkforge_compile.expressions.types import (
 )
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
-from linkforge_compile.units import Dimension, Quantity
+from linkforge_compile.units import UNITS, Dimension, Quantity, parse_quantity, unit_meant, unit_text
 
 Number: TypeAlias = int | float
 
@@ -35,8 +36,19 @@ def number(value: Value, taker: str, operand: int | None = None) -> tuple[Number
     if isinstance(value, Quantity):
         return value.value, value.dimension
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise RefusedError(codes.WRONG_KIND, operand=operand, taker=taker, expected="a number", found=kind_name(value))
+        found = kind_name(value) + _unit_hint(value)
+        raise RefusedError(codes.WRONG_KIND, operand=operand, taker=taker, expected="a number", found=found)
     return value, None
+
+
+def _unit_hint(value: Value) -> str:
+    """Return what is wrong with the unit of what was meant as a quantity; "" for any other value."""
+    unit = unit_text(value) if isinstance(value, str) else None
+    if unit is None or not isinstance(value, str) or parse_quantity(value):
+        return ""
+    meant = unit_meant(unit)
+    hint = f"; did you mean '{meant.name}'?" if meant else did_you_mean(unit, UNITS)
+    return f"; there is no unit '{unit}'{hint}"
 
 
 def with_dimension(value: Number, dimension: Dimension | None) -> Value:

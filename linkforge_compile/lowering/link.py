@@ -32,7 +32,8 @@ from linkforge_compile.lowering.geometry import lower_geometry
 from linkforge_compile.lowering.material import lower_visual_material
 from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_NEGATIVE, found
 from linkforge_compile.lowering.scope import FileScope
-from linkforge_compile.syntax.nodes import YamlScalar
+from linkforge_compile.source import Key, SourceRef
+from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
 
 _MOMENTS = ("ixx", "iyy", "izz")
@@ -62,10 +63,18 @@ def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
             [visual for visual in visuals if visual],
             [collision for collision in collisions if collision],
             collisions_first=_are_collisions_first(fields),
-            source=fields.ref,
+            source=_source(fields),
             **outer_extras_of(fields),
         )
     )
+
+
+def _source(link: Fields) -> SourceRef:
+    """Return where a link was written; a key that is none may have been meant for the shapes that it does not have."""
+    lost = next((entry for entry in link.node if isinstance(entry.value, YamlFault)), None)
+    if lost is None:
+        return link.ref
+    return replace(link.ref, node=YamlMap({"visual": lost, "collision": lost, **link.node.entries}, link.node.span))
 
 
 def _are_collisions_first(link: Fields) -> bool:
@@ -181,7 +190,7 @@ def _one_of_mass_and_density(inertial: Fields) -> bool:
     if mass is None and density is None:
         inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass' or 'density'")
     elif mass is not None and density is not None:
-        inertial.tell(MASS_AND_DENSITY, density, owner=inertial.title)
+        inertial.sink.report(MASS_AND_DENSITY.at(inertial.ref, Key("density"), owner=inertial.title))
     else:
         return True
     return False

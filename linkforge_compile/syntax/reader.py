@@ -138,7 +138,8 @@ class _Reader:
         self._next()  # the document ends
         after = self._next()
         if isinstance(after, events.DocumentStartEvent):
-            self._sink.report(codes.SEVERAL_DOCUMENTS.at(self._marks.event(after)))
+            # A part of a robot lacks what stands in the other.
+            raise _UnreadableError(codes.SEVERAL_DOCUMENTS.at(self._marks.event(after)))
         return root
 
     def _next(self) -> events.Event:

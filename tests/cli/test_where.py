@@ -93,6 +93,7 @@ def test_without_a_map_the_header_tells_how_to_get_one(build: Path):
         (("build/cell.urdf",), "takes a line of a file, such as robot.urdf:81, or a file and a name in it"),
         (("build/cell.urdf:3", "left_elbow"), "takes a line of a file"),
         (("build/cell.urdf:999",), "lines, found 999"),
+        (("build/cell.urdf:1:999",), "line 1 of 'build/cell.urdf' has 21 columns, found 999"),
         (("build/cell.urdf", "left_elbwo"), "there is no 'left_elbwo' in build/cell.urdf; did you mean 'left_elbow'?"),
         (("build/none.urdf:3",), "there is no file 'build/none.urdf'"),
         (("build/cell.urdf.map.json", "base"), "there is no map 'build/cell.urdf.map.json.map.json'"),

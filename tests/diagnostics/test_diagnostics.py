@@ -32,6 +32,9 @@ def test_the_near_name_is_offered():
         ("wheel", [], None),
         ("", ["base"], None),
         ("x", ["yaw", "pitch"], None),
+        ("gpa", ["top", "gap"], "gap"),
+        ("rmp", ["rad", "rpm", "m"], "rpm"),
+        ("yx", ["xy"], None),
     ],
 )
 def test_nearest(name: str, candidates: list[str], meant: str | None):

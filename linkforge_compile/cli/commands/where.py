@@ -209,7 +209,10 @@ def _answer(path: Path, document: str, sources: _Sources, asked: _Asked) -> Iter
     lines = document.split("\n")
     if not 0 < asked.line <= len(lines):
         raise UsageError(f"'{path}' has {len(lines)} lines, found {asked.line}")
-    yield f"{path}:{asked.line}: {asked.what or lines[asked.line - 1].strip()}"
+    line = lines[asked.line - 1].rstrip("\r")
+    if asked.column > max(1, len(line)):
+        raise UsageError(f"line {asked.line} of '{path}' has {len(line)} columns, found {asked.column}")
+    yield f"{path}:{asked.line}: {asked.what or line.strip()}"
     found = sources.map.at(asked.line, asked.column)
     if found is None:
         yield "nothing is written for it"
