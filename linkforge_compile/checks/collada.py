@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 _END = 1024
 """How much of each end of an array is looked at [bytes]."""
 
-_MOST_PLACED, _DEEPEST = 1_000, 50
-"""How many nodes of a scene are looked at, and how deep in one another; nodes may hold nodes without end."""
+_DEEPEST = 50
+"""How deep in one another nodes are looked at; a node may be placed in itself."""
 
 _PREFIX = re.compile(r"\{[^}]*\}")
 
@@ -29,24 +29,40 @@ _IDENTITY: Matrix = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))
 
 
 class _UnknownError(Exception):
-    """The scene is made of what a first look does not understand."""
+    """The scene is made of what a first look does not understand, or has no time for."""
 
 
-def corners_of_scene(content: bytes) -> Sequence[Corner]:
+class Effort:
+    """How much is looked at in all scenes of a robot, in tags, nodes and corners: half a million take a second."""
+
+    def __init__(self, room: int = 500_000) -> None:
+        self._room = room
+
+    def spend(self, count: int) -> None:
+        """Count what is looked at; refuse what there is no room for, and all behind it."""
+        self._room -= count
+        if self._room < 0:
+            raise _UnknownError
+
+
+def corners_of_scene(content: bytes, effort: Effort) -> Sequence[Corner]:
     """Return corners of a scene where its nodes place them [m]; () where that cannot be told at a look.
 
-    `<unit meter>` scales all of it, and `<up_axis>` turns nothing, as where meshes are read whole.
+    Small files can ask for much, as nodes place one shape again and again, so the effort is counted. `<unit meter>`
+    scales all of it, and `<up_axis>` turns nothing, as where meshes are read whole.
     """
     from xml.etree import ElementTree
 
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
         return ()
     try:
+        effort.spend(content.count(b"<"))
         pieces = (piece if len(piece) <= 2 * _END else _shortened(piece) for piece in content.split(b"<"))
         root = ElementTree.fromstring(b"<".join(pieces))
-        return tuple(_Scene(root).corners())
-    except (ElementTree.ParseError, ValueError, KeyError, _UnknownError):
+        corners = tuple(_Scene(root, effort).corners())
+    except (ElementTree.ParseError, ValueError, LookupError, _UnknownError):  # LookupError: of ids and encodings
         return ()
+    return corners if all(math.isfinite(at) for corner in corners for at in corner) else ()
 
 
 def _shortened(piece: bytes) -> bytes:
@@ -64,12 +80,11 @@ def _shortened(piece: bytes) -> bytes:
 class _Scene:
     """A document whose arrays are cut."""
 
-    def __init__(self, root: Element) -> None:
-        self._root = root
+    def __init__(self, root: Element, effort: Effort) -> None:
+        self._root, self._effort = root, effort
         for element in root.iter():
             element.tag = _PREFIX.sub("", element.tag)
         self._by_id = {name: element for element in root.iter() if (name := element.get("id"))}
-        self._placed = 0
 
     def corners(self) -> Iterator[Corner]:
         unit = self._root.find("asset/unit")
@@ -78,7 +93,8 @@ class _Scene:
         shapes: dict[str, Sequence[Corner]] = {}
         for url, matrix in self._geometries(self._at(scene), _IDENTITY) if scene is not None else ():
             if url not in shapes:
-                shapes[url] = tuple(self._shape(url))
+                shapes[url] = self._shape(url)
+            self._effort.spend(len(shapes[url]))
             for corner in shapes[url]:
                 yield _scaled(_moved(corner, matrix), meter)
 
@@ -87,9 +103,9 @@ class _Scene:
 
     def _geometries(self, node: Element, around: Matrix, depth: int = 0) -> Iterator[tuple[str, Matrix]]:
         """Yield each geometry that a node places, with the matrix to the scene."""
-        self._placed += 1
-        if self._placed > _MOST_PLACED or depth > _DEEPEST:
+        if depth > _DEEPEST:
             raise _UnknownError
+        self._effort.spend(1 + len(node))
         matrix = around
         for part in node:
             match part.tag:
@@ -104,15 +120,17 @@ class _Scene:
                 case "instance_controller" | "lookat" | "skew":
                     raise _UnknownError
 
-    def _shape(self, url: str) -> Iterator[Corner]:
-        """Yield the corners of a geometry in its own frame."""
-        for given in self._by_id[url].findall("mesh/vertices/input[@semantic='POSITION']"):
-            source = self._by_id[given.get("source", "").removeprefix("#")]
-            accessor, array = source.find("technique_common/accessor"), source.find("float_array")
-            if accessor is None or array is None or accessor.get("stride") != "3":
-                raise _UnknownError
-            numbers = [float(number) for number in (array.text or "").split()]
-            yield from zip(numbers[::3], numbers[1::3], numbers[2::3], strict=True)
+    def _shape(self, url: str) -> Sequence[Corner]:
+        """Return the corners of a geometry in its own frame; none of one without a mesh."""
+        given = self._by_id[url].find("mesh/vertices/input[@semantic='POSITION']")
+        if given is None:
+            return ()
+        source = self._by_id[given.get("source", "").removeprefix("#")]
+        accessor, array = source.find("technique_common/accessor"), source.find("float_array")
+        if accessor is None or array is None or accessor.get("stride") != "3":
+            raise _UnknownError
+        numbers = [float(number) for number in (array.text or "").split()]
+        return list(zip(numbers[::3], numbers[1::3], numbers[2::3], strict=True))
 
 
 def _matrix(*numbers: float) -> Matrix:

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
+from linkforge_compile.checks.collada import Effort, corners_of_scene
 from linkforge_compile.checks.extents import Extent
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Collision, Link, Visual
@@ -66,6 +67,7 @@ class RobotMeshes:
         self.uses: Sequence[MeshUse] = tuple(_uses(robot))
         self.finder = MeshFinder(robot, gaps)
         self._looked_at: dict[Path, MeshFile] = {}
+        self._effort = Effort()
 
     def file(self, mesh: Mesh) -> MeshFile | None:
         """Return what a look at the file tells; None where it is not at hand."""
@@ -73,7 +75,7 @@ class RobotMeshes:
         if path is None or self.finder.names_instead_of(path) is not None:
             return None
         if path not in self._looked_at:
-            self._looked_at[path] = look_at(path)
+            self._looked_at[path] = look_at(path, self._effort)
         return self._looked_at[path]
 
     def box(self, mesh: Mesh) -> Extent | None:
@@ -154,8 +156,11 @@ class MeshFinder:
         return self._names[folder]
 
 
-def look_at(path: Path) -> MeshFile:
-    """Return what the beginning of a mesh file and a few of its corners tell; nothing if it is closed to us."""
+def look_at(path: Path, effort: Effort) -> MeshFile:
+    """Return what the beginning of a mesh file and a few of its corners tell; nothing if it is closed to us.
+
+    `effort` is what may be spent on scenes.
+    """
     try:
         with path.open("rb") as stream:
             length = os.fstat(stream.fileno()).st_size
@@ -171,10 +176,8 @@ def look_at(path: Path) -> MeshFile:
             if ending == ".obj" or (ending == ".stl" and start.lstrip().lower().startswith(b"solid")):
                 return MeshFile(box=_around(_corners_in_text(stream, length)))
             if ending == ".dae" and length <= LARGEST:
-                from linkforge_compile.checks.collada import corners_of_scene
-
                 stream.seek(0)
-                return MeshFile(box=_around(corners_of_scene(stream.read(LARGEST))))
+                return MeshFile(box=_around(corners_of_scene(stream.read(LARGEST), effort)))
     except (OSError, struct.error):
         pass
     return MeshFile()

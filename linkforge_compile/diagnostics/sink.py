@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -17,9 +17,6 @@ MAX_TOLD = 1_000
 
 MAX_AT_ONE_PLACE = 3
 """How often one kind of fault is told of one place; a `for` may give it in each of ten thousand rounds."""
-
-MAX_OF_ONE_NAME = 3
-"""In how many places it is told that a name is declared nowhere; it may be one slip where it should be."""
 
 MAX_REPORTED = 10_000
 """How many faults are looked at, those that are counted only among them."""
@@ -115,7 +112,7 @@ class Diagnostics:
         told = [self._counted(one) if last[one.code.id, one.span] is one else one for one in self]
         if self._left_out:
             told.append(MORE_WARNINGS.at(None, count=f"{self._left_out:,}"))
-        return tuple(_each_name_thrice(sorted(told, key=lambda diagnostic: diagnostic.order)))
+        return tuple(sorted(told, key=lambda diagnostic: diagnostic.order))
 
     def _counted(self, last: Diagnostic) -> Diagnostic:
         """Return the last diagnostic of its kind at its place with how many more there are."""
@@ -123,21 +120,3 @@ class Diagnostics:
             return last
         note = Note(f"and {more:,} more like this at the same place")
         return replace(last, notes=(*last.notes, note), untold=more)
-
-
-def _each_name_thrice(told: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
-    """Yield diagnostics in their order; of one name that a file has nowhere, the first three, and how many more."""
-    of_a_name = defaultdict[tuple[str, str, str], list[Diagnostic]](list)
-    for one in told:
-        if one.code.is_of_a_name and one.span:
-            of_a_name[one.code.id, one.message, one.span.file.name].append(one)
-    floods = [same for same in of_a_name.values() if len(same) > MAX_OF_ONE_NAME]
-    left_out = {id(one) for same in floods for one in same[MAX_OF_ONE_NAME:]}
-    lasts = {id(same[MAX_OF_ONE_NAME - 1]): same for same in floods}
-    for one in told:
-        if id(one) in lasts:
-            following = lasts[id(one)][MAX_OF_ONE_NAME:]
-            note = Note(f"and {len(following):,} more like this, the next one here", following[0].span)
-            yield replace(one, notes=(*one.notes, note), untold=one.untold + len(following))
-        elif id(one) not in left_out:
-            yield one

@@ -6,6 +6,7 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.checks import check, mesh_files
+from linkforge_compile.checks.collada import Effort
 from linkforge_compile.checks.mesh_files import SAMPLES, MeshFile, look_at
 from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
 from linkforge_compile.diagnostics import Gaps
@@ -106,7 +107,7 @@ def test_millimetres_are_told_unless_they_are_scaled(meshes: Path):
 
 def test_a_few_triangles_from_all_over_the_file_tell_its_size(meshes: Path):
     (meshes / "a.stl").write_bytes(strip(100_000, 1.0))
-    look = look_at(meshes / "a.stl")
+    look = look_at(meshes / "a.stl", Effort())
     assert look.triangles == 100_000
     assert look.box is not None
     assert look.box.sides[0] > 1 - 2 / SAMPLES
@@ -152,7 +153,7 @@ OBJ = "# a\no part\n" + "".join(f"v {x} -2 0.5\nv {x + 1}. 0 0 1 1 1\n" for x in
 @pytest.mark.parametrize(("name", "text"), [("a.stl", ASCII_STL), ("a.STL", ASCII_STL), ("a.obj", OBJ)])
 def test_a_few_pieces_of_a_mesh_of_text_tell_its_box(meshes: Path, name: str, text: str):
     (meshes / name).write_text(text)
-    box = look_at(meshes / name).box
+    box = look_at(meshes / name, Effort()).box
     assert box is not None
     assert box.low[1:] == (-2.0, 0.0)
     assert box.high[1:] == (0.0, 0.5)
@@ -162,16 +163,16 @@ def test_a_few_pieces_of_a_mesh_of_text_tell_its_box(meshes: Path, name: str, te
 
 def test_a_mesh_of_text_is_read_whole_where_it_is_short(meshes: Path):
     (meshes / "a.obj").write_text("v 1 2 3\nv 4 5 6\nv x y z\nv 1")
-    assert look_at(meshes / "a.obj").box == ((1, 2, 3), (4, 5, 6))
+    assert look_at(meshes / "a.obj", Effort()).box == ((1, 2, 3), (4, 5, 6))
 
 
 def test_each_file_is_looked_at_once(meshes: Path, monkeypatch: pytest.MonkeyPatch):
     (meshes / "a.stl").write_bytes(strip(12_000, 1.0))
     looks: list[Path] = []
 
-    def counted(path: Path) -> MeshFile:
+    def counted(path: Path, effort: Effort) -> MeshFile:
         looks.append(path)
-        return look_at(path)
+        return look_at(path, effort)
 
     monkeypatch.setattr(mesh_files, "look_at", counted)
     subject = of(meshes, "package://arm/meshes/a.stl", "package://arm/meshes/a.stl", as_collision=True)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from unicodedata import combining, east_asian_width
 
 from linkforge_compile.diagnostics.codes.bounds import ENDS_OF_A_REPORT
-from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
+from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
 from linkforge_compile.source import Span
 
 _COLOURS = {Severity.ERROR: "\033[1;31m", Severity.WARNING: "\033[1;33m", Severity.NOTE: "\033[1;36m"}
@@ -17,6 +18,8 @@ _BOLD, _RESET = "\033[1m", "\033[0m"
 _WIDEST_LINE = 160
 _CONTEXT_BEFORE = 60
 
+MOST_OF_ONE_NAME = 3
+"""In how many places text tells that a name is declared nowhere; it may be one slip where it should be."""
 
 MOST_SHOWN = 100
 """How many diagnostics one screenful of text tells: behind so many nobody reads on, and the first may be the cause."""
@@ -25,8 +28,10 @@ MOST_SHOWN = 100
 def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> str:
     """Return as `render_text` does the first errors, the first others where there is room, and how many more.
 
-    What says that the report is not the whole one is always among them.
+    Of a name that a file has nowhere the first places are told, and how many more there are. What says that the report
+    is not the whole one is always among them.
     """
+    diagnostics = tuple(_each_name_thrice(diagnostics))
     errors = [one for one in diagnostics if one.severity is Severity.ERROR][:MOST_SHOWN]
     others = [one for one in diagnostics if one.severity is not Severity.ERROR][: MOST_SHOWN - len(errors)]
     ends = [one for one in diagnostics if one.code in ENDS_OF_A_REPORT]
@@ -34,6 +39,24 @@ def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> 
     text = render_text((one for one in diagnostics if id(one) in shown), colour=colour)
     rest = [one for one in diagnostics if id(one) not in shown]
     return text + f"… and {_counts(rest, Severity)} more\n" if rest else text
+
+
+def _each_name_thrice(told: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+    """Yield diagnostics in their order; of one name that a file has nowhere, the first three, and how many more."""
+    of_a_name = defaultdict[tuple[str, str, str], list[Diagnostic]](list)
+    for one in told:
+        if one.code.is_of_a_name and one.span:
+            of_a_name[one.code.id, one.message, one.span.file.name].append(one)
+    floods = [same for same in of_a_name.values() if len(same) > MOST_OF_ONE_NAME]
+    left_out = {id(one) for same in floods for one in same[MOST_OF_ONE_NAME:]}
+    lasts = {id(same[MOST_OF_ONE_NAME - 1]): same for same in floods}
+    for one in told:
+        if id(one) in lasts:
+            following = lasts[id(one)][MOST_OF_ONE_NAME:]
+            note = Note(f"and {len(following):,} more like this, the next one here", following[0].span)
+            yield replace(one, notes=(*one.notes, note), untold=one.untold + len(following))
+        elif id(one) not in left_out:
+            yield one
 
 
 def render_text(diagnostics: Iterable[Diagnostic], *, colour: bool = False) -> str:
