@@ -131,7 +131,8 @@ def gaps_of(names: Iterable[str]) -> Gaps:
         if expressions:
             begun.append(start)
         else:
-            whole.add(name)
+            # Whoever uses a name that was refused may have written it as one that is taken.
+            whole |= {name, *(re.sub(r"[^\w.-]", instead, name) for instead in ("_", "-", ""))}
     return Gaps(frozenset(whole), tuple(begun))
 
 
