@@ -12,7 +12,7 @@ from linkforge_compile.backends.namespaces import undeclared_prefixes
 from linkforge_compile.backends.parts import Held, Part, parts_in
 from linkforge_compile.backends.srdf import render_srdf
 from linkforge_compile.backends.unwritable import unwritable_raw, unwritable_texts
-from linkforge_compile.backends.urdf import capsules, render_urdf, require_dialect
+from linkforge_compile.backends.urdf import capsules, render_urdf, require_dialect, stated_version
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.part import Inside
@@ -134,9 +134,12 @@ def check_version(robot: Robot) -> Iterator[Diagnostic]:
 def check_turns(robot: Robot, parts: Sequence[Held]) -> Iterator[Diagnostic]:
     """An origin turns one way: readers of URDF 1.1 take its `quat_xyzw`, the compiler and older ones its `rpy`."""
     poses = [part for part, *_ in parts if isinstance(part, Transform) and part.extra_attributes]
-    if not (poses and robot.version_stated and robot.version != "1.0"):
+    if not poses:
         return
-    from linkforge_compile.backends.urdf.quaternion import QUATERNION, is_other_turn
+    from linkforge_compile.backends.urdf.quaternion import QUATERNION, is_other_turn, reads_quaternions
+
+    if not reads_quaternions(stated_version(robot)):
+        return
 
     for pose in poses:
         if is_other_turn(pose):

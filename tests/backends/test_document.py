@@ -1,5 +1,6 @@
 """What holds for a document as a whole: its head, its layout, its escapes, its bytes."""
 
+import math
 import os
 import subprocess
 import sys
@@ -8,11 +9,13 @@ import pytest
 from lxml import etree
 
 from linkforge_compile.backends import BACKENDS, render_srdf, render_urdf
+from linkforge_compile.backends.limits import urdf_limits
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.models.geometry import Capsule, Mesh, Sphere
+from linkforge_compile.core.models.geometry import Capsule, Mesh, Sphere, Transform, Vector3
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics.codes.backends import OTHER_QUATERNION
 from tests.conftest import ROOT
 
 ARM = Robot("arm", links=[Link("base", collisions=[Collision(Sphere(0.5))]), Link("tool0")])
@@ -121,3 +124,26 @@ def test_bytes_are_the_same_in_every_process():
         for seed in ("1", "2")
     }
     assert len(outputs) == 1
+
+
+@pytest.mark.parametrize("version", [None, "1.0", "1.1"])
+@pytest.mark.parametrize("shape", [Sphere(1), Capsule(1, 2)])
+def test_a_turn_stands_where_readers_of_the_stated_version_look_for_it(version: str | None, shape: Sphere | Capsule):
+    half = Transform(rpy=Vector3(0, 0, math.pi), extra_attributes=[("quat_xyzw", "0 0 1 0")])
+    links = [Link("base", visuals=[Visual(shape, half)])]
+    document = render_urdf(Robot("r", version or "1.1", version_stated=bool(version), links=links))
+    reads_quaternions = 'version="1.1"' in document
+    assert reads_quaternions is (version == "1.1" or (version is None and isinstance(shape, Capsule)))
+    assert 'quat_xyzw="0 0 1 0"/>' in document
+    assert ("rpy" in document) is not reads_quaternions, (
+        "urdfdom ignores the quaternion of 1.0, and refuses both in 1.1"
+    )
+
+
+@pytest.mark.parametrize("shape", [Sphere(1), Capsule(1, 2)])
+def test_a_quaternion_that_turns_otherwise_is_told_where_it_is_read(shape: Sphere | Capsule):
+    robot = Robot(
+        "r", links=[Link("a", visuals=[Visual(shape, Transform(extra_attributes=[("quat_xyzw", "0 0 1 0")]))])]
+    )
+    told = [one for one in urdf_limits(robot) if one.code is OTHER_QUATERNION]
+    assert len(told) == isinstance(shape, Capsule)

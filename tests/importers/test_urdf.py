@@ -525,6 +525,17 @@ def test_a_quaternion_is_no_turn_to_readers_of_urdf_1_0(tmp_path: Path):
     assert "rpy" not in whole.text
 
 
+def test_a_quaternion_turns_where_a_capsule_makes_it_urdf_1_1(tmp_path: Path):
+    origin = '<origin xyz="0 0 1" quat_xyzw="1 0 0 0"/>'
+    shape = f'<visual>{origin}<geometry><capsule radius="1" length="2"/></geometry></visual>'
+    whole = imported_from(f'<link name="a">{shape}</link>', tmp_path)
+    assert whole.text is not None
+    assert "rpy: [180 deg, 0, 0]" in whole.text
+    document = compiled(whole.text)
+    assert '<robot name="r" version="1.1">' in document
+    assert origin in document
+
+
 def test_signs_of_zero_and_spaces_of_generators_stay_behind(read):
     text = read("""<link name="a"/> <link name="b"/>
       <joint name="j" type="fixed"><parent link="a"/><child link="b"/><axis xyz="0 0 -0" />

@@ -88,11 +88,12 @@ def capsules(robot: Robot) -> Iterator[Capsule]:
 
 def _robot_view(robot: Robot, gazebo: Gazebo) -> RobotView:
     materials = {material.name: material for material in robot.materials.values() if material.name}
+    version = stated_version(robot)
     return RobotView(
-        attributes(robot, name=robot.name, version=stated_version(robot)),
+        attributes(robot, name=robot.name, version=version),
         tuple(map(material_view, materials.values())),
-        link_views(robot.links, materials),
-        joint_views(robot.joints),
+        link_views(robot.links, materials, version),
+        joint_views(robot.joints, version),
         _transmissions(robot),
         _ros2_controls(robot),
         _gazebo(robot),

@@ -34,11 +34,11 @@ class JointView(NamedTuple):
     elements: Xml
 
 
-def joint_views(joints: Iterable[Joint]) -> tuple[JointView, ...]:
+def joint_views(joints: Iterable[Joint], version: str | None) -> tuple[JointView, ...]:
     return tuple(
         JointView(
             attributes(joint, name=joint.name, type=joint.type),
-            origin(joint.origin),
+            origin(joint.origin, version),
             placed(joint.parent, joint.source, "parent"),
             placed(joint.child, joint.source, "child"),
             _axis(joint),

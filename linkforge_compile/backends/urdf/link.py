@@ -55,13 +55,16 @@ class LinkView(NamedTuple):
     elements: Xml
 
 
-def link_views(links: Iterable[Link], materials: Mapping[str, Material]) -> tuple[LinkView, ...]:
-    """Return the links; a visual refers to a material of the robot where it has the same one, else says it in full."""
+def link_views(links: Iterable[Link], materials: Mapping[str, Material], version: str | None) -> tuple[LinkView, ...]:
+    """Return the links of a document that states a version, None for none.
+
+    A visual refers to a material of the robot where it has the same one, else says it in full.
+    """
     return tuple(
         LinkView(
             attributes(link, name=link.name),
-            _inertial(link.inertial) if link.inertial else None,
-            _shapes(link, materials),
+            _inertial(link.inertial, version) if link.inertial else None,
+            _shapes(link, materials, version),
             elements(link),
         )
         for link in links
@@ -79,26 +82,26 @@ def material_view(material: Material) -> MaterialView:
     )
 
 
-def origin(pose: Transform) -> Xml:
-    """Return `<origin>`, nothing for one that moves nothing and is not stated."""
+def origin(pose: Transform, version: str | None) -> Xml:
+    """Return `<origin>` as a document of a version says it; nothing for one that moves nothing and is not stated."""
     if not pose.is_written:
         return NOTHING
-    return leaf("origin", pose, xyz=pose.xyz, rpy=_rpy_beside_extras(pose))
+    return leaf("origin", pose, xyz=pose.xyz, rpy=_rpy_beside_extras(pose, version))
 
 
-def _rpy_beside_extras(pose: Transform) -> Vector3 | None:
+def _rpy_beside_extras(pose: Transform, version: str | None) -> Vector3 | None:
     if not pose.extra_attributes:
         return pose.rpy
     from linkforge_compile.backends.urdf.quaternion import rpy_beside_quaternion
 
-    return rpy_beside_quaternion(pose)
+    return rpy_beside_quaternion(pose, version)
 
 
-def _inertial(inertial: Inertial) -> InertialView:
+def _inertial(inertial: Inertial, version: str | None) -> InertialView:
     tensor = inertial.inertia
     return InertialView(
         attributes(inertial),
-        origin(inertial.origin),
+        origin(inertial.origin, version),
         placed(number_text(inertial.mass), inertial.source, "mass"),
         leaf(
             "inertia",
@@ -114,17 +117,17 @@ def _inertial(inertial: Inertial) -> InertialView:
     )
 
 
-def _shapes(link: Link, materials: Mapping[str, Material]) -> tuple[ShapeView, ...]:
-    visuals = [_shape("visual", visual, _material_of(visual, materials)) for visual in link.visuals]
-    collisions = [_shape("collision", collision, None) for collision in link.collisions]
+def _shapes(link: Link, materials: Mapping[str, Material], version: str | None) -> tuple[ShapeView, ...]:
+    visuals = [_shape("visual", visual, _material_of(visual, materials), version) for visual in link.visuals]
+    collisions = [_shape("collision", collision, None, version) for collision in link.collisions]
     return (*collisions, *visuals) if link.collisions_first else (*visuals, *collisions)
 
 
-def _shape(tag: str, shape: Visual | Collision, material: MaterialView | None) -> ShapeView:
+def _shape(tag: str, shape: Visual | Collision, material: MaterialView | None, version: str | None) -> ShapeView:
     return ShapeView(
         tag,
         attributes(shape, name=shape.name),
-        origin(shape.origin),
+        origin(shape.origin, version),
         _geometry(shape.geometry),
         material,
         elements(shape),

@@ -8,15 +8,24 @@ from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.physics import rotation_matrix
 
 QUATERNION = "quat_xyzw"
+_VERSIONS_WITHOUT = (None, "1.0")
 _NO_TURN = Vector3(0.0, 0.0, 0.0)
 _TOLERANCE = 1e-9
 """By so much may the entries of two rotation matrices differ that are the same turn."""
 
 
-def rpy_beside_quaternion(pose: Transform) -> Vector3 | None:
-    """Return the rpy that an origin states; None where its quaternion says the turn."""
+def reads_quaternions(version: str | None) -> bool:
+    """Whether readers take the quaternions of a document that states a version, None for none, or ignore them."""
+    return version not in _VERSIONS_WITHOUT
+
+
+def rpy_beside_quaternion(pose: Transform, version: str | None) -> Vector3 | None:
+    """Return the rpy that an origin states in a document of a version; None where its quaternion says the turn."""
     said = dict(pose.extra_attributes).get(QUATERNION)
-    return None if said is not None and (pose.rpy == _NO_TURN or _turns_as(said, pose.rpy)) else pose.rpy
+    if said is None:
+        return pose.rpy
+    is_said = pose.rpy == _NO_TURN or (reads_quaternions(version) and _turns_as(said, pose.rpy))
+    return None if is_said else pose.rpy
 
 
 def is_other_turn(pose: Transform) -> bool:

@@ -17,6 +17,7 @@ from linkforge_compile.importers.urdf.link import read_link
 from linkforge_compile.importers.urdf.material import Named, Palette
 from linkforge_compile.importers.urdf.ros2_control import read_ros2_control
 from linkforge_compile.importers.urdf.transmission import read_transmission
+from linkforge_compile.importers.xml import XmlElement
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
@@ -33,11 +34,24 @@ def read_urdf(file: SourceFile, sink: Diagnostics, moved: Move | None = None) ->
     if document is None:
         return None
     root = document.root
-    draft = Draft(has_quaternions=root.get("version") not in _VERSIONS_WITHOUT_QUATERNIONS)
+    draft = Draft(has_quaternions=_has_quaternions(root))
     tree = _robot(Reading(draft, root))
     draft.bodies[root] = tree
     draft.tell(sink)
     return Imported(tree, placed_comments(document, draft, tree), (document,))
+
+
+def _has_quaternions(root: XmlElement) -> bool:
+    """Whether readers take the quaternions of what a robot compiles to, which states URDF 1.1 for a capsule."""
+    version = root.get("version")
+    return version not in _VERSIONS_WITHOUT_QUATERNIONS or (version is None and _has_capsule(root))
+
+
+def _has_capsule(root: XmlElement) -> bool:
+    found = [root]
+    for tags in (("link",), ("visual", "collision"), ("geometry",), ("capsule",)):
+        found = [child for element in found for child in element.children if child.tag in tags]
+    return bool(found)
 
 
 def _robot(robot: Reading) -> YamlMap:
