@@ -1,4 +1,4 @@
-"""What the numbers of a robot measure, and how a change of one is told."""
+"""What the numbers of a robot measure, when two are taken for the same, and how a change of one is told."""
 
 from __future__ import annotations
 
@@ -91,6 +91,15 @@ def measure_of(kind: type, field: str, *, slides: bool) -> Measure:
 def position_measure(*, slides: bool) -> Measure:
     """Return what the position of a joint measures."""
     return _POSITION[slides]
+
+
+_FLOOR = 1e-6
+"""Of the tolerance: what a number next to 0 may differ by, where a share means nothing."""
+
+
+def is_near(before: float, after: float, tolerance: float) -> bool:
+    """Whether two numbers differ by no more than the tolerance, as a share of the larger one."""
+    return math.isclose(before, after, rel_tol=tolerance, abs_tol=tolerance * _FLOOR)
 
 
 def number_told(value: float, measure: Measure = BARE, digits: int = 6) -> str:

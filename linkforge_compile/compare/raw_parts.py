@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import math
-import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import field
-from decimal import Decimal
 
 from linkforge_compile.backends.raw import Node, inline, is_text, nodes_of
 from linkforge_compile.core.exceptions import RobotGeneratorError
@@ -15,11 +12,15 @@ from linkforge_compile.frozen import dataclass
 
 @dataclass(frozen=True, slots=True)
 class RawElement:
-    """An element of raw XML: `text` is what stands in it beside elements and comments, `written` the whole of it."""
+    """An element of raw XML: `written` is the whole of it.
+
+    `texts` are what stands in it before its first element, behind that and so on, at least one and up to the last that
+    is not blank.
+    """
 
     tag: str
     attributes: Mapping[str, str]
-    text: str
+    texts: tuple[str, ...]
     inside: tuple[RawElement, ...]
     written: str = field(compare=False)
 
@@ -43,31 +44,25 @@ def _parts(text: str) -> tuple[RawElement | str, ...]:
 
 def _element(node: Node) -> RawElement:
     inside = tuple(_element(item) for item in node.content if isinstance(item, Node))
-    text = "".join(str(item) for item in node.content if is_text(item)).strip()
-    return RawElement(node.tag, dict(node.attributes), text, inside, str(inline(node)))
+    return RawElement(node.tag, dict(node.attributes), _texts(node), inside, str(inline(node)))
 
 
-_WHOLE = r"[+-]?(?:0|[1-9]\d*)"
-_NUMBER = re.compile(rf"{_WHOLE}(?:\.\d*)?(?:[eE][+-]?\d{{1,3}})?|[+-]?\.\d+(?:[eE][+-]?\d{{1,3}})?")
-"""A number as XML has it. One that begins with a zero is not meant as one: 007 is another name than 7."""
+def _texts(node: Node) -> tuple[str, ...]:
+    runs: list[list[str]] = [[]]
+    for item in node.content:
+        if isinstance(item, Node):
+            runs.append([])
+        elif is_text(item):
+            runs[-1].append(item)
+    texts = ["".join(run).strip() for run in runs]
+    while len(texts) > 1 and not texts[-1]:
+        texts.pop()
+    return tuple(texts)
 
 
-def say_the_same(before: str, after: str) -> bool:
-    """Whether two texts in XML are the same numbers: `0.20 1e-3` is another spelling of `0.2 0.001`."""
-    were, are = before.split(), after.split()
-    return len(were) == len(are) > 0 and all(map(_is_same_number, were, are))
-
-
-def number_in(text: str) -> float | None:
-    """Return the number that a text in XML is; None for another text, and for one that no double holds."""
-    number = float(text) if _NUMBER.fullmatch(text.strip()) else math.inf
-    return number if math.isfinite(number) else None
-
-
-def _is_same_number(before: str, after: str) -> bool:
-    if not (_NUMBER.fullmatch(before) and _NUMBER.fullmatch(after)):
-        return False
-    if re.fullmatch(_WHOLE, before) or re.fullmatch(_WHOLE, after):
-        # The number of something may have more digits than a double.
-        return Decimal(before) == Decimal(after)
-    return float(before) == float(after)
+def by_tag(elements: Iterable[RawElement]) -> Mapping[str, Sequence[RawElement]]:
+    """Return the elements of each tag in their order."""
+    found: dict[str, list[RawElement]] = {}
+    for element in elements:
+        found.setdefault(element.tag, []).append(element)
+    return found

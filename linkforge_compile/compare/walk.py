@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.compare.difference import Difference, Kind
-from linkforge_compile.compare.measures import BARE, Measure, change_told, measure_of, position_measure
+from linkforge_compile.compare.measures import BARE, Measure, change_told, is_near, measure_of, position_measure
 from linkforge_compile.compare.pairing import key_of, paired
 from linkforge_compile.compare.poses import pose_differences, tensor_differences
-from linkforge_compile.compare.raw_parts import RawElement, number_in, say_the_same
+from linkforge_compile.compare.raw_parts import RawElement, by_tag
 from linkforge_compile.compare.said import is_part, key_of_field, said_fields, said_value
 from linkforge_compile.compare.words import as_json, plain, shortened, texts_told, told
+from linkforge_compile.compare.xml_numbers import number_in, say_the_same
+from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.interface import Interface
@@ -21,14 +22,17 @@ from linkforge_compile.core.models.link import InertiaTensor, LinkPhysics
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.models.planning import GroupState
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.ros2_control import (
+    Ros2Control,
+    Ros2ControlGpio,
+    Ros2ControlJoint,
+    Ros2ControlSensor,
+)
 from linkforge_compile.core.models.sensor import SensorNoise
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 
 TOLERANCE = 1e-6
 """Below which a difference is not told, unless said: of poses in metres and radians, of other numbers as a share."""
-
-_FLOOR = 1e-6
-"""Of the tolerance: what a number next to 0 may differ by, where a share means nothing."""
 
 _DIGITS = (6, 9, 13, 17)
 """How many of a number are shown, the more the less it changed."""
@@ -39,6 +43,9 @@ _LONGEST_STATE = 200
 _IN_XML = frozenset({"parameters", "properties", "extra_attributes", "extra_elements"})
 """The fields whose texts are those of an author's XML."""
 
+_OF_STRANGERS = (GazeboPlugin, Ros2Control, Ros2ControlJoint, Ros2ControlGpio, Ros2ControlSensor)
+"""Parts whose parameters a plugin reads as it likes: to its driver, firmware 1.10 is another one than 1.1."""
+
 Path: TypeAlias = tuple[str, ...]
 
 
@@ -48,7 +55,7 @@ class How(NamedTuple):
     Of each pair, one is of the robot before and one of that after: `sliding` are the names of the prismatic joints,
     `slides` whether the values at hand are about one of them, `measures` what these measure, `palettes` the materials
     that the robots declare, whose differences are told at their declaration. `in_xml` is whether texts are those of an
-    author's XML, in which numbers are spelt in many ways.
+    author's XML, in which numbers are spelt in many ways; `as_spelt` whether each spelling is another text.
     """
 
     tolerance: float = TOLERANCE
@@ -57,6 +64,7 @@ class How(NamedTuple):
     slides: tuple[bool, bool] = (False, False)
     measures: tuple[Measure, Measure] = (BARE, BARE)
     in_xml: bool = False
+    as_spelt: bool = False
 
     def told(self, before: object, after: object) -> tuple[str, str]:
         """Return two different values at hand in a few words each, with as much as shows that they differ."""
@@ -120,15 +128,10 @@ def walk(path: Path, before: object, after: object, how: How) -> Iterator[Differ
             yield from _leaf(path, before, after, how)
 
 
-def is_near(before: float, after: float, tolerance: float) -> bool:
-    """Whether two numbers differ by no more than the tolerance, as a share of the larger one."""
-    return math.isclose(before, after, rel_tol=tolerance, abs_tol=tolerance * _FLOOR)
-
-
 def _leaf(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
     if before == after and isinstance(before, bool) == isinstance(after, bool):
         return
-    if how.in_xml and isinstance(before, str) and isinstance(after, str) and say_the_same(before, after):
+    if _is_other_spelling(before, after, how):
         return
     was, now = how.told(before, after)
     kind, text = Kind.CHANGED, _numbers_in_xml_told(before, after, how) or f"{was} → {now}"
@@ -141,27 +144,47 @@ def _leaf(path: Path, before: object, after: object, how: How) -> Iterator[Diffe
     yield Difference(kind, path, plain(before), plain(after), text)
 
 
+def _is_other_spelling(before: object, after: object, how: How) -> bool:
+    if not how.in_xml or how.as_spelt or not isinstance(before, str) or not isinstance(after, str):
+        return False
+    return say_the_same(before, after, how.tolerance)
+
+
 def _numbers_in_xml_told(before: object, after: object, how: How) -> str:
-    """Return how a number that is a text in XML changed, "" for what is none."""
+    """Return how a number that is a text in XML changed, "" for what is none or the same number, spelt otherwise."""
     numbers = [number_in(text) for text in (before, after) if how.in_xml and isinstance(text, str)]
     match numbers:
-        case [float() as one, float() as other]:
+        case [float() as one, float() as other] if one != other:
             return change_told(one, other, BARE)
     return ""
 
 
 def _elements(path: Path, before: RawElement, after: RawElement, how: How) -> Iterator[Difference]:
     """Yield what differs in an element of raw XML; those of one tag have an order, which others need not keep."""
+    if after.tag == "plugin":
+        how = how._replace(as_spelt=True)
     yield from _mappings(path, before.attributes, after.attributes, how)
-    yield from _leaf(path, before.text, after.text, how)
-    for tag in dict.fromkeys(one.tag for one in (*after.inside, *before.inside)):
-        were, are = ([one for one in element.inside if one.tag == tag] for element in (before, after))
-        if len(were) != len(are):
-            yield from _members(path, were, are, how)
-            continue
-        for place, (one, other) in enumerate(zip(were, are, strict=True)):
-            name = key_of(other) if key_of(one) == key_of(other) else tag
-            yield from walk((*path, name, *([str(place)] if len(are) > 1 and name == tag else [])), one, other, how)
+    if len(before.texts) == len(after.texts):
+        for one, other in zip(before.texts, after.texts, strict=True):
+            yield from _leaf(path, one, other, how)
+    else:
+        yield from _leaf(path, before.texts, after.texts, how)
+    were, are = by_tag(before.inside), by_tag(after.inside)
+    for tag in dict.fromkeys((*are, *were)):
+        yield from _of_one_tag(path, were.get(tag, ()), are.get(tag, ()), how)
+
+
+def _of_one_tag(
+    path: Path, before: Sequence[RawElement], after: Sequence[RawElement], how: How
+) -> Iterator[Difference]:
+    """Yield what differs in the elements of one tag: by their names where each of several has one, else in order."""
+    has_names = len(after) > 1 and all(one.name for one in (*before, *after))
+    if len(before) != len(after) or has_names:
+        yield from _members(path, before, after, how)
+        return
+    for place, (one, other) in enumerate(zip(before, after, strict=True)):
+        key = key_of(other) if key_of(one) == key_of(other) else other.tag
+        yield from walk((*path, key, *([str(place)] if len(after) > 1 and key == other.tag else [])), one, other, how)
 
 
 def _part(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
@@ -225,7 +248,8 @@ def _stated(part: object) -> tuple[str, ...]:
 
 def _about_field(how: How, part: object, field: str) -> How:
     before, after = (measure_of(type(part), field, slides=slides) for slides in how.slides)
-    return how.about_field(field)._replace(measures=(before, after))
+    as_spelt = how.as_spelt or (field == "parameters" and isinstance(part, _OF_STRANGERS))
+    return how.about_field(field)._replace(measures=(before, after), as_spelt=as_spelt)
 
 
 def _number_told(before: float, after: float, how: How) -> str:

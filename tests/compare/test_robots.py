@@ -9,7 +9,20 @@ import pytest
 
 from linkforge_compile import compile_text
 from linkforge_compile.compare import Kind, compare, vanished
-from linkforge_compile.core import Joint, JointType, Link, Robot, Sphere, Transform, Vector3, Visual
+from linkforge_compile.core import (
+    Joint,
+    JointType,
+    Link,
+    Robot,
+    Ros2Control,
+    Ros2ControlGpio,
+    Ros2ControlJoint,
+    Ros2ControlSensor,
+    Sphere,
+    Transform,
+    Vector3,
+    Visual,
+)
 from linkforge_compile.writers import write_spec
 from tests.backends.everything import everything
 
@@ -122,7 +135,12 @@ extra_attributes: {stamp: "007", gain: "0.20"}
         ('stamp: "007"', 'stamp: "7"', ["changed extra_attributes/stamp: 007 → 7"]),
         ("1.20", "1.5", ["changed extra/self_filter/scale: 1.2 → 1.5 (+25 %)"]),
         ("0.50 1e-3", "0.50 2e-3", ["changed extra/self_filter/link/upper: 0.50 1e-3 → 0.50 2e-3"]),
-        ('name="base"', 'name="cart"', ["changed extra/self_filter/link/0/name: base → cart"]),
+        ('name="base"', 'name="cart"', [
+            'added extra/self_filter/link/cart: <link name="cart"/>',
+            'removed extra/self_filter/link/base: <link name="base"/>',
+        ]),
+        ('<link name="base"/> <link name="upper">0.50 1e-3</link>', '<link name="upper">0.50 1e-3</link><link name="base"/>', []),
+        ('scale="1.20"', 'scale="1.2000000001"', []),
         ('<link name="base"/> ', "", ['removed extra/self_filter/link/base: <link name="base"/>']),
         ("</self_filter>", "</self_filter><new/>", ["added extra/new: <new/>"]),
     ],
@@ -139,6 +157,70 @@ def test_tags_of_one_kind_in_raw_xml_have_an_order():
     other = "extra: <path><speed/><via>3 4</via><via>1 2</via></path>"
     texts = [f"{'/'.join(one.path)}: {one.text}" for one in compare(robot_of(SPEC + path), robot_of(SPEC + other))]
     assert texts == ["extra/path/via/0: 1 2 → 3 4", "extra/path/via/1: 3 4 → 1 2"]
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "texts"),
+    [
+        ('<foo><a name="x" v="1"/><a name="y" v="2"/></foo>', '<foo><a name="y" v="2"/><a name="x" v="3"/></foo>',
+         ["extra/foo/a/x/v: 1 → 3 (+200 %)"]),
+        ('<foo><a name="x" v="1"/></foo>', '<foo><a name="y" v="1"/></foo>', ["extra/foo/a/name: x → y"]),
+        ("<foo>a<b/>c</foo>", "<foo>ac<b/></foo>", ["extra/foo: a c → ac"]),
+        ("<foo>a<b/>c</foo>", "<foo>a<b/>d</foo>", ["extra/foo: c → d"]),
+        ("<foo>a<!-- b -->c</foo>", "<foo>ac</foo>", []),
+        ("<foo>a</foo>", "<foo>a<b/></foo>", ["extra/foo/b: <b/>"]),
+        ("<foo>1e999</foo>", "<foo>2e999</foo>", ["extra/foo: 1e999 → 2e999"]),
+        ("<foo>9007199254740993.0</foo>", "<foo>9007199254740992.0</foo>", ["extra/foo: 9007199254740993.0 → 9007199254740992.0"]),
+        ("<foo>9007199254740993</foo>", "<foo>9007199254740993.0</foo>", []),
+        ("<foo>1000001</foo>", "<foo>1000000</foo>", ["extra/foo: 1000001 → 1000000 (-0.0001 %)"]),
+        ("<foo><plugin>1.10</plugin></foo>", "<foo><plugin>1.1</plugin></foo>", ["extra/foo/plugin: 1.10 → 1.1"]),
+    ],
+)  # fmt: skip
+def test_elements_texts_and_numbers_of_raw_xml_are_told_apart(before: str, after: str, texts: list[str]):
+    was, now = (robot_of(f"{SPEC}extra: ['{raw}']") for raw in (before, after))
+    assert [f"{'/'.join(one.path)}: {one.text}" for one in compare(was, now)] == texts
+
+
+def test_the_tolerance_is_that_of_numbers_in_raw_xml_too_but_for_whole_ones():
+    was, now = (
+        robot_of(f'{SPEC}extra: [\'<foo rate="{rate}" id="{id_}"/>\']')
+        for rate, id_ in (("100", "100"), ("100.4", "101"))
+    )
+    assert [one.path[-1] for one in compare(was, now)] == ["rate", "id"]
+    assert [one.path[-1] for one in compare(was, now, tolerance=0.1)] == ["id"]
+
+
+def test_what_hardware_reads_is_a_text_and_no_number():
+    was, now = (
+        Ros2Control(
+            "hw",
+            "system",
+            "mock",
+            joints=[Ros2ControlJoint("elbow", state_interfaces=["position"], parameters=read)],
+            gpios=[Ros2ControlGpio("io", state_interfaces=["a"], parameters=read)],
+            sensors=[Ros2ControlSensor("ft", state_interfaces=["b"], parameters=read)],
+            parameters=read,
+        )
+        for read in ({"firmware": "1.10"}, {"firmware": "1.1"})
+    )
+    there = compare(*(Robot("r", ros2_controls=[hardware]) for hardware in (was, now)))
+    assert [one.text for one in there] == ["1.10 → 1.1"] * 4
+
+
+def test_what_a_plugin_of_gazebo_reads_is_a_text_and_no_number():
+    plugin = "properties: {maxContacts: 10}\n    plugins: {p: {filename: p.so, parameters: {device: '%s'}}}"
+    was, now = (robot_of(SPEC.replace("properties: {maxContacts: 10}", plugin % device)) for device in ("1e2", "100"))
+    assert [one.text for one in compare(was, now)] == ["1e2 → 100"]
+
+
+def test_many_tags_of_raw_xml_are_compared_in_time_that_grows_with_them():
+    was, now = (
+        Robot("r", extra_elements=["<foo>" + "".join(f'<t{tag} v="{v}"/>' for tag in range(4000)) + "</foo>"])
+        for v in "ab"
+    )
+    started = time.process_time()
+    assert len(compare(was, now)) == 4000
+    assert time.process_time() - started < 2
 
 
 def test_two_values_are_told_as_far_as_it_takes_to_see_that_they_differ():
