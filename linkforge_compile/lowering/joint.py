@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from linkforge_compile.core.constants import EPSILON, UNKNOWN
@@ -110,7 +110,9 @@ class Ends(NamedTuple):
 
 def lower_joints(file: Fields) -> Iterator[tuple[str, Joint | None]]:
     """Lower the joints of a file, None for one that is lost."""
-    return file.each("joints", "joint", _joint)
+    links = file.node.get("links")
+    names = tuple(links.entries) if isinstance(links, YamlMap) else ()
+    return file.each("joints", "joint", lambda fields, name: _joint(fields, name, names))
 
 
 def read_joint_of_any_type(fields: Fields, name: str) -> None:
@@ -124,10 +126,14 @@ def read_joint_of_any_type(fields: Fields, name: str) -> None:
         read(fields, motion)
 
 
-def _joint(fields: Fields, name: str) -> Joint | None:
+def _joint(fields: Fields, name: str, links: Sequence[str]) -> Joint | None:
+    """Lower one joint; of the file's `links`, one that it may hang on is the example where it says none."""
     valid_name = name if fields.name_is_valid(name, "joint", fields.ref) else None
     joint_type = fields.choice("type", JointType, required="revolute")
-    ends = Ends(fields.text("parent", required="base"), fields.text("child", required="arm"), fields.origin())
+    said = fields.node.get("child")
+    held = said.text if isinstance(said, YamlScalar) else None
+    base = next((link for link in links if link != held), "base")
+    ends = Ends(fields.text("parent", required=base), fields.text("child", required="arm"), fields.origin())
     return joint_between(fields, valid_name, joint_type, ends)
 
 

@@ -195,7 +195,7 @@ def test_a_module_with_gaps_is_joined_as_far_as_it_goes():
         name: hand
         links: {palm: , finger: }
         joints:
-          grip: {type: fixed, child: finger}   # E[LF5005]:3 joint 'grip' has no 'parent'; write 'parent: base'
+          grip: {type: fixed, child: finger}   # E[LF5005]:3 joint 'grip' has no 'parent'; write 'parent: palm'
         """
     )
     result = lowered(Spec("name: body\nlinks: {torso: }\nmodules: {left: {parent: torso}}", {"left": faulty}))
