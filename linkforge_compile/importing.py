@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.backends import render_srdf, render_urdf
 from linkforge_compile.bounds import Budget
@@ -70,21 +70,34 @@ def import_urdf(
     return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), settings))
 
 
-def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> Robot:
+class ReadBack(NamedTuple):
+    """A robot as its URDF and SRDF say it, None where those are refused, and the errors that say why."""
+
+    robot: Robot | None
+    faults: tuple[Diagnostic, ...]
+
+
+def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> ReadBack:
     """Return a robot as its URDF and SRDF say it, for whoever lays it beside one that was read from those.
 
-    Its sensors are Gazebo's then, and it has no metadata. It is the robot itself where it does not come back.
+    Its sensors are Gazebo's then, and it has no metadata.
     """
-    return with_room(lambda: _read_back(robot, gazebo) or robot)
+    sink = Diagnostics()
+    try:
+        back = with_room(lambda: _read_back(robot, gazebo, sink))
+    except BeyondLimitError as beyond:
+        sink.end(beyond)
+        back = None
+    return ReadBack(back, tuple(one for one in sink.sorted() if one.severity is Severity.ERROR))
 
 
-def _read_back(robot: Robot, gazebo: Gazebo) -> Robot | None:
+def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     from linkforge_compile.importers.srdf import with_srdf
     from linkforge_compile.importers.urdf import read_urdf
 
-    unheard, loader = Diagnostics(), Settings().loader(None)
+    loader = Settings().loader(None)
     file = SourceFile("<urdf>", render_urdf(robot, gazebo=gazebo))
-    imported = read_urdf(file, unheard)
+    imported = read_urdf(file, sink)
     if imported is None:
         return None
     spec, meshes = SpecFile(file, imported.tree, None), MeshSolids(loader.budget)
@@ -92,10 +105,12 @@ def _read_back(robot: Robot, gazebo: Gazebo) -> Robot | None:
     def judge(tree: YamlMap) -> Judged:
         return judged(meshes, replace(spec, tree=tree), loader)
 
-    if not robot.says_semantic:
-        return judge(imported.tree).robot
-    both = with_srdf(imported, SourceFile("<srdf>", render_srdf(robot)), judge, unheard)
-    return both[1].robot if both else None
+    semantic = SourceFile("<srdf>", render_srdf(robot)) if robot.says_semantic else None
+    both = with_srdf(imported, semantic, judge, sink) if semantic else (imported, judge(imported.tree))
+    if both is None:
+        return None
+    sink.report_all(both[1].faults)
+    return both[1].robot
 
 
 def _imported(urdf: Path, srdf: Path | None, settings: Settings) -> Import:

@@ -28,12 +28,16 @@ class Side(NamedTuple):
 
 
 class Comparison(NamedTuple):
-    """Two robots and what differs between them; `semantic` says whether that part was compared."""
+    """Two robots and what differs between them; `semantic` says whether that part was compared.
+
+    `not_read_back` is why a spec beside a URDF was compared as written, None where there is no such spec.
+    """
 
     before: Side
     after: Side
     tolerance: float
     semantic: bool
+    not_read_back: str | None
     differences: Sequence[Difference]
     gone: Sequence[Vanished]
 
@@ -112,6 +116,7 @@ def json_of(comparison: Comparison) -> str:
         "after_settings": _settings(comparison.after),
         "tolerance": comparison.tolerance,
         "semantic_compared": comparison.semantic,
+        "not_read_back": comparison.not_read_back,
         "same": not comparison.differences,
         "breaking": [name._asdict() for name in comparison.gone],
         "differences": [

@@ -75,6 +75,21 @@ def test_a_spec_is_the_same_robot_as_what_it_compiles_to(tmp_path: Path):
     assert (run.returncode, run.stdout.count("update_rate: ")) == (1, 1)
 
 
+def test_a_spec_whose_urdf_does_not_read_back_is_said_to_be_compared_as_written(tmp_path: Path):
+    spec = "linkforge: 1\nname: r\nlinks: {a: }\nsensors: {imu: {type: imu, link: a}}\n"
+    (tmp_path / "r.robot.yaml").write_text(spec)
+    linkforge("compile", "r.robot.yaml", "-o", "r.urdf", cwd=tmp_path)
+    declared = 'extra_attributes: {"xmlns:xacro": "http://x"}\nextra: ["<xacro:foo/>"]\n'
+    (tmp_path / "r.robot.yaml").write_text(spec + declared)
+    reason = "<xacro:foo> is xacro's; it is expanded in a file named '<urdf>.xacro'"
+    run = linkforge("diff", "r.urdf", "r.robot.yaml", cwd=tmp_path)
+    line = f"r.robot.yaml is compared as written, since its URDF does not read back: {reason}"
+    assert (run.returncode, line in run.stdout.splitlines()) == (1, True)
+    told = json.loads(linkforge("diff", "r.robot.yaml", "r.urdf", "--json", cwd=tmp_path).stdout)
+    SCHEMA.validate(told)
+    assert told["not_read_back"] == reason
+
+
 def test_parameters_go_to_every_spec(arms: Path):
     linkforge("compile", "old.robot.yaml", "-o", "old.urdf", cwd=arms)
     run = linkforge("diff", "old.urdf", "old.robot.yaml", "reach:=1.5", cwd=arms)

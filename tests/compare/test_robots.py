@@ -277,8 +277,8 @@ def test_data_of_the_author_are_compared_one_by_one():
     before, after = (
         robot_of(SPEC.replace("name: arm", f"name: arm\nmetadata: {{{said}}}"))
         for said in (
-            "mass: 1.0, tested: [1, 2, {by: me}], order: [1, 2], gone: null, kept: null",
-            "mass: 1.0000000001, tested: [1, 3, {by: you}], order: [2, 1, 0], new: null, kept: null",
+            "mass: 1.5, tested: [1, 2, {by: me}], order: [1, 2], gone: null, kept: null",
+            "mass: 1.5000000001, tested: [1, 3, {by: you}], order: [2, 1, 0], new: null, kept: null",
         )
     )
     assert [(str(one.kind), "/".join(one.path), one.text) for one in compare(before, after)] == [

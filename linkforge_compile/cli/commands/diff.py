@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.differences import Side
+from linkforge_compile.cli.differences import Comparison, Side
 from linkforge_compile.cli.exits import OK, UsageError
 from linkforge_compile.cli.options import add_spec_options, name_set_by, packages_of, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, tell
@@ -81,8 +81,8 @@ def run(arguments: argparse.Namespace) -> int:
     )
     if before is None or after is None:
         return NO_ROBOT
-    before, after = _beside_each_other(sides, (before, after), arguments)
-    from linkforge_compile.cli.differences import Comparison, json_of, lines_of
+    (before, after), not_read_back = _beside_each_other(sides, (before, after), arguments)
+    from linkforge_compile.cli.differences import json_of, lines_of
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.compare import TOLERANCE, compare, vanished
 
@@ -90,11 +90,11 @@ def run(arguments: argparse.Namespace) -> int:
     semantic = not any(map(_has_no_semantic, sides))
     differences = compare(before, after, tolerance=tolerance, semantic=semantic)
     gone = vanished(before, after, semantic=semantic)
-    comparison = Comparison(sides[0], sides[1], tolerance, semantic, differences, gone)
+    comparison = Comparison(sides[0], sides[1], tolerance, semantic, not_read_back, differences, gone)
     if arguments.json:
         write_to_stdout(json_of(comparison))
     else:
-        lines = (*lines_of(comparison), *_left_out(sides, (before, after)))
+        lines = (*lines_of(comparison), *_as_written(comparison), *_left_out(sides, (before, after)))
         write_to_stdout("".join(f"{line}\n" for line in lines))
     return DIFFERENT if differences else OK
 
@@ -158,19 +158,32 @@ def _for_side(name: str, side: Side, common: Iterable[str], arguments: argparse.
 
 def _beside_each_other(
     sides: Sequence[Side], robots: Sequence[Robot], arguments: argparse.Namespace
-) -> Sequence[Robot]:
-    """Return the robots, a spec beside a URDF as what it compiles to: it has words for what a URDF says in Gazebo's."""
+) -> tuple[Sequence[Robot], str | None]:
+    """Return the robots, a spec beside a URDF as what it compiles to: it has words for what a URDF says in Gazebo's.
+
+    With them comes why that does not read back, where the spec is left as written.
+    """
     urdfs = [_is_urdf(side.word) for side in sides]
     if all(urdfs) or not any(urdfs):
-        return robots
+        return robots, None
     from linkforge_compile.importing import as_read_back
 
-    both = zip(robots, urdfs, strict=True)
-    return [robot if is_urdf else as_read_back(robot, gazebo=arguments.gazebo) for robot, is_urdf in both]
+    spec = urdfs.index(False)
+    robot, faults = as_read_back(robots[spec], gazebo=arguments.gazebo)
+    if robot is None:
+        return robots, faults[0].message
+    return ((robot, robots[1]) if spec == 0 else (robots[0], robot)), None
 
 
 def _has_no_semantic(side: Side) -> bool:
     return _is_urdf(side.word) and side.srdf is None
+
+
+def _as_written(comparison: Comparison) -> Iterator[str]:
+    """Yield the line that says that a spec beside a URDF is not compared as the URDF that it compiles to."""
+    if comparison.not_read_back is not None:
+        spec = next(side.word for side in (comparison.before, comparison.after) if not _is_urdf(side.word))
+        yield f"{spec} is compared as written, since its URDF does not read back: {comparison.not_read_back}"
 
 
 def _left_out(sides: Sequence[Side], robots: Sequence[Robot]) -> Iterator[str]:
