@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import islice
+from itertools import chain, islice
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import MAX_TOLD
@@ -30,12 +30,15 @@ def unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
     """Yield the keys of a map that its schema does not know; those that one place takes together, as one slip."""
     known, patterns = mapping(schema.get("properties", {})), mapping(schema.get("patternProperties", {}))
     unknown = (
-        entry
-        for entry in node
+        (before, entry)
+        for before, entry in zip(chain((None,), node), node, strict=False)
         if entry.name not in known and not any(re.search(pattern, entry.name) for pattern in patterns)
     )
     together: dict[str, list[YamlEntry]] = {}
-    for entry in islice(unknown, MAX_TOLD + 1):  # a hostile map has a hundred thousand
+    for before, entry in islice(unknown, MAX_TOLD + 1):  # a hostile map has a hundred thousand
+        if before and (fraction := _decimal_comma(before.value, entry)):
+            yield UnknownKeys([entry], fraction)
+            continue
         together.setdefault(_slip(entry, node, schema), []).append(entry)
     for slip, entries in together.items():
         if slip in known:
@@ -51,7 +54,7 @@ def _slip(entry: YamlEntry, node: YamlMap, schema: Schema) -> str:
     known, name = mapping(schema.get("properties", {})), entry.name
     if whole := _whole(entry, schema):
         return whole
-    if _of_a_table(entry, node, schema):
+    if _of_a_table(entry, schema):
         return f"{name}:"
     hint, near = _meant(entry, node, schema)
     # Where it has no other key either, the whole map stands in the wrong place.
@@ -84,7 +87,7 @@ def _meant(entry: YamlEntry, node: YamlMap, schema: Schema) -> tuple[str, Sequen
     """Return what is written instead of a key, else which keys may be meant, else which there are."""
     owner, name = str(schema["title"]), entry.name
     known = mapping(schema.get("properties", {}))
-    if hint := _of_a_table(entry, node, schema) or _place(entry, known):
+    if hint := _of_a_table(entry, schema) or _place(entry, known):
         return hint, ()
     if nearest(name, known):
         return "", [*known]
@@ -100,15 +103,14 @@ def _meant(entry: YamlEntry, node: YamlMap, schema: Schema) -> tuple[str, Sequen
     return f"its keys are {alternatives(own, 'and')}" if len(own) > 1 else f"its key is {own[0]}", ()
 
 
-def _of_a_table(entry: YamlEntry, node: YamlMap, schema: Schema) -> str:
-    """Return what is known to be meant by a word, or by how a number is written."""
+def _of_a_table(entry: YamlEntry, schema: Schema) -> str:
+    """Return what is known to be meant by a word, or by a way to a value."""
     owner, name = str(schema["title"]), entry.name
     return (
         _PARTS.get(owner, {}).get(name)
         or _HINTS_FOR_OWNER.get((owner, name))
         or _HINTS.get(name)
         or _way_in_one_key(name, mapping(schema.get("properties", {})))
-        or _decimal_comma(entry, node)
     )
 
 
@@ -159,12 +161,10 @@ def _is_other_number(name: str, known: Mapping[str, Json]) -> bool:
     return f"{name}s" in known or name.removesuffix("s") in known
 
 
-def _decimal_comma(entry: YamlEntry, node: YamlMap) -> str:
-    """Say how `1,5` is written, which in braces is an entry and the key `5`."""
+def _decimal_comma(before: YamlNode, entry: YamlEntry) -> str:
+    """Say how `1,5` is written, which in braces is the value of one entry and the key `5` behind it."""
     if not (entry.name.isdecimal() and is_null(entry.value)):
         return ""
-    names = list(node.entries)
-    before = node.entries[names[max(names.index(entry.name) - 1, 0)]].value
     is_whole = isinstance(before, YamlScalar) and re.fullmatch(r"[+-]?\d+", before.text)
     return f"write '{shown(before)}.{entry.name}'" if is_whole else ""
 

@@ -143,15 +143,21 @@ def _numbers(node: YamlScalar) -> Sequence[str]:
 
 
 def _number(node: YamlScalar, misfit: Misfit) -> str:
-    """A number with a decimal comma, or in quotes."""
+    """A number with a decimal comma, with underscores among its digits, or in quotes."""
     if not misfit.takes("number") or not isinstance(node.value, str):
         return ""
-    if comma := _DECIMAL_COMMA.fullmatch(node.text.strip()):
+    text = node.text.strip()
+    if comma := _DECIMAL_COMMA.fullmatch(text):
         return f"'{comma[1]}.{comma[2]}{comma[3]}'"
-    return f"{node.text} without quotes" if is_number(node.text) else ""
+    if is_number(text):
+        return f"{text} without quotes"
+    joined = _UNDERSCORES.sub("", text)
+    return f"'{joined}'" if is_number(joined) else ""
 
 
 _DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+)(\s*[^\d\s,]\S*|)")
+_UNDERSCORES = re.compile(r"(?<=[0-9a-fA-F])_+(?=[0-9a-fA-F])")
+"""What YAML 1.1 and Python read over between digits, and YAML 1.2 does not."""
 
 
 def _leader(node: YamlScalar, misfit: Misfit) -> str:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from linkforge_compile.schema.json_types import Schema, branches, mapping
 from linkforge_compile.schema.repetition import LONG_FORM, RAW, WORDS
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.scalars import scalar_value
 
 COMMON_KEYS = frozenset({*WORDS, *RAW})
 """What stands in most objects, so no sentence about one of them lists it."""
@@ -120,8 +122,6 @@ def field(path: Sequence[str | int]) -> str:
 
 
 def is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    """Whether the text is read as a number, and not as infinity, where it stands without quotes."""
+    value = scalar_value(text)
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
