@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.references import Use, unknown
@@ -32,16 +32,26 @@ def check_plugin_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     bears the module's prefix, which `$(joint('name'))` adds. Nothing is wrong if the joint is one of another
     model in the simulator.
     """
-    joints: defaultdict[tuple[Span, ...], list[str]] = defaultdict(list)
-    for joint in robot.joints:
-        joints[_trail(joint)].append(joint.name)
+    below = _joints_below(robot)
     for plugin in _plugins(robot):
-        uses, offered = _named_joints(plugin), joints.get(_trail(plugin))
+        uses, offered = _named_joints(plugin), below.get(_trail(plugin), ())
         yield from unknown(uses, UNKNOWN_PLUGIN_JOINT, robot.joints.names, gaps, offered=offered, plugin=plugin.name)
 
 
+def _joints_below(robot: Robot) -> Mapping[tuple[Span, ...], Sequence[str]]:
+    """Return the joints that a file brings in, with its modules, by the uses that brought in the file.
+
+    A plugin of the root may mean any joint, one of an arm none of the other arm.
+    """
+    below: defaultdict[tuple[Span, ...], list[str]] = defaultdict(list)
+    for joint in robot.joints:
+        trail = _trail(joint)
+        for inner in range(len(trail) + 1):  # a trail ends with the use that the root wrote
+            below[trail[inner:]].append(joint.name)
+    return below
+
+
 def _trail(part: Part) -> tuple[Span, ...]:
-    """Return the uses that brought a part in: a plugin of one arm means no joint of the other."""
     return part.source.trail if part.source else ()
 
 
