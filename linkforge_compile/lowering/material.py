@@ -11,10 +11,10 @@ from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import ZERO_TO_ONE, Measure
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
+from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 
 _BYTE = 255
-_LEAST_BYTE = 10
+_LEAST_BYTE = 16
 """The brightest part of a color that was meant in bytes is at least so large; 2 is a slip for 0.2."""
 
 
@@ -70,10 +70,26 @@ def _color(fields: Fields) -> Color | None:
 
 def _of_bytes(numbers: YamlList) -> str | None:
     """Return the color whose parts are written from 0 to 255, each from 0 to 1; None for any other list."""
-    parts = [item.value if isinstance(item, YamlScalar) else None for item in numbers]
-    whole = [part for part in parts if isinstance(part, int) and 0 <= part <= _BYTE]
-    if len(whole) not in (3, 4) or len(whole) != len(parts) or max(whole[:3]) < _LEAST_BYTE:
+    rgb = [byte for byte in map(_byte, numbers.items[:3]) if byte is not None]
+    if len(rgb) < 3 or len(numbers) > 4 or max(rgb) < _LEAST_BYTE:
         return None
-    *rgb, opacity = whole if len(whole) == 4 else (*whole, _BYTE)
-    opacity = _BYTE if opacity == 1 else opacity  # many tools count opacity from 0 to 1 all the same
-    return f"[{', '.join(f'{part / _BYTE:.3g}' for part in (*rgb, opacity))}]"
+    opacity = _opacity(numbers.items[3]) if len(numbers) == 4 else "1"
+    return f"[{', '.join((*map(_of_byte, rgb), opacity))}]" if opacity else None
+
+
+def _opacity(node: YamlNode) -> str | None:
+    """Return an opacity from 0 to 1: style sheets count it so beside colors in bytes, others in bytes as well."""
+    value = node.value if isinstance(node, YamlScalar) else None
+    if isinstance(node, YamlScalar) and isinstance(value, int | float) and 0 <= value <= 1:
+        return None if isinstance(value, bool) else node.text
+    byte = _byte(node)
+    return None if byte is None else _of_byte(byte)
+
+
+def _byte(node: YamlNode) -> int | None:
+    value = node.value if isinstance(node, YamlScalar) else None
+    return value if isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= _BYTE else None
+
+
+def _of_byte(byte: int) -> str:
+    return f"{byte / _BYTE:.3g}"
