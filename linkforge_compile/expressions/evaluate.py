@@ -52,11 +52,8 @@ def evaluate(
     """
     match template.parts:
         case (Expression() as whole,):
-            return _evaluate(_Evaluation(whole, scope, sink, trace))
-    texts = [
-        part if isinstance(part, str) else _evaluate_to_text(_Evaluation(part, scope, sink, trace))
-        for part in template.parts
-    ]
+            return _Evaluation(whole, scope, sink, trace).result()
+    texts = [part if isinstance(part, str) else _Evaluation(part, scope, sink, trace).text() for part in template.parts]
     if None in texts:
         return FAULT
     text = joined(*(_in_xml(template, texts) if is_xml else (text for text in texts if text is not None)))
@@ -87,32 +84,6 @@ def handed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, .
             except _FaultError:
                 return None
     return None
-
-
-def _evaluate_to_text(evaluation: _Evaluation) -> str | None:
-    value = _evaluate(evaluation)
-    if isinstance(value, Fault):
-        return None
-    text = as_text(value)
-    if text is None:
-        expression = evaluation.expression
-        evaluation.sink.report(codes.NOT_TEXT.at(expression.span(expression.tree), found=kind_name(value)))
-    return text
-
-
-def _evaluate(evaluation: _Evaluation) -> Value | Fault:
-    expression, scope = evaluation.expression, evaluation.scope
-    scope.budget.spend(Limit.STEPS, len(expression.text) // _CHARACTERS_A_STEP + 1, expression.place.span)
-    unknown = [name for name in expression.names if name.id not in scope]
-    for name in unknown:
-        evaluation.sink.report(_unknown_name(name, expression, scope))
-    if unknown:
-        return FAULT
-    try:
-        return evaluation.value(expression.tree)
-    except _FaultError:
-        scope.budget.spend(Limit.STEPS, _STEPS_OF_A_FAULT, expression.place.span)
-        return FAULT
 
 
 def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagnostic:
@@ -149,12 +120,52 @@ class _Evaluation:
     """One evaluation of one expression; what is at fault is reported where it stands."""
 
     def __init__(self, expression: Expression, scope: Scope, sink: Diagnostics, trace: Trace = _untraced) -> None:
-        self.expression = expression
-        self.scope = scope
-        self.sink = sink
+        self._expression = expression
+        self._scope = scope
+        self._sink = sink
         self._trace = trace
 
-    def value(self, node: ast.expr) -> Value:
+    def text(self) -> str | None:
+        """Return the value as it stands in a text; None for a fault, and for a value that is no text."""
+        value = self.result()
+        if isinstance(value, Fault):
+            return None
+        text = as_text(value)
+        if text is None:
+            expression = self._expression
+            self._sink.report(codes.NOT_TEXT.at(expression.span(expression.tree), found=kind_name(value)))
+        return text
+
+    def result(self) -> Value | Fault:
+        expression, scope = self._expression, self._scope
+        scope.budget.spend(Limit.STEPS, len(expression.text) // _CHARACTERS_A_STEP + 1, expression.place.span)
+        unknown = [name for name in expression.names if name.id not in scope]
+        for name in unknown:
+            self._sink.report(_unknown_name(name, expression, scope))
+        if unknown:
+            return FAULT
+        try:
+            return self._value(expression.tree)
+        except _FaultError:
+            scope.budget.spend(Limit.STEPS, _STEPS_OF_A_FAULT, expression.place.span)
+            return FAULT
+
+    def taken(self, node: ast.expr) -> tuple[str, tuple[str | int, ...]] | None:
+        """Return what `handed_on` does, for a part of the expression."""
+        match node:
+            case ast.Name(id=name):
+                return None if name in CONSTANTS else (name, ())
+            case ast.IfExp(test=condition, body=chosen, orelse=other):
+                return self.taken(chosen if self._truth(condition, "'if'") else other)
+            case ast.Attribute(value=whole, attr=key):
+                reached = self.taken(whole)
+                return reached and (reached[0], (*reached[1], key))
+            case ast.Subscript(value=whole, slice=index):
+                reached, place = self.taken(whole), self._value(index)
+                return (reached[0], (*reached[1], place)) if reached and isinstance(place, str | int) else None
+        return None
+
+    def _value(self, node: ast.expr) -> Value:
         match node:
             case ast.Constant(value=str() | int() | float() as value):
                 return value
@@ -173,7 +184,7 @@ class _Evaluation:
             case ast.Compare():
                 return self._compared(node)
             case ast.IfExp(test=condition, body=chosen, orelse=other):
-                return self.value(chosen if self._truth(condition, "'if'") else other)
+                return self._value(chosen if self._truth(condition, "'if'") else other)
             case ast.Call(func=ast.Name() as function, args=arguments):
                 return self._called(node, function, arguments)
             case ast.Subscript(value=whole, slice=index):
@@ -182,23 +193,8 @@ class _Evaluation:
                 return self._apply(lambda value: field(value, key), node, whole)
         raise AssertionError(f"the grammar lets no {type(node).__name__} through")
 
-    def taken(self, node: ast.expr) -> tuple[str, tuple[str | int, ...]] | None:
-        """Return what `handed_on` does, for a part of the expression."""
-        match node:
-            case ast.Name(id=name):
-                return None if name in CONSTANTS else (name, ())
-            case ast.IfExp(test=condition, body=chosen, orelse=other):
-                return self.taken(chosen if self._truth(condition, "'if'") else other)
-            case ast.Attribute(value=whole, attr=key):
-                reached = self.taken(whole)
-                return reached and (reached[0], (*reached[1], key))
-            case ast.Subscript(value=whole, slice=index):
-                reached, place = self.taken(whole), self.value(index)
-                return (reached[0], (*reached[1], place)) if reached and isinstance(place, str | int) else None
-        return None
-
     def _named(self, name: str) -> Value:
-        value = self.scope.lookup(name, self.sink)
+        value = self._scope.lookup(name, self._sink)
         if isinstance(value, Fault):
             raise _FaultError
         return value
@@ -215,16 +211,16 @@ class _Evaluation:
         node = argument.operand if isinstance(argument, ast.UnaryOp) else argument
         number = node.value if isinstance(node, ast.Constant) else None
         if isinstance(number, int | float) and number > WIDEST_ANGLE:
-            found = self.expression.written(argument)
-            self.sink.report(codes.WIDE_LITERAL.at(self.expression.span(argument), function=function, found=found))
+            found = self._expression.written(argument)
+            self._sink.report(codes.WIDE_LITERAL.at(self._expression.span(argument), function=function, found=found))
 
     def _asked_of_the_file(self, name: ast.Name, argument: ast.expr) -> Value:
         text = self._apply(partial(_text, f"{name.id}()"), name, argument)
-        function = self.scope.function(name.id)
+        function = self._scope.function(name.id)
         if function is None:
-            self.sink.report(codes.UNKNOWN_FUNCTION.at(self.expression.span(name), name=name.id))
+            self._sink.report(codes.UNKNOWN_FUNCTION.at(self._expression.span(name), name=name.id))
             raise _FaultError
-        value = function(text, self.expression.span(argument), self.sink)
+        value = function(text, self._expression.span(argument), self._sink)
         if isinstance(value, Fault):
             raise _FaultError
         return value
@@ -234,9 +230,9 @@ class _Evaluation:
 
     def _compared(self, node: ast.Compare) -> bool:
         """Compare each two neighbours of a chain, from the left, until one comparison fails."""
-        left_node, left = node.left, self.value(node.left)
+        left_node, left = node.left, self._value(node.left)
         for operator, right_node in zip(node.ops, node.comparators, strict=True):
-            right = self.value(right_node)
+            right = self._value(right_node)
             compare = self._counted(COMPARISONS[type(operator)])
             if not self._settle(compare, node, (left_node, right_node), (left, right)):
                 return False
@@ -249,15 +245,15 @@ class _Evaluation:
         def counting(*values: Value) -> T:
             for value in values:
                 if isinstance(value, tuple):
-                    self.scope.budget.spend(Limit.STEPS, len(value), self.expression.place.span)
+                    self._scope.budget.spend(Limit.STEPS, len(value), self._expression.place.span)
                 elif isinstance(value, str):
-                    self.scope.budget.spend(Limit.CHARACTERS_MADE, len(value), self.expression.place.span)
+                    self._scope.budget.spend(Limit.CHARACTERS_MADE, len(value), self._expression.place.span)
             return operation(*values)
 
         return counting
 
     def _apply(self, operation: Callable[..., T], node: ast.expr, *operands: ast.expr) -> T:
-        return self._settle(operation, node, operands, [self.value(operand) for operand in operands])
+        return self._settle(operation, node, operands, [self._value(operand) for operand in operands])
 
     def _settle(
         self, operation: Callable[..., T], node: ast.expr, operands: Sequence[ast.expr], values: Sequence[Value]
@@ -266,15 +262,15 @@ class _Evaluation:
         try:
             return operation(*values)
         except RefusedError as refused:
-            expression = self.expression
+            expression = self._expression
             if refused.operand is None:
                 span = self._place(node)
             elif refused.operand < len(operands):
                 span = self._place(operands[refused.operand])
             else:
                 span = expression.key_span(node)
-            self.sink.report(refused.code.at(span, near=refused.near, notes=(), **refused.facts))
+            self._sink.report(refused.code.at(span, near=refused.near, notes=(), **refused.facts))
             raise _FaultError from None
 
     def _place(self, node: ast.expr) -> Span:
-        return self._trace(self.expression.written(node), self.expression.span(node))
+        return self._trace(self._expression.written(node), self._expression.span(node))
