@@ -82,7 +82,7 @@ def _run(words: list[str]) -> int:
         print(f"linkforge {name}: {error}", file=sys.stderr)
         return WRONG_USAGE
     except OSError as error:
-        if error.errno not in _NOT_TO_BE_HAD:
+        if error.errno not in _NOT_TO_BE_HAD or not error.filename:
             raise
         print(f"linkforge {name}: '{_shown(str(error.filename))}': {error.strerror}", file=sys.stderr)
         return WRONG_USAGE

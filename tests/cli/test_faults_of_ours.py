@@ -1,5 +1,6 @@
 """How the command ends when linkforge is at fault, or is interrupted."""
 
+import errno
 import tempfile
 from pathlib import Path
 
@@ -66,6 +67,14 @@ def test_an_interruption_is_quiet(monkeypatch: pytest.MonkeyPatch, capsys: pytes
     plant(monkeypatch, KeyboardInterrupt())
     assert main(COMMAND) == 130
     assert capsys.readouterr() == ("", "")
+
+
+def test_what_is_forbidden_without_a_place_is_a_fault_of_ours(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], reports: Path
+):
+    plant(monkeypatch, PermissionError(errno.EPERM, "Operation not permitted"))
+    assert main(COMMAND) == 70
+    assert "internal fault: PermissionError" in capsys.readouterr().err
 
 
 LONG = "a" * 5000
