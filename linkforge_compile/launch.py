@@ -13,7 +13,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from time import time_ns
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from weakref import ref
 
 import launch.logging
 from launch.actions import DeclareLaunchArgument
@@ -24,6 +26,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 
 from linkforge_compile.modules import XACRO
 from linkforge_compile.pipeline import CompileError, ListedParameter, Packages, Told, compile_file, parameters_of
+from linkforge_compile.stamps import Stamps
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,6 +36,7 @@ if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
 
+    Asked: TypeAlias = tuple[str | None, Mapping[str, Told]]
     Words: TypeAlias = str | Substitution | Sequence[str | Substitution]
     Given: TypeAlias = Mapping[str, bool | int | float | Words | Sequence[float | str | Substitution]]
 
@@ -50,10 +54,22 @@ class _Text(Substitution):  # type: ignore[misc]  # the launch package has no ty
         return f"{'SRDF' if self._semantic else 'URDF'} of {self._robot.spec}"
 
     def perform(self, context: LaunchContext) -> str:
-        from linkforge_compile.backends import render_srdf, render_urdf
+        made = self._robot.made(context)
+        return made.srdf if self._semantic else made.urdf
 
-        robot = self._robot.compiled(context)
-        return render_srdf(robot) if self._semantic else render_urdf(robot, gazebo=self._robot.gazebo)
+
+class _Made(NamedTuple):
+    """The texts of one compile: in which launch it was, with which variant and values, and of which files."""
+
+    launch: ref[LaunchContext]
+    asked: Asked
+    files: Stamps
+    urdf: str
+    srdf: str
+
+    def holds(self, context: LaunchContext, asked: Asked) -> bool:
+        # Another launch is told the warnings as well, and may have another environment.
+        return self.launch() is context and self.asked == asked and not self.files.look()
 
 
 class RobotDescription:
@@ -105,7 +121,7 @@ class RobotDescription:
         sets = self._sets_of(variant) if isinstance(variant, str) else {}
         self._defaults = {one.name: sets.get(one.name, one.default) for one in listing.parameters}
         self.arguments = [self._argument(one) for one in listing.parameters if one.name not in self._given]
-        self._compiled: tuple[LaunchContext, object, Robot] | None = None
+        self._made: _Made | None = None
         self.urdf, self.srdf = _Text(self, semantic=False), _Text(self, semantic=True)
         # Without a type, ROS would read the text as YAML.
         self.description = {"robot_description": ParameterValue(self.urdf, value_type=str)}
@@ -138,8 +154,10 @@ class RobotDescription:
                     f"{self.spec} has no parameter named '{name}'{did_you_mean(name, declared) or there_are}"
                 )
 
-    def compiled(self, context: LaunchContext) -> Robot:
-        """Compile the spec with the values that hold in a launch, once for all texts; tell of it in the launch's log.
+    def made(self, context: LaunchContext) -> _Made:
+        """Compile the spec with the values that hold in a launch, and tell of it in the launch's log.
+
+        That is done once for all texts, and again for one that is asked for when a file of the robot has changed.
 
         Raises:
             SubstitutionFailure: The spec has errors, a parameter no value, or it has no such variant.
@@ -148,11 +166,18 @@ class RobotDescription:
         variant, values = self._variant_of(context), self._assignments(context)
         self._require_values(variant, values)
         asked = (variant, values)
-        if self._compiled is None or self._compiled[0] is not context or self._compiled[1] != asked:
-            self._compiled = (context, asked, self._compile(variant, values))
-        return self._compiled[2]
+        if self._made is None or not self._made.holds(context, asked):
+            from linkforge_compile.backends import render_srdf, render_urdf
 
-    def _compile(self, variant: str | None, values: Mapping[str, Told]) -> Robot:
+            began, files = time_ns(), Stamps(())
+            robot, read = self._compile(variant, values)
+            files.follow(read, began)
+            urdf, srdf = render_urdf(robot, gazebo=self.gazebo), render_srdf(robot)
+            self._made = _Made(ref(context), asked, files, urdf, srdf)
+        return self._made
+
+    def _compile(self, variant: str | None, values: Mapping[str, Told]) -> tuple[Robot, Sequence[Path]]:
+        """Return the robot, and the files on which it depends, those that are missing as well."""
         compilation = compile_file(
             self.spec,
             parameters=values,
@@ -170,7 +195,7 @@ class RobotDescription:
         for severity, log in ((Severity.WARNING, logger.warning), (Severity.NOTE, logger.info)):
             if told := tuple(one for one in compilation.diagnostics if one.severity is severity):
                 log(render_text(told))
-        return compilation.robot
+        return compilation.robot, (*compilation.files, *compilation.unread)
 
     def _require_values(self, variant: str | None, values: Mapping[str, Told]) -> None:
         """Refuse what the compiler would tell as its commands do, which have no launch arguments."""

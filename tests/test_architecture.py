@@ -17,6 +17,7 @@ MAY_IMPORT = {
     "resources": "",
     "roots": "",
     "stack": "",
+    "stamps": "",
     "_version": "",
     "diagnostics": "source",
     "bounds": "source diagnostics",
@@ -33,11 +34,11 @@ MAY_IMPORT = {
     "compare": "core backends",
     "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core roots stack",
     "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
-    "launch": "diagnostics backends core modules pipeline",
+    "launch": "diagnostics backends core modules pipeline stamps",
     "editor": "diagnostics syntax schema modules lowering core roots stack resources",
     "cli": (
         "banner source diagnostics bounds core checks schema pipeline importing backends writers compare editor "
-        "resources _version"
+        "resources stamps _version"
     ),
 }
 

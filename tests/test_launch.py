@@ -1,11 +1,13 @@
 """`linkforge_compile.launch`, under a stand-in for the packages of ROS 2 that it is for."""
 
+import gc
 import importlib
 import logging
 import re
 import runpy
 import shutil
 import sys
+import weakref
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
@@ -210,7 +212,25 @@ def test_a_launch_compiles_once_and_logs_what_is_told(
     assert "note: " in told["INFO"]
     assert ": note: " not in told["WARNING"]
     robot.urdf.perform(launched(ros, robot))
-    assert len(compiled) == 2, "another launch may meet another spec"
+    assert len(compiled) == 2, "another launch is told as well"
+
+
+def test_a_launch_that_goes_on_meets_a_spec_as_it_is_now(ros: Ros, spec: Path):
+    robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
+    context = launched(ros, robot)
+    assert 'name="A1"' in robot.urdf.perform(context)
+    spec.write_text(SPEC.replace("name: $(serial)", "name: of-$(serial)"))
+    assert 'name="of-A1"' in robot.urdf.perform(context)
+
+
+def test_a_launch_that_is_over_is_let_go(ros: Ros, spec: Path):
+    robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
+    context = launched(ros, robot)
+    robot.urdf.perform(context)
+    over = weakref.ref(context)
+    del context
+    gc.collect()
+    assert over() is None
 
 
 def test_a_variant_that_is_not_there_is_told_where_it_is_said(ros: Ros, spec: Path):

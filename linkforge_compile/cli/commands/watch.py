@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.build import Order, compile_order, deliver
 from linkforge_compile.cli.commands import compile as compile_command
 from linkforge_compile.cli.exits import OK, WRONG_USAGE, UsageError
-from linkforge_compile.cli.stamps import Stamps
 from linkforge_compile.cli.telling import say, say_failure, to_stderr
+from linkforge_compile.stamps import Stamps
 
 if TYPE_CHECKING:
     import argparse
