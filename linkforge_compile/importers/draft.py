@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW
+from linkforge_compile.importers.prefixed import NO_SHAPES, Shapes
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value, word_value
@@ -38,14 +39,19 @@ class Draft:
     `keys` has the node that stands for an element in the text, a key or an item of a list; `bodies` what is under
     it; `raw` the elements that are kept as they stand, and `told` what is to be told of the import. `refused` are
     elements, by their spans, that are known to be no use to the language, and why. `has_quaternions` says whether
-    the document is of a version of URDF whose readers take them; the others ignore them.
+    the document is of a version of URDF whose readers take them; the others ignore them. `shapes` are the robot's.
     """
 
     def __init__(
-        self, refused: Mapping[Span, DeclinedError] = MappingProxyType({}), *, has_quaternions: bool = False
+        self,
+        refused: Mapping[Span, DeclinedError] = MappingProxyType({}),
+        *,
+        has_quaternions: bool = False,
+        shapes: Shapes = NO_SHAPES,
     ) -> None:
         self.refused = refused
         self.has_quaternions = has_quaternions
+        self.shapes = shapes
         self.keys: dict[XmlElement, YamlNode] = {}
         self.bodies: dict[XmlElement, YamlNode] = {}
         self.raw: set[XmlElement] = set()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from typing import NamedTuple
 
 from linkforge_compile.syntax import YamlScalar
 
@@ -33,7 +34,11 @@ _NAMES: Mapping[str, tuple[str, ...]] = {
 """The attributes that name parts of the robot, by the tag of the element; the prefix goes before them in the IR too."""
 
 _INSIDE: Mapping[str, tuple[str, ...]] = {
-    "robot": tuple(tag for tag in _NAMES if tag not in ("visual", "collision", "actuator", "gpio", "plugin", "sensor")),
+    "robot": (
+        *("link", "joint", "material", "transmission", "ros2_control", "gazebo"),
+        *("group", "passive_joint", "group_state", "end_effector", "virtual_joint", "disable_collisions"),
+        *("enable_collisions", "disable_default_collisions", "joint_property", "link_sphere_approximation"),
+    ),
     "link": ("visual", "collision"),
     "visual": ("material",),
     "joint": ("parent", "child", "mimic"),
@@ -54,12 +59,34 @@ _NAMES_BY_TEXT = (
 )
 """Elements whose text is the name, each with the tag around it."""
 
-_MARKUP = re.compile(
+MARKUP = re.compile(
     r"""<!--.*?-->|<!\[CDATA\[.*?\]\]>|<(?P<end>/?)(?P<tag>[^\s/<>!?"']+)(?:[^<>"']|"[^"]*"|'[^']*')*>""", re.DOTALL
 )
 """A comment, a section of characters, or a tag whole: a `>` may stand in an attribute."""
 
+_SECTION = "<![CDATA["
+_LINK_COLLISION = re.compile(r"(?P<link>.+)_collision(?:_[0-9]+)?")
+"""How Gazebo calls the collisions of a link that have no name; those of links that it merges are called otherwise."""
+
+_RESERVED = re.compile(r"__.*__")
+"""What means something to Gazebo rather than naming a part, such as `__default_topic__`."""
+
 _ATTRIBUTE = re.compile(r"""(?<=\s)(?P<name>[^\s=/>"']+)\s*=\s*(?:"(?P<double>[^"]*)"|'(?P<single>[^']*)')""")
+
+
+class Shapes(NamedTuple):
+    """The names of the links and collisions that a file has; a contact sensor's are certain by them alone."""
+
+    links: frozenset[str] = frozenset()
+    collisions: frozenset[str] = frozenset()
+
+    def has_collision(self, name: str) -> bool:
+        """Whether a name is that of a collision: its own, or the one that Gazebo makes from its link's."""
+        made = _LINK_COLLISION.fullmatch(name)
+        return name in self.collisions or (made is not None and made["link"] in self.links)
+
+
+NO_SHAPES = Shapes()
 
 
 def place_of(tag: str, around: str | None) -> str | None:
@@ -72,9 +99,9 @@ def names(place: str | None, attribute: str) -> bool:
     return place is not None and attribute in _NAMES.get(place, ())
 
 
-def names_by_text(tag: str, around: str | None) -> bool:
-    """Whether the text of an element names a part of the robot."""
-    return (around, tag) in _NAMES_BY_TEXT
+def names_by_text(tag: str, around: str | None, text: str, shapes: Shapes) -> bool:
+    """Whether the text of an element names a part of the robot, whose shapes these are."""
+    return (around, tag) in _NAMES_BY_TEXT and (tag != "collision" or shapes.has_collision(text.strip()))
 
 
 def with_prefix(node: YamlScalar) -> YamlScalar:
@@ -83,28 +110,51 @@ def with_prefix(node: YamlScalar) -> YamlScalar:
     return node if text == node.text else YamlScalar(text, text, node.span)
 
 
-def raw_with_prefix(raw: str, around: str) -> str:
+def raw_with_prefix(raw: str, around: str, shapes: Shapes) -> str:
     """Return an element as it stands in a file, with the prefix before each name; `around` is the tag around it."""
     places: list[str | None] = [around]
-    text_before = 0
-    is_name = False
     pieces: list[str] = []
-    for found in _MARKUP.finditer(raw):
-        text = raw[text_before : found.start()]
-        pieces.append(_with_prefix(text) if is_name else text)
-        text_before, is_name = found.end(), False
-        tag = found["tag"]
-        if tag is None or found["end"]:
+    opened, text_begins = "", 0
+    behind = 0
+    for found in MARKUP.finditer(raw):
+        pieces.append(raw[behind : found.start()])
+        behind, tag = found.end(), found["tag"]
+        if tag is None:
             pieces.append(found[0])
-            if tag is not None:
-                places.pop()
+            continue
+        if opened:
+            pieces[text_begins:] = _text_with_prefix(pieces[text_begins:], opened, places[-2], shapes)
+            opened = ""
+        if found["end"]:
+            pieces.append(found[0])
+            places.pop()
             continue
         place = place_of(tag, places[-1])
         pieces.append(_tag_with_prefix(found[0], place) if place in _NAMES else found[0])
         if not found[0].endswith("/>"):
-            is_name = names_by_text(tag, places[-1])
+            opened, text_begins = tag if (places[-1], tag) in _NAMES_BY_TEXT else "", len(pieces)
             places.append(place)
-    return "".join((*pieces, raw[text_before:]))
+    return "".join((*pieces, raw[behind:]))
+
+
+def _text_with_prefix(pieces: list[str], tag: str, around: str | None, shapes: Shapes) -> list[str]:
+    """Return the text at the start of an element, comments and sections with it, prefixed if it is a name."""
+    texts = [_characters(piece) for piece in pieces]
+    name = "".join(texts)
+    if not names_by_text(tag, around, name, shapes) or _with_prefix(name) == name:
+        return pieces
+    first = next(number for number, text in enumerate(texts) if text.strip())
+    section = _SECTION if pieces[first].startswith(_SECTION) else ""
+    said = pieces[first].removeprefix(section)
+    space = said[: len(said) - len(said.lstrip())]
+    return [*pieces[:first], f"{section}{space}{_PREFIX}{said.lstrip()}", *pieces[first + 1 :]]
+
+
+def _characters(piece: str) -> str:
+    """Return what a text, a comment or a section of characters says."""
+    if piece.startswith("<!--"):
+        return ""
+    return piece.removeprefix(_SECTION).removesuffix("]]>") if piece.startswith(_SECTION) else piece
 
 
 def _tag_with_prefix(start: str, place: str | None) -> str:
@@ -119,8 +169,8 @@ def _tag_with_prefix(start: str, place: str | None) -> str:
 
 
 def _with_prefix(name: str) -> str:
-    """Return a name with the prefix before it: an absolute or private topic is none, nor what names another model."""
+    """Return a name with the prefix before it: an absolute or private topic is none, nor what is another's."""
     bare = name.lstrip()
-    if not bare or bare[0] in "/~" or "::" in bare:
+    if not bare or bare[0] in "/~" or "::" in bare or _RESERVED.fullmatch(bare.rstrip()):
         return name
     return f"{name[: len(name) - len(bare)]}{_PREFIX}{bare}"

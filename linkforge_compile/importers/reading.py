@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
 from linkforge_compile.importers.draft import DeclinedError, Draft
-from linkforge_compile.importers.prefixed import raw_with_prefix
+from linkforge_compile.importers.prefixed import MARKUP, raw_with_prefix
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
@@ -24,7 +24,6 @@ Read = Callable[["Reading"], YamlNode | None]
 _MOST_SHOWN = 40
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _LINE_END = "\x01"  # no XML holds it
-_TAG_OR_COMMENT = re.compile(r"<!--.*?-->|<[^>]*>", re.DOTALL)
 
 # Comments and CDATA are found as well, for what looks like one in them is none.
 _INSTRUCTION = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>", re.DOTALL)
@@ -231,7 +230,7 @@ class Reading:
 
     def _raw(self, child: XmlElement) -> YamlNode:
         written = self.draft.text(tidy(without_instructions(child.raw)), child.span).text
-        text = raw_with_prefix(written, self.element.tag)
+        text = raw_with_prefix(written, self.element.tag, self.draft.shapes)
         node = YamlScalar(text, text, child.span)
         self.draft.raw.add(child)
         self.draft.made(node, child)
@@ -248,11 +247,11 @@ def tidy(raw: str) -> str:
 
     Comments stay as they are, wherever their lines begin.
     """
-    texts = _TAG_OR_COMMENT.split(raw)
+    texts = MARKUP.split(raw)[:: 1 + MARKUP.groups]
     if "<![CDATA[" in raw or _BROKEN_VALUE.search(raw) or any("\n" in text and text.strip() for text in texts):
         return raw
     lines = raw.replace("\r\n", "\n").replace("\r", "\n")
-    closed = _TAG_OR_COMMENT.sub(_without_space_before_its_end, lines)
+    closed = MARKUP.sub(_without_space_before_its_end, lines)
     whole_comments = _COMMENT.sub(lambda comment: comment[0].replace("\n", _LINE_END), closed)
     first, *others = [line.rstrip() for line in whole_comments.split("\n")]
     others = [_INDENT.sub(lambda space: space[0].expandtabs(2), line) for line in others if line]
@@ -261,7 +260,6 @@ def tidy(raw: str) -> str:
 
 
 def _without_space_before_its_end(found: re.Match[str]) -> str:
-    """Return `<tag />` as `<tag/>`, and comments as they are; so is what may end in the middle of an attribute."""
+    """Return `<tag />` as `<tag/>`, and comments as they are."""
     tag = found[0]
-    is_whole = tag.endswith("/>") and not tag.startswith("<!--") and not (tag.count('"') % 2 or tag.count("'") % 2)
-    return f"{tag[:-2].rstrip()}/>" if is_whole else tag
+    return f"{tag[:-2].rstrip()}/>" if found["tag"] and tag.endswith("/>") else tag

@@ -22,11 +22,14 @@ _NAMED_FOR_ITSELF = ("visual", "collision", "material")
 _FORMATS_WITHOUT_EXPRESSIONS = (".urdf", ".xacro")
 
 
-_SAYS_TOPIC_OR_FRAME = re.compile(r"(?:topic|frame|namespace|remapping)(?:_?(?:name|id|prefix))?s?$", re.IGNORECASE)
-"""The end of a key, a tag or an attribute that plugins give topics and frames by: `imageTopicName`, `frame_id`."""
+_SAYS_TOPIC_OR_FRAME = re.compile(
+    r"(?:topic|frame|namespace|remapping)(?:_?(?:name|id|prefix))?s?$|^collision$", re.IGNORECASE
+)
+"""The end of a key, a tag or an attribute that plugins give topics and frames by: `imageTopicName`, `frame_id`; and
+the tag by which a contact sensor names what it feels."""
 
 # In a force-torque sensor, `frame` is one of three words.
-_IS_NO_NAME = re.compile(r"[-+.\d\s]*|true|false|child|parent|sensor", re.IGNORECASE)
+_IS_NO_NAME = re.compile(r"[-+.\d\s]*|true|false|child|parent|sensor|__.*__", re.IGNORECASE)
 _MOST_SHOWN = 5
 
 _WRITTEN_WHOLE = frozenset(("parameters", "properties", "extra"))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from linkforge_compile.importers.prefixed import raw_with_prefix
+from linkforge_compile.importers.prefixed import Shapes, raw_with_prefix
 
 
 @pytest.mark.parametrize(
@@ -25,8 +25,8 @@ from linkforge_compile.importers.prefixed import raw_with_prefix
         ("robot", '<gazebo reference=""/>', '<gazebo reference=""/>'),
         (
             "gazebo",
-            '<sensor name="a"><x y="/>"/><contact><collision> b </collision></contact><topic>/t</topic></sensor>',
-            '<sensor name="$(prefix)a"><x y="/>"/><contact><collision> $(prefix)b </collision></contact>'
+            '<sensor name="a"><x y="/>"/><contact><collision> hull </collision></contact><topic>/t</topic></sensor>',
+            '<sensor name="$(prefix)a"><x y="/>"/><contact><collision> $(prefix)hull </collision></contact>'
             "<topic>/t</topic></sensor>",
         ),
         (
@@ -37,7 +37,23 @@ from linkforge_compile.importers.prefixed import raw_with_prefix
             '<drake:x name="d"><visual name="e"/></drake:x></link>',
         ),
         ("sensor", "<topic>model::x</topic>", "<topic>model::x</topic>"),
+        ("contact", "<topic>__default_topic__</topic>", "<topic>__default_topic__</topic>"),
+        ("sensor", "<topic><!-- c --> x</topic>", "<topic><!-- c --> $(prefix)x</topic>"),
+        ("sensor", "<topic>\n <![CDATA[ x]]></topic>", "<topic>\n <![CDATA[ $(prefix)x]]></topic>"),
+        ("sensor", "<topic>a<!-- c -->::b</topic>", "<topic>a<!-- c -->::b</topic>"),
+        ("sensor", "<topic/><x>y</x>", "<topic/><x>y</x>"),
+        ("contact", "<collision>b_collision</collision>", "<collision>$(prefix)b_collision</collision>"),
+        ("contact", "<collision>b_collision_1</collision>", "<collision>$(prefix)b_collision_1</collision>"),
+        ("contact", "<collision>c_collision</collision>", "<collision>c_collision</collision>"),
+        (
+            "contact",
+            "<collision>b_fixed_joint_lump__b_collision_1</collision>",
+            "<collision>b_fixed_joint_lump__b_collision_1</collision>",
+        ),
+        ("robot", '<mimic joint="x"/>', '<mimic joint="x"/>'),
+        ("robot", '<parent link="x"/>', '<parent link="x"/>'),
+        ("robot", '<chain base_link="x"/>', '<chain base_link="x"/>'),
     ],
 )
 def test_a_name_has_the_prefix_where_it_is_certain(around: str, raw: str, prefixed: str):
-    assert raw_with_prefix(raw, around) == prefixed
+    assert raw_with_prefix(raw, around, Shapes(frozenset({"b"}), frozenset({"hull"}))) == prefixed

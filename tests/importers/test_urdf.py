@@ -539,7 +539,8 @@ def test_a_quaternion_turns_where_a_capsule_makes_it_urdf_1_1(tmp_path: Path):
 def test_signs_of_zero_and_spaces_of_generators_stay_behind(read):
     text = read("""<link name="a"/> <link name="b"/>
       <joint name="j" type="fixed"><parent link="a"/><child link="b"/><axis xyz="0 0 -0" />
-        <origin xyz="1 -0.0 0" rpy="0 0 0"/><note say="a /> b" /></joint>""")
+        <origin xyz="1 -0.0 0" rpy="0 0 0"/><note say="a /> b" /><note say='"' b="c />" d='"'/></joint>""")
     assert "origin: [1, 0.0, 0]" in text
     assert '<axis xyz="0 0 -0"/>' in text
-    assert '<note say="a /> b" />' in text
+    assert '<note say="a /> b"/>' in text
+    assert """<note say='"' b="c />" d='"'/>""" in text

@@ -148,6 +148,21 @@ def test_names_in_sensors_take_the_prefix_where_they_are_certain(tmp_path):
         assert said in urdf
 
 
+LUMP = "palm_fixed_joint_lump__finger_collision_1"
+
+
+@pytest.mark.parametrize("before", ["", "<a/><b/><a/>"], ids=["keys", "raw"])
+def test_a_collision_that_the_file_does_not_have_stays_and_is_told(tmp_path, before: str):
+    contact = f"<contact>{before}<collision>{LUMP}</collision><topic>__default_topic__</topic></contact>"
+    block = f'<gazebo reference="finger"><sensor name="s" type="contact">{contact}</sensor></gazebo></robot>'
+    compilation = compiled(tmp_path, USED.replace("g:", "left:"), GRIPPER.replace("</robot>", block))
+    urdf = render_urdf(compilation.result())
+    assert f"<collision>{LUMP}</collision>" in urdf
+    assert "<topic>__default_topic__</topic>" in urdf
+    (told,) = [one.message for one in compilation.diagnostics if one.code.id == "LF5754"]
+    assert f"no prefix: '{LUMP}';" in told
+
+
 def test_topics_and_frames_that_may_be_anything_are_told_once_with_all_of_them(tmp_path):
     gripper = GRIPPER.replace("</robot>", SENSORS)
     compilation = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper)
@@ -155,8 +170,8 @@ def test_topics_and_frames_that_may_be_anything_are_told_once_with_all_of_them(t
         (
             "LF5754",
             21,
-            "plugins of this file name topics and frames, which take no prefix: 'base_link', 'state', '/seen'; "
-            "change what two uses must not share with 'override' where the file is used",
+            "plugins of this file name topics, frames or collisions, which take no prefix: "
+            "'base_link', 'state', '/seen'; change what two uses must not share with 'override' where the file is used",
         ),
         (
             "LF5704",

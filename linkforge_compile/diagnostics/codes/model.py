@@ -155,6 +155,6 @@ ABSOLUTE_TOPIC = Code(
 UNPREFIXED_TOPICS = Code(
     "LF5754",
     _W,
-    "plugins of this file name topics and frames, which take no prefix: {names}; change what two uses must not share "
-    "with 'override' where the file is used",
+    "plugins of this file name topics, frames or collisions, which take no prefix: {names}; change what two "
+    "uses must not share with 'override' where the file is used",
 )

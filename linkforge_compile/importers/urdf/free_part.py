@@ -44,7 +44,8 @@ def read_free(element: Reading, around: str | None = None) -> YamlNode:
     `around` is the tag around it where names may stand that take the prefix, None elsewhere.
     """
     tag = element.element.tag
-    place, is_name = place_of(tag, around), names_by_text(tag, around)
+    place = place_of(tag, around)
+    is_name = names_by_text(tag, around, element.element.text, element.draft.shapes)
     if not element.element.attributes and not element.children():
         node = read_text(element)
         return with_prefix(node) if is_name else node

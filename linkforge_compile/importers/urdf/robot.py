@@ -9,6 +9,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.importers.comments import placed_comments
 from linkforge_compile.importers.document import Imported, Move, read_document
 from linkforge_compile.importers.draft import DeclinedError, Draft
+from linkforge_compile.importers.prefixed import Shapes
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.urdf.frame import frames_of
 from linkforge_compile.importers.urdf.gazebo import Blocks
@@ -34,7 +35,7 @@ def read_urdf(file: SourceFile, sink: Diagnostics, moved: Move | None = None) ->
     if document is None:
         return None
     root = document.root
-    draft = Draft(has_quaternions=_has_quaternions(root))
+    draft = Draft(has_quaternions=_has_quaternions(root), shapes=_shapes_of(root))
     tree = _robot(Reading(draft, root))
     draft.bodies[root] = tree
     draft.tell(sink)
@@ -48,10 +49,20 @@ def _has_quaternions(root: XmlElement) -> bool:
 
 
 def _has_capsule(root: XmlElement) -> bool:
+    return bool(_inside(root, ("link",), ("visual", "collision"), ("geometry",), ("capsule",)))
+
+
+def _shapes_of(root: XmlElement) -> Shapes:
+    links, collisions = _inside(root, ("link",)), _inside(root, ("link",), ("collision",))
+    return Shapes(*(frozenset(one.get("name") or "" for one in named) for named in (links, collisions)))
+
+
+def _inside(root: XmlElement, *path: tuple[str, ...]) -> list[XmlElement]:
+    """Return the elements that a path of tags leads to, at each step one of several."""
     found = [root]
-    for tags in (("link",), ("visual", "collision"), ("geometry",), ("capsule",)):
+    for tags in path:
         found = [child for element in found for child in element.children if child.tag in tags]
-    return bool(found)
+    return found
 
 
 def _robot(robot: Reading) -> YamlMap:
