@@ -143,10 +143,10 @@ def test_a_loss_that_is_only_counted_is_counted_once(monkeypatch: pytest.MonkeyP
 
 
 def test_what_the_text_of_the_spec_does_not_say_is_a_loss(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
-    from linkforge_compile import syntax
+    from linkforge_compile.syntax import writer
 
-    write: Callable[..., str] = syntax.write
-    monkeypatch.setattr(syntax, "write", lambda *words: write(*words).replace("type: tool", "type: tol"))
+    write: Callable[..., str] = writer.write
+    monkeypatch.setattr(writer, "write", lambda *words: write(*words).replace("type: tool", "type: tol"))
     urdf = tmp_path / "r.urdf"
     urdf.write_text(ROBOT, "utf-8")
     assert [str(one) for one in import_urdf(urdf).losses] == [
