@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from linkforge_compile.compare.renames import Renames, find_renames
@@ -33,12 +33,15 @@ def vanished(before: Robot, after: Robot, *, semantic: bool = True) -> tuple[Van
     renames = find_renames(before, after)
     left = frozenset(_public(after, semantic))
     gone = [name for name in dict.fromkeys(_public(before, semantic)) if name not in left]
-    return tuple(Vanished(*name, _successor(name, renames, left)) for name in gone)
+    states = {f"{group}/{was}": f"{group}/{now}" for (group, was), now in renames.states.items()}
+    return tuple(Vanished(*name, _successor(name, renames, states, left)) for name in gone)
 
 
-def _successor(name: _Name, renames: Renames, left: frozenset[_Name]) -> str | None:
+def _successor(name: _Name, renames: Renames, states: Mapping[str, str], left: frozenset[_Name]) -> str | None:
     if name.kind == "link":
         return renames.links.get(name.name)
+    if name.kind == "group state":
+        return states.get(name.name)
     owner, slash, interface = name.name.rpartition("/")
     new = _Name(name.kind, f"{renames.joints.get(owner if slash else name.name)}{slash}{interface if slash else ''}")
     return new.name if new in left and name.kind in _OF_JOINTS else None

@@ -1,8 +1,8 @@
-"""Links and joints that are there under another name, and a robot with its references to them under the new one."""
+"""Links, joints and states that are there under another name, and a robot with its references under the new one."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
 from enum import Enum, auto
 from typing import NamedTuple, TypeAlias
@@ -30,10 +30,11 @@ from linkforge_compile.core.part import Inside
 
 
 class Renames(NamedTuple):
-    """The new names of links and joints, by the old ones."""
+    """The new names of links and joints by the old ones, and those of states by group and old name."""
 
     links: Mapping[str, str]
     joints: Mapping[str, str]
+    states: Mapping[tuple[str, str], str] = {}
 
 
 def find_renames(before: Robot, after: Robot) -> Renames:
@@ -41,7 +42,8 @@ def find_renames(before: Robot, after: Robot) -> Renames:
 
     A link is where exactly one that is new hangs by the same joint on the same link (or that one's new name) and has
     the same body, and no other that is gone has a claim to it; a root where also the same joints hang on it. A joint
-    is where it joins the same links in the same way.
+    is where it joins the same links in the same way. A state is where exactly one that is new has the same positions in
+    the same group.
     """
     links = _renamed_links(before, after)
     ends = {(joint.parent, joint.child): joint for joint in after.joints if joint.name not in before.joints}
@@ -50,7 +52,28 @@ def find_renames(before: Robot, after: Robot) -> Renames:
         other = ends.get((links.get(joint.parent, joint.parent), links.get(joint.child, joint.child)))
         if joint.name not in after.joints and other and likeness(joint, _NAMES) == likeness(other, _NAMES):
             joints[joint.name] = other.name
-    return Renames(links, joints)
+    renames = Renames(links, joints)
+    held = (under_new_names(state, renames) for state in before.semantic.group_states)
+    were = [state for state in held if isinstance(state, GroupState)]
+    return renames._replace(states=_renamed_states(were, after.semantic.group_states))
+
+
+def _renamed_states(before: Iterable[GroupState], after: Iterable[GroupState]) -> dict[tuple[str, str], str]:
+    gone, new = _states_alike(before, without=after), _states_alike(after, without=before)
+    renamed = ((rivals, new.get(alike, [])) for alike, rivals in gone.items())
+    return {rivals[0]: heirs[0][1] for rivals, heirs in renamed if len(rivals) == len(heirs) == 1}
+
+
+def _states_alike(
+    states: Iterable[GroupState], *, without: Iterable[GroupState]
+) -> Mapping[Hashable, Sequence[tuple[str, str]]]:
+    """Return by what they are, their names aside, the groups and names of the states that the others do not have."""
+    others = {(state.group, state.name) for state in without}
+    found: dict[Hashable, list[tuple[str, str]]] = {}
+    for state in states:
+        if (state.group, state.name) not in others:
+            found.setdefault(likeness(state, _NAMES), []).append((state.group, state.name))
+    return found
 
 
 _Alike: TypeAlias = dict[Hashable, list[str]]
@@ -102,8 +125,9 @@ _NAMES: Mapping[type, Collection[str]] = {
     Link: ("name",),
     Visual: ("name", "material"),
     Collision: ("name",),
+    GroupState: ("name",),
 }
-"""The fields of links and joints that say not what these do, but what they and others are called."""
+"""The fields of links, joints and states that say not what these do, but what they and others are called."""
 
 
 class _Names(Enum):
@@ -141,7 +165,7 @@ REFERENCES: Mapping[type, Mapping[str, _Names]] = {
 
 def under_new_names(value: object, renames: Renames) -> object:
     """Return a value in which every name of a renamed link or joint is the new one."""
-    if not (renames.links or renames.joints):
+    if not any(renames):
         return value
     if isinstance(value, tuple):
         return tuple(under_new_names(one, renames) for one in value)
@@ -155,6 +179,8 @@ def under_new_names(value: object, renames: Renames) -> object:
         new = under_new_names(held, renames) if names is None else _renamed(held, _table(names, renames))
         if new is not held and new != held:
             changes[field.name] = new
+    if isinstance(value, GroupState) and (name := renames.states.get((value.group, value.name))):
+        changes["name"] = name
     return replace(value, **changes) if changes else value
 
 

@@ -39,6 +39,10 @@ def _sections(before: Robot, after: Robot, renames: Renames, how: How, *, semant
             yield from _renamed(field, renames.links if field == "links" else renames.joints)
         if field == "links":
             yield from _moved_links(before, after, renames)
+        if field == "semantic":
+            for (group, was), now in renames.states.items():
+                path = ("semantic", "group_states", f"{group}/{now}")
+                yield Difference(Kind.RENAMED, path, was, now, f"was '{was}'")
         old, new = _section(before, field, renames), _section(after, field, Renames({}, {}))
         yield from walk((key_of_field(field),), old, new, how.about_field(field))
         if field == "version":

@@ -358,6 +358,22 @@ def test_renamed_links_and_joints_are_told_as_such_and_nothing_that_names_them_i
     ]
 
 
+def test_a_renamed_state_is_told_as_such_unless_another_one_is_like_it():
+    old, new = "arm: {home: {elbow: 0, rail: 0}}", "arm: {rest: {elbow: 0, rail: 0}}"
+    assert told(old, new) == ["renamed semantic/group_states/arm/rest: was 'home'"]
+    before, after = (
+        robot_of(SPEC.replace("elbow", name).replace(old.replace("elbow", name), state))
+        for name, state in (("elbow", old), ("hinge", new.replace("elbow", "hinge")))
+    )
+    assert [(one.kind, one.path[-1]) for one in compare(before, after)] == [
+        (Kind.RENAMED, "hinge"),
+        (Kind.RENAMED, "arm/rest"),
+    ]
+    assert ("group state", "arm/home", "arm/rest") in vanished(before, after)
+    twins = "arm: {rest: {elbow: 0, rail: 0}, zero: {elbow: 0, rail: 0}}"
+    assert [text.split()[0] for text in told(old, twins)] == ["added", "added", "removed"]
+
+
 def test_two_alike_are_no_rename():
     twins = "linkforge: 1\nname: r\nlinks: {base: , a: , b: }\njoints:\n  ja: {type: fixed, parent: base, child: a}\n  jb: {type: fixed, parent: base, child: b}\n"
     others = re.sub(r"\b(j?)([ab])\b", r"\1\2\2", twins)
