@@ -97,6 +97,10 @@ class How(NamedTuple):
         """Return the same for what is in a field."""
         return self._replace(in_xml=True) if field in _IN_XML else self
 
+    def about_tag(self, tag: str) -> How:
+        """Return the same for what is in an element of an author's XML."""
+        return self._replace(as_spelt=True) if tag == "plugin" else self
+
 
 def walk(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
     """Yield what differs between the values at a path."""
@@ -161,8 +165,7 @@ def _numbers_in_xml_told(before: object, after: object, how: How) -> str:
 
 def _elements(path: Path, before: RawElement, after: RawElement, how: How) -> Iterator[Difference]:
     """Yield what differs in an element of raw XML; those of one tag have an order, which others need not keep."""
-    if after.tag == "plugin":
-        how = how._replace(as_spelt=True)
+    how = how.about_tag(after.tag)
     yield from _mappings(path, before.attributes, after.attributes, how)
     if len(before.texts) == len(after.texts):
         for one, other in zip(before.texts, after.texts, strict=True):
@@ -284,7 +287,7 @@ def _mappings(path: Path, before: Mapping[str, object], after: Mapping[str, obje
         elif name not in after:
             yield Difference(Kind.REMOVED, here, plain(before[name]), None, told(before[name]))
         else:
-            yield from _held(here, before[name], after[name], how)
+            yield from _held(here, before[name], after[name], how.about_tag(name))
 
 
 def _held(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:

@@ -207,8 +207,15 @@ def test_what_hardware_reads_is_a_text_and_no_number():
     assert [one.text for one in there] == ["1.10 → 1.1"] * 4
 
 
-def test_what_a_plugin_of_gazebo_reads_is_a_text_and_no_number():
-    plugin = "properties: {maxContacts: 10}\n    plugins: {p: {filename: p.so, parameters: {device: '%s'}}}"
+@pytest.mark.parametrize(
+    "plugin",
+    [
+        "properties: {maxContacts: 10}\n    plugins: {p: {filename: p.so, parameters: {device: '%s'}}}",
+        "properties: {sensor: {_name: s, _type: imu, plugin: {_name: p, _filename: p.so, device: '%s'}}}",
+    ],
+    ids=["its own", "of a sensor"],
+)
+def test_what_a_plugin_of_gazebo_reads_is_a_text_and_no_number(plugin: str):
     was, now = (robot_of(SPEC.replace("properties: {maxContacts: 10}", plugin % device)) for device in ("1e2", "100"))
     assert [one.text for one in compare(was, now)] == ["1e2 → 100"]
 
