@@ -182,7 +182,7 @@ OFFERED = {
         ["Adjacent", "Always", "Default", "Never", "User"],
     ),
     "passive joints": ("semantic:\n  passive_joints:\n    |", ["passive joint"]),
-    "a file to include": ("include: [|]", ["palette.yaml"]),
+    "a file to include, which only the schema of a workspace knows": ("include: [|]", []),
     "in a plugin": ("gazebo:\n  plugins:\n    control:\n      |", ["filename", "parameters", "plugin"]),
 }
 
