@@ -34,8 +34,8 @@ def shared() -> Path:
     pytest.skip(f"no shared corpus at {folder}; LINKFORGE_SHARED says where it is")
 
 
-# A loaded machine must not fail a law that holds.
-hypothesis.settings.register_profile("steady", deadline=None)
+# A loaded machine must not fail a law that holds, and all laws together have a few minutes in CI.
+hypothesis.settings.register_profile("steady", deadline=None, max_examples=50)
 hypothesis.settings.load_profile("steady")
 # pytest tests/test_any_spec.py --hypothesis-profile long
 hypothesis.settings.register_profile("long", deadline=None, max_examples=5000)

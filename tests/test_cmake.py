@@ -186,7 +186,6 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
         ("GAZEBO ignition", "GAZEBO takes gz or classic, found 'ignition'"),
         ("FORMATS INSTALL", "nothing is said behind FORMATS"),
         ("NAME ../arm", "NAME is that of files in the build folder, without their ending; found '../arm'"),
-        ('NAME ""', "NAME is that of files in the build folder, without their ending; found ''"),
         ("DESTINATION urdf", "DESTINATION is of INSTALL, which is not there"),
         ("PACKAGES arm", "PACKAGES takes NAME=FOLDER, found 'arm'"),
         ("PACKAGES arm=nowhere", "PACKAGES arm=nowhere: there is no folder '"),
@@ -225,9 +224,11 @@ def test_two_robots_install_into_files_of_their_own(tmp_path: Path):
 
 
 @pytest.mark.parametrize("said", ["${none}", '"${none}"'])
-def test_an_empty_variable_is_no_variant(tmp_path: Path, said: str):
+def test_an_empty_variable_says_nothing(tmp_path: Path, said: str):
     find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
-    add = f"linkforge_add_robot(arm.robot.yaml VARIANT {said} PARAMS ${{none}} INSTALL)"
+    add = (
+        f'linkforge_add_robot(arm.robot.yaml VARIANT {said} PARAMS ${{none}} NAME "" TARGET "" INSTALL DESTINATION "")'
+    )
     run = script(tmp_path, f"{find}\n{add}", "-DLINKFORGE_EXECUTABLE=true")
     assert (run.returncode, run.stderr) == (0, "")
     rules = "".join(path.read_text() for path in (tmp_path / "b").rglob("build.make"))
