@@ -11,7 +11,7 @@ from linkforge_compile.backends import render_srdf, render_urdf
 from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
-from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PARAMETER
+from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
@@ -29,12 +29,15 @@ if TYPE_CHECKING:
 _RENDERED = (render_urdf, render_srdf)
 """What makes the documents of an import again, in their order."""
 
+_WRONG_ARGUMENTS = (NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER)
+"""What is told of arguments that are not those that the files take: another robot is meant than the one read."""
+
 
 @dataclass(frozen=True, slots=True)
 class Import:
     """What reading a robot that was written elsewhere gave: a spec, and what is to be told about it.
 
-    `text` is None where the file is not the robot that it is said to be.
+    `text` is None where the file is not the robot that it is said to be, or does not take the arguments.
     """
 
     text: str | None
@@ -153,6 +156,8 @@ def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diag
         sink.report_all(_losses(whole, compiled.robot, sink.places_of(LOSSES)))
         if settings.output is not None:
             sink.report_all(lost_on_the_way(compiled.robot, settings.output, MESH_BESIDE_THE_URDF))
+    if sink.places_of(_WRONG_ARGUMENTS):
+        return None
     text = write(whole.tree, *whole.comments)
     sink.report_all(unread(whole.tree, read(SourceFile("<spec>", text), Diagnostics(), Budget())))
     return text

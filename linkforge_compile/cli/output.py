@@ -9,6 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.cli.targets import is_standard_output
 
 
 def write_to_stdout(text: str) -> None:
@@ -25,11 +26,11 @@ def write_to_stdout(text: str) -> None:
 
 
 def put_json(text: str, output: str | None, *, quiet: bool) -> None:
-    """Write JSON to the file of `-o`, None for standard output; UsageError for a file of another kind.
+    """Write JSON to the file of `-o`, None or `-` for standard output; UsageError for a file of another kind.
 
     What was done is said to standard error unless that is to be `quiet`.
     """
-    if output is None:
+    if output is None or is_standard_output(output):
         write_to_stdout(text)
     elif not output.endswith(".json"):
         raise UsageError(f"-o takes a file that ends in .json, found '{output}'")

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 FORMATS = ("urdf", "srdf")
 _FILE_ENDINGS = (".urdf", ".srdf", ".xml")
 _SPEC_ENDINGS = (".yaml", ".yml")
+_STANDARD_OUTPUT = "-"
 
 
 class Targets(NamedTuple):
@@ -58,7 +59,7 @@ def add_output_option(parser: argparse.ArgumentParser) -> None:
 
 def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets:
     """Return where each format of a spec goes; UsageError for outputs that cannot be meant together."""
-    if not outputs:
+    if not outputs or (len(outputs) == 1 and is_standard_output(outputs[0])):
         return Targets({chosen or "urdf": None})
     if len(outputs) > 1:
         return Targets(_several(outputs, chosen))
@@ -70,8 +71,15 @@ def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets
     return Targets(paths, is_srdf_asked_for=chosen == "srdf")
 
 
-def imported_spec(robot: str, output: str) -> Path:
-    """Return where the spec of an imported robot goes: a file, or NAME.robot.yaml in a folder."""
+def is_standard_output(output: str | None) -> bool:
+    """Whether what `-o` says is standard output: nothing, or `-`."""
+    return output in (None, _STANDARD_OUTPUT)
+
+
+def imported_spec(robot: str, output: str | None) -> Path | None:
+    """Return where an imported spec goes: a file, NAME.robot.yaml in a folder, None for standard output."""
+    if output is None or is_standard_output(output):
+        return None
     path = Path(output)
     return path if _is_file(output, _SPEC_ENDINGS) else path / f"{name_of(robot)}.robot.yaml"
 
@@ -89,6 +97,8 @@ def name_of(spec: str) -> str:
 def _several(outputs: Sequence[str], chosen: str | None) -> dict[str, Path | None]:
     paths: dict[str, Path | None] = {}
     for output in outputs:
+        if is_standard_output(output):
+            raise UsageError("-o - is standard output, which takes one format; leave the other -o out")
         if not _is_file(output):
             raise UsageError(f"-o takes several files, one a format, or one folder; found the folder '{output}'")
         format_ = _format_of_file(output, chosen)

@@ -150,6 +150,22 @@ def test_a_mesh_is_found_or_not_whether_or_not_the_output_folder_is_there_alread
     assert again == first
 
 
+def test_an_output_called_by_a_dash_is_standard_output(pendulum: Path):
+    words = ("swing.robot.yaml", "-o", "-")
+    for command in ("compile", "expand"):
+        run = linkforge(command, *words, cwd=pendulum)
+        plain = linkforge(command, words[0], cwd=pendulum)
+        assert (run.returncode, run.stdout, run.stderr) == (0, plain.stdout, "")
+    assert linkforge("schema", "-o", "-", cwd=pendulum).stdout == linkforge("schema", cwd=pendulum).stdout
+    assert [file.name for file in pendulum.iterdir()] == ["swing.robot.yaml"]
+
+
+def test_standard_output_takes_one_format(pendulum: Path):
+    run = linkforge("compile", "swing.robot.yaml", "-o", "-", "-o", "arm.srdf", cwd=pendulum)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert "-o - is standard output, which takes one format" in run.stderr
+
+
 def test_a_spec_comes_from_standard_input(pendulum: Path):
     run = program("compile", "-", cwd=pendulum, stdin=PENDULUM)
     assert run.returncode == 0

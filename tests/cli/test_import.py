@@ -111,9 +111,25 @@ def test_an_srdf_without_its_robot_is_refused(capfd: pytest.CaptureFixture[str])
 
 
 @pytest.mark.parametrize("words", [["reach:=1"], ["-p", "reach=1"], ["-p", "reach:=1"]])
-def test_an_argument_is_not_swallowed(arm, words: list[str], capfd: pytest.CaptureFixture[str]):
-    assert main(["import", arm(), *words]) == 1
-    assert "error: no parameter named 'reach'" in capfd.readouterr().err
+def test_nothing_is_written_for_an_argument_that_a_urdf_does_not_take(arm, words: list[str], tmp_path: Path):
+    run = linkforge("import", arm(), *words, "-o", ".", cwd=tmp_path)
+    assert (run.returncode, [file.name for file in tmp_path.iterdir()]) == (1, ["arm.urdf"])
+    assert "error: no parameter named 'reach'" in run.stderr
+
+
+def test_nothing_is_written_for_an_argument_that_a_xacro_does_not_take(tmp_path: Path):
+    pytest.importorskip("xacro")
+    xacro = '<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arg name="length" default="1"/></robot>'
+    (tmp_path / "arm.urdf.xacro").write_text(xacro.replace("</robot>", '<link name="base"/></robot>'), "utf-8")
+    run = linkforge("import", "arm.urdf.xacro", "lenght:=0.7", cwd=tmp_path)
+    assert (run.returncode, run.stdout) == (1, "")
+    assert "error: no parameter named 'lenght'; did you mean 'length'?" in run.stderr
+
+
+def test_an_output_called_by_a_dash_is_standard_output(arm, tmp_path: Path):
+    run = linkforge("import", arm(), "-o", "-", cwd=tmp_path)
+    assert (run.returncode, run.stdout.split("\n")[1], run.stderr) == (0, "name: arm", "")
+    assert [file.name for file in tmp_path.iterdir()] == ["arm.urdf"]
 
 
 def test_a_spec_is_not_imported(capfd: pytest.CaptureFixture[str]):

@@ -44,11 +44,12 @@ def run(arguments: argparse.Namespace) -> int:
     }:
         raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+    from linkforge_compile.cli.targets import is_standard_output
     from linkforge_compile.writers import write_spec
 
     banner = None if spec == "-" else f"Expanded by linkforge from {Path(spec).name}; edit that file, not this one."
     text = write_spec(compilation.robot, banner=banner, origins=True)
-    if arguments.output is None:
+    if is_standard_output(arguments.output):
         write_to_stdout(text)
     elif write_if_changed(Path(arguments.output), text):
         say(f"wrote {arguments.output}", arguments)

@@ -57,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
     sources = {Path(file).resolve() for file in (urdf, arguments.srdf) if file is not None}
     if arguments.output is not None and Path(arguments.output).resolve() in sources:
         raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
-    output = imported_spec(urdf, arguments.output) if arguments.output is not None else None
+    output = imported_spec(urdf, arguments.output)
     from linkforge_compile.importing import import_urdf
 
     with told_when_long(urdf, arguments):
