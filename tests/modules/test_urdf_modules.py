@@ -192,6 +192,23 @@ def test_the_override_that_is_told_reaches_the_name(tmp_path):
     assert not [line for line in told(again) if "LF5704" in line]
 
 
+TURN = """\
+  <link name="tip"/>
+  <joint name="turn" type="revolute">
+    <parent link="finger"/><child link="tip"/><axis xyz="1 0 0"/><limit lower="-1" upper="1"/>
+  </joint>
+</robot>
+"""
+
+
+def test_an_override_gives_limits_what_they_lack_beside_the_range_of_the_file(tmp_path):
+    gripper = GRIPPER.replace("</robot>", TURN)
+    override = "override: {joints: {turn: {limits: {effort: 5, velocity: 1}}}}"
+    compilation = compiled(tmp_path, f"g: {{use: vendor/gripper.urdf, parent: table, {override}}}", gripper)
+    written = render_urdf(compilation.result()).partition('name="g_turn"')[2].partition("</joint>")[0]
+    assert re.findall("<limit.*", written) == ['<limit lower="-1" upper="1" effort="5" velocity="1"/>']
+
+
 def test_a_plugin_is_offered_the_joints_of_its_own_use(tmp_path):
     plugin = '<gazebo><plugin name="p" filename="p.so"><joint_name>slide</joint_name></plugin></gazebo></robot>'
     uses = "left: {use: vendor/gripper.urdf, parent: table}\n  right: {use: vendor/gripper.urdf, parent: table}"

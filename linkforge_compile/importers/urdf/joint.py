@@ -21,13 +21,14 @@ class _Motion(NamedTuple):
     velocity: Dimension | None = None
     has_axis: bool = True
     has_limits: bool = True
+    needs_limits: bool = False
 
 
 _TURNING = _Motion(Dimension.ANGLE, Dimension.ANGULAR_VELOCITY)
 _MOTIONS: Mapping[str, _Motion] = {
-    "revolute": _TURNING,
+    "revolute": _TURNING._replace(needs_limits=True),
     "continuous": _TURNING,
-    "prismatic": _Motion(),
+    "prismatic": _Motion(needs_limits=True),
     "planar": _Motion(),
     "floating": _Motion(has_axis=False),
     "fixed": _Motion(has_axis=False, has_limits=False),
@@ -95,6 +96,10 @@ def _limits(limit: Reading, motion: _Motion) -> YamlNode:
         ends = {}
     else:
         ends = {name: limit.number(name, motion.position) for name in ("lower", "upper")}
+    lacking = [name for name in ("effort", "velocity") if limit.element.get(name) is None]
+    if lacking and not motion.needs_limits:
+        raise limit.declined(f"it has no {' and no '.join(map(repr, lacking))}")
+    # Limits that must be there are no better raw: the joint would have none. What they lack is told when compiled.
     return limit.map(
         **ends,
         effort=_not_negative(limit, "effort"),
@@ -102,8 +107,10 @@ def _limits(limit: Reading, motion: _Motion) -> YamlNode:
     )
 
 
-def _not_negative(part: Reading, name: str, unit: Dimension | None = None) -> YamlScalar:
-    node = part.required_number(name, unit)
+def _not_negative(part: Reading, name: str, unit: Dimension | None = None) -> YamlScalar | None:
+    node = part.number(name, unit)
+    if node is None:
+        return None
     if node.text.startswith("-") and number_of(part.element.get(name) or "") != 0:
         raise part.declined(f"{name} must be 0 or above, found {node.text}")
     return node
