@@ -38,6 +38,7 @@ _INSIDE: Mapping[str, tuple[str, ...]] = {
         *("link", "joint", "material", "transmission", "ros2_control", "gazebo"),
         *("group", "passive_joint", "group_state", "end_effector", "virtual_joint", "disable_collisions"),
         *("enable_collisions", "disable_default_collisions", "joint_property", "link_sphere_approximation"),
+        "gripper",
     ),
     "link": ("visual", "collision"),
     "visual": ("material",),
@@ -48,7 +49,8 @@ _INSIDE: Mapping[str, tuple[str, ...]] = {
     "sensor": ("plugin", "contact", "camera", "topic", "gz_frame_id", "ignition_frame_id"),
     "contact": ("collision", "topic"),
     "camera": ("optical_frame_id",),
-    "group": ("link", "joint", "chain", "group"),
+    "group": ("link", "joint", "chain", "group", "passive_joint"),
+    "gripper": ("link",),
     "group_state": ("joint",),
 }
 """In which elements these stand. The same tag elsewhere, in a plugin say, is something else."""

@@ -19,7 +19,7 @@ _RAW_VALUE = re.compile(r"""(?<![\w:.-])([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)')
 _NAMED_FOR_ITSELF = ("visual", "collision", "material")
 """Elements whose own name may well be that of their link."""
 
-_FORMATS_WITHOUT_EXPRESSIONS = (".urdf", ".xacro")
+_FORMATS_WITHOUT_EXPRESSIONS = (".urdf", ".srdf", ".xacro")
 
 
 _SAYS_TOPIC_OR_FRAME = re.compile(
@@ -84,7 +84,8 @@ def warnings_under_a_prefix(passed: PassedOn, robot: Robot) -> Iterator[Diagnost
             remedy = f"write '$({kind}('{text}'))'"
             if _has_no_expressions(where):
                 paths = paths or dict(_paths(passed.tree))
-                remedy = f"change it by 'override: {_override(paths.get(where, ()))}' where this file is used"
+                to_final = f" to '{passed.prefix}{text}'" if passed.prefix else ""
+                remedy = f"change it{to_final} by 'override: {_override(paths.get(where, ()))}' where this file is used"
             yield UNPREFIXED_NAME.at(where, name=text, kind=kind, remedy=remedy)
     for topic, where, _ in passed.absolute_topics:
         yield ABSOLUTE_TOPIC.at(where, topic=topic)

@@ -50,6 +50,12 @@ from linkforge_compile.importers.prefixed import Shapes, raw_with_prefix
             "<collision>b_fixed_joint_lump__b_collision_1</collision>",
             "<collision>b_fixed_joint_lump__b_collision_1</collision>",
         ),
+        ("group", '<passive_joint name="j"/>', '<passive_joint name="$(prefix)j"/>'),
+        (
+            "robot",
+            '<gripper name="g"><position>1</position><link name="tool0"/></gripper>',
+            '<gripper name="g"><position>1</position><link name="$(prefix)tool0"/></gripper>',
+        ),
         ("robot", '<mimic joint="x"/>', '<mimic joint="x"/>'),
         ("robot", '<parent link="x"/>', '<parent link="x"/>'),
         ("robot", '<chain base_link="x"/>', '<chain base_link="x"/>'),

@@ -176,8 +176,8 @@ def test_topics_and_frames_that_may_be_anything_are_told_once_with_all_of_them(t
         (
             "LF5704",
             21,
-            "'palm' is a link of this file and takes the prefix, but not here; change it by 'override: {links: "
-            "{finger: {gazebo: {1: {properties: {sensor: {plugin: {on: ...}}}}}}}}' where this file is used",
+            "'palm' is a link of this file and takes the prefix, but not here; change it to 'g_palm' by 'override: "
+            "{links: {finger: {gazebo: {1: {properties: {sensor: {plugin: {on: ...}}}}}}}}' where this file is used",
         ),
     ]
 
@@ -230,7 +230,7 @@ def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_told_once(tmp_path)
     assert diagnostic.code.id == "LF5704"
     assert diagnostic.message == (
         "'finger' is a link of this file and takes the prefix, but not here; "
-        "change it by 'override: {extra: ...}' where this file is used"
+        "change it to 'g_finger' by 'override: {extra: ...}' where this file is used"
     )
     assert Path(diagnostic.span.file.name).name == "gripper.urdf"
 
@@ -344,6 +344,21 @@ def test_its_srdf_joins_under_the_prefix(tmp_path):
     assert [state.joint_values for state in semantic.group_states] == [{"left_slide": (0.04,)}]
     assert [(pair.link1, pair.link2) for pair in semantic.disabled_collisions] == [("left_palm", "left_finger")]
     assert "gripper.srdf" in {path.name for path in compilation.files}
+
+
+def test_a_name_in_an_srdf_is_told_with_the_override_that_says_the_final_one(tmp_path):
+    group = '<robot name="gripper"><group name="hand"><link name="palm"/><tool at="finger"/></group></robot>'
+    again_in = tmp_path / "again"
+    again_in.mkdir()
+    for folder in (tmp_path, again_in):
+        (folder / "gripper.srdf").write_text(group, "utf-8")
+    use = "use: vendor/gripper.urdf, srdf: gripper.srdf, parent: table"
+    [one] = told(compiled(tmp_path, f"left: {{{use}}}"))
+    [(name, override)] = re.findall("change it to '(.*)' by '(override: .*)' where", one)
+    raw = f"'<tool at=\"{name}\"/>'"
+    again = compiled(again_in, f"left: {{{use}, {override.replace('...', raw)}}}")
+    assert '<tool at="left_finger"/>' in render_srdf(again.result())
+    assert not told(again)
 
 
 def test_its_srdf_is_judged_at_no_cost_of_the_robot(tmp_path, monkeypatch):
