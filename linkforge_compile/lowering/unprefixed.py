@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from linkforge_compile.core.frozen_map import FreePart
@@ -31,6 +31,9 @@ the tag by which a contact sensor names what it feels."""
 # In a force-torque sensor, `frame` is one of three words.
 _IS_NO_NAME = re.compile(r"[-+.\d\s]*|true|false|child|parent|sensor|__.*__", re.IGNORECASE)
 _MOST_SHOWN = 5
+
+_AROUND_A_LIST = " \t\r\n[](){}'\""
+"""What stands around the names of a list, and around each."""
 
 _WRITTEN_WHOLE = frozenset(("parameters", "properties", "extra"))
 
@@ -76,20 +79,38 @@ def passed_on(robot: Robot, tree: YamlNode, prefix: str, users: Collection[Sourc
 def warnings_under_a_prefix(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
     """Yield what there is to tell once the file takes a prefix; the robot is the file with its modules."""
     paths: dict[Span, tuple[str, ...]] = {}
+    # A raw text may say one name often.
+    said = dict.fromkeys((name, text.where) for text in passed.plugin_texts for name in _named_in(text.text, robot))
     for kind, names in (("link", robot.links), ("joint", robot.joints)):
-        # A raw text may say one name often.
-        for text, where in dict.fromkeys((text.text, text.where) for text in passed.plugin_texts):
-            if text not in names:
+        for name, where in said:
+            if name not in names:
                 continue
-            remedy = f"write '$({kind}('{text}'))'"
+            remedy = f"write '$({kind}('{name}'))'"
             if _has_no_expressions(where):
                 paths = paths or dict(_paths(passed.tree))
-                to_final = f" to '{passed.prefix}{text}'" if passed.prefix else ""
+                to_final = f" to '{passed.prefix}{name}'" if passed.prefix else ""
                 remedy = f"change it{to_final} by 'override: {_override(paths.get(where, ()))}' where this file is used"
-            yield UNPREFIXED_NAME.at(where, name=text, kind=kind, remedy=remedy)
+            yield UNPREFIXED_NAME.at(where, name=name, kind=kind, remedy=remedy)
     for topic, where, _ in passed.absolute_topics:
         yield ABSOLUTE_TOPIC.at(where, topic=topic)
     yield from _topics_and_frames(passed, robot)
+
+
+def _named_in(text: str, robot: Robot) -> Sequence[str]:
+    """Return the links and joints that a text names: as a whole, or as a list with commas, brackets or spaces.
+
+    Words with spaces between them may be prose, unless all of them are names; a list may have names of other files.
+    """
+    if text in robot.links or text in robot.joints:
+        return (text,)
+    words = text.strip(_AROUND_A_LIST).split()
+    if len(words) > 1 and all(word in robot.links or word in robot.joints for word in words):
+        return words
+    if "," not in text and not text.startswith("["):
+        return ()
+    items = [item.strip(_AROUND_A_LIST) for item in text.split(",")]
+    is_list = not any(len(item.split()) > 1 for item in items)
+    return [item for item in items if item in robot.links or item in robot.joints] if is_list else ()
 
 
 def _override(path: tuple[str, ...]) -> str:
@@ -120,7 +141,7 @@ def _topics_and_frames(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
     """Yield once for a file that was written elsewhere which topics and frames its plugins name."""
     found: dict[str, Span] = {}
     for text, where, key in passed.plugin_texts:
-        is_told = text in robot.links or text in robot.joints
+        is_told = bool(_named_in(text, robot))
         # An argument of a xacro may have put it there.
         has_prefix = bool(passed.prefix) and passed.prefix in text
         if _has_no_expressions(where) and _names_topic_or_frame(key, text) and not (is_told or has_prefix):

@@ -78,6 +78,25 @@ def test_names_in_raw_xml_are_told_wherever_they_stand():
         robot_of(used(Spec(f"{unnamed}{raw}\n")))
 
 
+@pytest.mark.parametrize(
+    "text", ["bulb,shade", "bulb, other", "[bulb]", "['bulb', 'other']", "bulb stand", "[bulb stand]"]
+)
+def test_names_in_a_list_are_told_each(text: str):
+    said = " ## ".join(
+        f"W[LF5704]:8 '{name}' is a link of this file and takes the prefix, but not here; write '$(link('{name}'))'"
+        for name in ("bulb", "stand")
+        if name in text
+    )
+    unnamed = "name: lamp\nlinks: {bulb: , stand: }\njoints: {j: {type: fixed, parent: stand, child: bulb}}\nextra: "
+    robot_of(used(Spec(f"{unnamed}<a>{text}</a>  # {said}\n")))
+
+
+@pytest.mark.parametrize("text", ["the bulb", "turn, the bulb", "bulb-stand", "bulb stand lamp", "bulb/a,b"])
+def test_names_in_prose_are_none(text: str):
+    unnamed = "name: lamp\nlinks: {bulb: , stand: }\njoints: {j: {type: fixed, parent: stand, child: bulb}}\nextra: "
+    robot_of(used(Spec(f"{unnamed}<a>{text}</a>\n")))
+
+
 @pytest.mark.parametrize("raw", ["<" + "a" * 100_000, "<a " + "b" * 100_000 + ">", "<a b" + " " * 100_000 + ">"])
 def test_what_is_no_xml_is_read_in_time_that_grows_with_its_length(raw: str):
     spec = used(Spec(f'name: lamp\nlinks: {{bulb: }}\nextra: "{raw}"\n'))
