@@ -25,7 +25,7 @@ from linkforge_compile.lowering.mount import handed_on, hang_on_world, hung_by, 
 from linkforge_compile.lowering.positions import SAY_POSITIONS, judge_positions_elsewhere
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.modules.module_entry import joint_name_of
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceFile, SourceRef
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
@@ -76,7 +76,7 @@ def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = Non
     A module's parts take its prefix and are followed by its connecting joint. Every fault is reported, and what
     is faulty left out. `meshes` are those read so far in this compile, and takes up more.
     """
-    lowered = _lowered(instance, sink, meshes or MeshSolids())
+    lowered = _lowered(instance, sink, meshes or MeshSolids(), instance.shared_files)
     if any(one.defaults is not None for one in instance.with_modules):
         from linkforge_compile.lowering.defaults import judge_defaults
 
@@ -84,14 +84,15 @@ def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = Non
     return lowered
 
 
-def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids) -> Lowered:
+def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids, shared: frozenset[SourceFile]) -> Lowered:
+    """Lower a use; the files that are `shared` are used more than once."""
     if instance.tree is None:
         return Lowered(None, (), Gaps(prefixes=("",)))
     reader = MeshReader(instance.find_mesh, meshes)
     file = lower_file(instance.tree, instance.mesh_bases, instance.trail, sink, reader)
-    fold = _Fold(file, instance, sink)
+    fold = _Fold(file, instance, sink, is_shared=instance.tree.span.file in shared)
     for module in instance.modules:
-        fold.add(module, _lowered(module, sink, meshes))
+        fold.add(module, _lowered(module, sink, meshes, shared))
     lowered = fold.finished(hangs_alone=instance.entry is None)
     if instance.modules and lowered.robot and not instance.tree.entries.keys().isdisjoint(SAY_POSITIONS):
         joints: dict[str, Joint | None] = {joint.name: joint for joint in lowered.robot.joints}
@@ -105,7 +106,7 @@ def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids) -> Lower
 class _Fold:
     """A robot while modules are being joined to it."""
 
-    def __init__(self, file: LoweredFile, instance: Instance, sink: Diagnostics) -> None:
+    def __init__(self, file: LoweredFile, instance: Instance, sink: Diagnostics, *, is_shared: bool) -> None:
         self._robot = file.robot
         self._states = file.states
         self._gaps = file.gaps | Gaps(removed=instance.removed)
@@ -117,7 +118,7 @@ class _Fold:
         self._held = {joint.child for joint in file.robot.joints}
         self._mounts = list(file.mounts)
         # Only a module takes a prefix.
-        self._passed_on = _passed_on(file.robot, instance) if instance.entry else None
+        self._passed_on = _passed_on(file.robot, instance, is_shared) if instance.entry else None
         self._under_a_prefix: list[Diagnostic] = []
 
     def add(self, module: Instance, lowered: Lowered) -> None:
@@ -301,13 +302,13 @@ class _Fold:
         return False
 
 
-def _passed_on(robot: Robot, instance: Instance) -> PassedOn | None:
+def _passed_on(robot: Robot, instance: Instance, is_shared: bool) -> PassedOn | None:
     """Return what a file says that takes no prefix; None for one that was not read."""
     if instance.tree is None:
         return None
     from linkforge_compile.lowering.unprefixed import passed_on
 
-    return passed_on(robot, instance.tree, instance.prefix, {use.file for use in instance.trail})
+    return passed_on(robot, instance.tree, instance.prefix, {use.file for use in instance.trail}, is_shared=is_shared)
 
 
 def _parts(robot: Robot) -> Iterator[tuple[PartKey, SourceRef | None]]:

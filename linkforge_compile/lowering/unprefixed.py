@@ -55,8 +55,11 @@ class PassedOn(NamedTuple):
     prefix: str
     """Of this use alone, without those of the files around it."""
 
+    is_shared: bool
+    """Whether the robot has the file more than once."""
 
-def passed_on(robot: Robot, tree: YamlNode, prefix: str, users: Collection[SourceFile]) -> PassedOn:
+
+def passed_on(robot: Robot, tree: YamlNode, prefix: str, users: Collection[SourceFile], *, is_shared: bool) -> PassedOn:
     """Find what no prefix reaches in the robot of one file and in its tree, before its modules join it.
 
     What an override wrote in a file that uses this one (`users`) has the names of that file: final ones here.
@@ -73,7 +76,7 @@ def passed_on(robot: Robot, tree: YamlNode, prefix: str, users: Collection[Sourc
         if sensor.source and sensor.topic and sensor.topic.startswith("/")
     )
     own = (text for text in (*texts, *_raw_texts(tree)) if text.where.file not in users)
-    return PassedOn(tuple(own), tuple(topics), tree, prefix)
+    return PassedOn(tuple(own), tuple(topics), tree, prefix, is_shared)
 
 
 def warnings_under_a_prefix(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
@@ -138,13 +141,14 @@ def _paths(node: YamlNode, *path: str) -> Iterator[tuple[Span, tuple[str, ...]]]
 
 
 def _topics_and_frames(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
-    """Yield once for a file that was written elsewhere which topics and frames its plugins name."""
+    """Yield once for a file that was written elsewhere, or is used again, which topics and frames its plugins name."""
     found: dict[str, Span] = {}
     for text, where, key in passed.plugin_texts:
         is_told = bool(_named_in(text, robot))
         # An argument of a xacro may have put it there.
         has_prefix = bool(passed.prefix) and passed.prefix in text
-        if _has_no_expressions(where) and _names_topic_or_frame(key, text) and not (is_told or has_prefix):
+        is_judged = passed.is_shared or _has_no_expressions(where)
+        if is_judged and _names_topic_or_frame(key, text) and not (is_told or has_prefix):
             found.setdefault(text, where)
     if found:
         shown = [f"'{name}'" for name in found][:_MOST_SHOWN]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import field
 from pathlib import Path
@@ -61,3 +62,9 @@ class Instance:
         yield self
         for module in self.modules:
             yield from module.with_modules
+
+    @property
+    def shared_files(self) -> frozenset[SourceFile]:
+        """The files that are used more than once, by this use and those below it."""
+        uses = Counter(use.tree.span.file for use in self.with_modules if use.tree)
+        return frozenset(file for file, count in uses.items() if count > 1)

@@ -223,6 +223,20 @@ def test_a_robot_that_takes_no_prefix_is_told_nothing_of_topics(tmp_path):
     assert not told(compiled(tmp_path, "g: {use: vendor/gripper.urdf, prefix: '', parent: table}", gripper))
 
 
+@pytest.mark.parametrize(("uses", "names"), [(1, []), (2, ["'image'"])])
+def test_topics_of_a_spec_are_told_where_it_is_used_again(uses: int, names: list[str], tmp_path):
+    (tmp_path / "eye.robot.yaml").write_text(
+        "linkforge: 1\nname: eye\nlinks: {lens: }\n"
+        "extra: <a><topicName>image</topicName><frame>$(prefix)hull</frame></a>\n",
+        "utf-8",
+    )
+    modules = "\n  ".join(f"eye{number}: {{use: eye.robot.yaml, parent: table}}" for number in range(uses))
+    found = compiled(tmp_path, modules).diagnostics
+    assert [re.findall("'image'|'.*hull'", one.message) for one in found if one.code.id == "LF5754"] == [
+        [name] for name in names
+    ]
+
+
 def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_told_once(tmp_path):
     raw = '<sensing><of link="finger"/><again>finger</again><visual name="palm"/></sensing>'
     gripper = GRIPPER.replace("</robot>", f"{raw}</robot>")
