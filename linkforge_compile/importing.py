@@ -61,16 +61,26 @@ def import_urdf(
     packages: Packages | None = None,
     allow_outside: bool = False,
     output: str | Path | None = None,
+    text: str | None = None,
 ) -> Import:
     """Read a URDF file, and the SRDF of the same robot, as a spec that compiles to the same robot.
 
     Its errors are told where those files have them. A xacro, of either, is expanded first with those of the arguments
     that it takes, its packages are looked for in `packages` before other places, and what it names is read where
     `compile_file` reads; `allow_outside` lets it read anything. `output` is the folder that the spec is for: meshes
-    that lie beside the URDF and not there are told.
+    that lie beside the URDF and not there are told. `text` is the URDF where it is no file: `path` then is what it is
+    called, and its folder the one where its relative paths start.
     """
     settings = Settings(arguments, packages, allow_outside=allow_outside, output=Path(output) if output else None)
-    return with_room(lambda: _imported(Path(path), None if srdf is None else Path(srdf), settings))
+    urdf = _Urdf(Path(path), text)
+    return with_room(lambda: _imported(urdf, None if srdf is None else Path(srdf), settings))
+
+
+class _Urdf(NamedTuple):
+    """What is imported: a file, or a text that is called so."""
+
+    path: Path
+    text: str | None
 
 
 class ReadBack(NamedTuple):
@@ -116,7 +126,7 @@ def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     return both[1].robot
 
 
-def _imported(urdf: Path, srdf: Path | None, settings: Settings) -> Import:
+def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     sink = Diagnostics()
     try:
         text = _imported_text(urdf, srdf, settings, sink)
@@ -126,22 +136,24 @@ def _imported(urdf: Path, srdf: Path | None, settings: Settings) -> Import:
     return Import(text, sink.sorted())
 
 
-def _imported_text(urdf: Path, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
+def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
     from linkforge_compile.backends.relative_paths import lost_on_the_way
     from linkforge_compile.importers.losses import unread
     from linkforge_compile.importers.srdf import with_srdf
     from linkforge_compile.syntax.writer import write
 
-    loader = settings.loader(urdf)
+    loader = settings.loader(urdf.path)
     arguments = settings.arguments(loader, sink)
     semantic = _open_srdf(srdf, arguments, loader, sink) if srdf else None
     taken = semantic.arguments if semantic else None if srdf else frozenset()
-    is_xacro = urdf.suffix.lower() == XACRO
-    found = (_read_xacro if is_xacro else _read_urdf)(urdf, arguments, taken, loader, sink)
+    if urdf.path.suffix.lower() == XACRO:
+        found = _read_xacro(urdf.path, arguments, taken, loader, sink)
+    else:
+        found = _read_urdf(urdf, arguments, taken, loader, sink)
     if found is None or (srdf and semantic is None):
         return None
     file, robot = found
-    spec, meshes = SpecFile(file, robot.tree, urdf.parent), MeshSolids(loader.budget)
+    spec, meshes = SpecFile(file, robot.tree, urdf.path.parent), MeshSolids(loader.budget)
 
     def judge(tree: YamlMap) -> Judged:
         return judged(meshes, replace(spec, tree=tree), loader)
@@ -179,10 +191,11 @@ _Taken = Collection[str] | None
 """The names of arguments that the SRDF takes; None where nobody knows."""
 
 
-def _read_urdf(urdf: Path, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
+def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
     from linkforge_compile.importers.urdf import read_urdf
 
-    file = loader.open_xml(urdf, sink)
+    named, text = urdf
+    file = loader.open_xml(named, sink) if text is None else loader.given_xml(str(named), text)
     if file and taken is not None:
         for name, entry in arguments.without(taken).entries.items():
             note = Note("a URDF takes no arguments", file.whole)

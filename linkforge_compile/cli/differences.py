@@ -11,12 +11,17 @@ if TYPE_CHECKING:
 
 
 class Side(NamedTuple):
-    """One of the two robots: the word that names it, and what is set for it alone."""
+    """One of the two robots: the word that names it, and what is set for it alone.
+
+    `text` is that of what can be read once only, such as standard input; None for a file.
+    """
 
     word: str
     parameters: Mapping[str, str]
     variant: str | None = None
     srdf: str | None = None
+    text: str | None = None
+    is_urdf: bool = False
 
     @property
     def label(self) -> str:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import stat
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, BinaryIO, TypedDict
 
 from linkforge_compile.bounds import MAX_FILE_BYTES
 from linkforge_compile.cli.exits import UsageError
@@ -32,17 +34,23 @@ def one_spec(specs: list[str]) -> str:
 
 
 def compile_spec(
-    spec: str, assignments: list[str], arguments: argparse.Namespace, output: Path | None = None
+    spec: str,
+    assignments: list[str],
+    arguments: argparse.Namespace,
+    output: Path | None = None,
+    text: str | None = None,
 ) -> Compilation:
     """Compile a spec, `-` for standard input, with the options that every command on a spec has.
 
-    `output` is the folder that the URDF of a file is for, None where that is not known.
+    `output` is the folder that the URDF of a file is for, None where that is not known. `text` is what was read
+    already of what can be read once only.
     """
     from linkforge_compile.pipeline import compile_file, compile_text
 
-    if spec == "-":
-        text = _standard_input()
-        return compile_text(text, name=STDIN, folder=Path.cwd(), **_settings(assignments, arguments))
+    if spec == "-" or text is not None:
+        text = standard_input() if text is None else text
+        name = STDIN if spec == "-" else spec
+        return compile_text(text, name=name, folder=Path.cwd(), **_settings(assignments, arguments))
     return compile_file(spec, output=output, **_settings(assignments, arguments))
 
 
@@ -51,7 +59,7 @@ def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace)
     from linkforge_compile.pipeline import check_file, check_text
 
     if spec == "-":
-        text = _standard_input()
+        text = standard_input()
         return check_text(text, name=STDIN, folder=Path.cwd(), **_settings(assignments, arguments))
     return check_file(spec, **_settings(assignments, arguments))
 
@@ -74,14 +82,55 @@ def _settings(assignments: list[str], arguments: argparse.Namespace) -> _Setting
     }
 
 
-def _standard_input() -> str:
-    """Return the text on standard input, of which no more is read than of a file."""
+def standard_input() -> str:
+    """Return the text on standard input, of which no more is read than of a file: a spec in UTF-8, or XML."""
     if sys.stdin is None:
         raise UsageError("cannot read standard input: it is closed")
-    content = sys.stdin.buffer.read(MAX_FILE_BYTES + 1)
-    if len(content) > MAX_FILE_BYTES:
-        raise UsageError(f"standard input is larger than {MAX_FILE_BYTES // 1024**2} MiB")
+    return _text(sys.stdin.buffer, "standard input")
+
+
+def once_only(word: str) -> str | None:
+    """Return the text of what can be read once only, standard input or a pipe; None for a file."""
+    if word == "-":
+        return standard_input()
     try:
-        return content.decode("utf-8")
+        if not stat.S_ISFIFO(os.stat(word).st_mode):  # noqa: PTH116
+            return None
+        with Path(word).open("rb") as pipe:
+            return _text(pipe, f"'{word}'")
+    except (OSError, ValueError):
+        # Who reads it as a file tells why it cannot be read.
+        return None
+
+
+def is_xml(word: str, text: str | None) -> bool:
+    """Whether a robot is XML, by its name or by how it begins; `text` is what was read of it already."""
+    from linkforge_compile.source.encoding import begins_xml
+
+    if Path(word).suffix.lower() in {".urdf", ".xml", ".xacro"}:
+        return True
+    if text is not None:
+        return begins_xml(text)
+    try:
+        with Path(word).open("rb") as file:
+            return begins_xml(file.read(_HEAD))
+    except (OSError, ValueError):
+        return False
+
+
+_HEAD = 4096
+"""Within so many bytes a URDF begins."""
+
+
+def _text(stream: BinaryIO, name: str) -> str:
+    content = stream.read(MAX_FILE_BYTES + 1)
+    if len(content) > MAX_FILE_BYTES:
+        raise UsageError(f"{name} is larger than {MAX_FILE_BYTES // 1024**2} MiB")
+    from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
+
+    try:
+        return xml_text(content) if begins_xml(content) else content.decode("utf-8")
+    except EncodingError as error:
+        raise UsageError(f"{name} cannot be read: {error}") from None
     except UnicodeDecodeError as error:
-        raise UsageError(f"standard input is not UTF-8: {error.reason} at byte {error.start}") from None
+        raise UsageError(f"{name} is not UTF-8: {error.reason} at byte {error.start}") from None

@@ -21,8 +21,13 @@ def file_text(path: Path, *, only_regular: bool) -> str | None:
     `only_regular` refuses pipes and terminals, for which a reader would wait.
     """
     content = file_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
+    return None if content is None else utf8_text(content)
+
+
+def utf8_text(content: bytes) -> str:
+    """Return the content of a file as text; raise UnreadableError for what is none in UTF-8."""
     try:
-        return None if content is None else content.decode("utf-8")
+        return content.decode("utf-8")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
         raise UnreadableError(f"it is not UTF-8: line {line} has the byte {error.object[error.start]:#04x}") from error

@@ -14,8 +14,7 @@ from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
 from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
 from linkforge_compile.frozen import dataclass
-from linkforge_compile.importers import EncodingError, xml_text
-from linkforge_compile.modules.file_text import UnreadableError, file_bytes, file_text
+from linkforge_compile.modules.file_text import UnreadableError, file_bytes, file_text, utf8_text
 from linkforge_compile.modules.includes import Whole, lay_together, reached
 from linkforge_compile.modules.noted import NotedSink, used_from
 from linkforge_compile.modules.packages import Package
@@ -24,6 +23,7 @@ from linkforge_compile.modules.paths import as_typed, names_in
 from linkforge_compile.modules.trees import known_source, tree_of
 from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
 
 
@@ -113,8 +113,12 @@ class Loader:
         return tuple(dict.fromkeys(self._unread))
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:
-        """Read a spec from text that is no file; `folder` is where its relative paths start, None for nowhere."""
-        whole = self._whole(self._source(name, text, None, None), folder, sink)
+        """Read a spec from text that is no file, or a URDF as one.
+
+        `folder` is where its relative paths start, None for nowhere.
+        """
+        source = self._source(name, text, None, None)
+        whole = _urdf(source, sink) if begins_xml(text) else self._whole(source, folder, sink)
         return _spec(whole, folder, None) if whole else None
 
     def open(
@@ -128,13 +132,15 @@ class Loader:
         real = os.path.realpath(path)
         if real not in self._specs:
             is_urdf = path.suffix.lower() == ".urdf"
-            text = self._text(path, used or Used(str(as_typed(path)), None), sink, _xml_text if is_urdf else file_text)
+            text = self._text(path, used or Used(str(as_typed(path)), None), sink, _xml_text if is_urdf else _spec_text)
             if text is None:
                 return None
             source = self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
             # A file that is used twice is read once: what is wrong in it is told with its first use.
             inside = used_from(sink, (used.where,) if used and used.where else ())
-            self._specs[real] = _urdf(source, inside) if is_urdf else self._whole(source, path.parent, inside)
+            self._specs[real] = (
+                _urdf(source, inside) if is_urdf or begins_xml(text) else self._whole(source, path.parent, inside)
+            )
         whole = self._specs[real]
         return _spec(whole, path.parent, package) if whole else None
 
@@ -147,6 +153,10 @@ class Loader:
                 return None
             self._xml[real] = self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
         return self._xml[real]
+
+    def given_xml(self, name: str, text: str) -> SourceFile:
+        """Take a text of XML that is no file, or was read from a pipe."""
+        return self._source(name, text, None, None)
 
     def note_read(self, path: Path) -> None:
         """Note that somebody else read a file for this compile; what it holds is his."""
@@ -239,9 +249,20 @@ def _spec(whole: Whole, folder: Path | None, package: Package | None) -> SpecFil
     return SpecFile(whole.file, whole.tree, folder, package, included)
 
 
+def _spec_text(path: Path, *, only_regular: bool) -> str | None:
+    content = file_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
+    if content is None:
+        return None
+    return _decoded_xml(content) if begins_xml(content) else utf8_text(content)
+
+
 def _xml_text(path: Path, *, only_regular: bool) -> str | None:
     content = file_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
+    return None if content is None else _decoded_xml(content)
+
+
+def _decoded_xml(content: bytes) -> str:
     try:
-        return None if content is None else xml_text(content)
+        return xml_text(content)
     except EncodingError as error:
         raise UnreadableError(str(error)) from error

@@ -166,6 +166,32 @@ def test_standard_output_takes_one_format(pendulum: Path):
     assert "-o - is standard output, which takes one format" in run.stderr
 
 
+@pytest.mark.parametrize(
+    "before", [b"", b"\xef\xbb\xbf", b'<?xml version="1.0" encoding="ISO-8859-1"?>\n<!-- \xe9 -->']
+)
+def test_a_urdf_is_one_whatever_its_name(tmp_path: Path, before: bytes):
+    for name in ("arm.xml", "arm", "arm.yaml"):
+        (tmp_path / name).write_bytes(before + b'<robot name="arm"><link name="base"/></robot>')
+        run = linkforge("compile", name, cwd=tmp_path)
+        assert (run.returncode, etree.fromstring(run.stdout.encode()).get("name"), run.stderr) == (0, "arm", "")
+
+
+def test_a_urdf_comes_from_standard_input(tmp_path: Path):
+    urdf = '\n<robot name="arm"><link name="base"/></robot>'
+    run = linkforge("compile", "-", cwd=tmp_path, stdin=urdf)
+    assert (run.returncode, etree.fromstring(run.stdout.encode()).get("name")) == (0, "arm")
+    assert linkforge("check", "-", cwd=tmp_path, stdin=urdf).stderr == "checked 1 spec: no errors\n"
+    wrong = linkforge(
+        "check", "-", cwd=tmp_path, stdin=urdf.replace("</robot>", '<xacro:arm xmlns:xacro="x"/></robot>')
+    )
+    assert "<stdin>:2:38: error: <xacro:arm> is xacro's" in wrong.stderr
+
+
+def test_a_merge_key_begins_no_urdf(tmp_path: Path):
+    run = linkforge("check", "-", cwd=tmp_path, stdin="<<: {links: {base: }}\nlinkforge: 1\nname: arm\n")
+    assert "XML" not in run.stderr
+
+
 def test_a_spec_comes_from_standard_input(pendulum: Path):
     run = program("compile", "-", cwd=pendulum, stdin=PENDULUM)
     assert run.returncode == 0

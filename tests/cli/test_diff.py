@@ -1,7 +1,9 @@
 """`linkforge diff`, run as a program."""
 
 import json
+import os
 import re
+import sys
 from pathlib import Path
 
 import pytest
@@ -200,3 +202,30 @@ def test_what_is_no_robot_is_trouble(arms: Path, words: list[str], fault: str):
     run = linkforge("diff", *words, cwd=arms)
     assert (run.returncode, run.stdout) == (2, "")
     assert fault in run.stderr
+
+
+def test_a_urdf_comes_from_standard_input_and_by_any_name(tmp_path: Path):
+    urdf = '<robot name="arm"><link name="base"/></robot>'
+    (tmp_path / "arm").write_text(urdf.replace("base", "foot"))
+    spec = "linkforge: 1\nname: arm\nparameters: {reach: 1 m}\nlinks: {base: }\n"
+    (tmp_path / "arm.robot.yaml").write_text(spec)
+    same = linkforge("diff", "-", "arm.robot.yaml", "reach:=2m", cwd=tmp_path, stdin=urdf)
+    assert (same.returncode, same.stdout, same.stderr) == (0, "- and arm.robot.yaml are the same robot\n", "")
+    other = linkforge("diff", "arm", "-", cwd=tmp_path, stdin=urdf)
+    assert (other.returncode, "> base: was 'foot'" in other.stdout) == (1, True)
+    refused = linkforge("diff", "-", "arm", "--before", "reach=1", cwd=tmp_path, stdin=urdf)
+    assert (refused.returncode, "'-' has no parameters" in refused.stderr) == (2, True)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a pipe with a name is one of POSIX")
+@pytest.mark.parametrize(
+    "text", ['<robot name="arm"><link name="base"/></robot>', "{linkforge: 1, name: arm, links: {base: }}"]
+)
+def test_a_robot_comes_from_a_pipe(tmp_path: Path, text: str):
+    (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
+    reads, writes = os.pipe()
+    os.write(writes, text.encode())
+    os.close(writes)
+    with os.fdopen(reads):
+        run = linkforge("diff", f"/dev/fd/{reads}", "arm.urdf", cwd=tmp_path)
+    assert (run.returncode, run.stdout) == (0, f"/dev/fd/{reads} and arm.urdf are the same robot\n")

@@ -126,6 +126,15 @@ def test_nothing_is_written_for_an_argument_that_a_xacro_does_not_take(tmp_path:
     assert "error: no parameter named 'lenght'; did you mean 'length'?" in run.stderr
 
 
+def test_a_urdf_comes_from_standard_input(tmp_path: Path):
+    text = ARM.format("")
+    run = linkforge("import", "-", "-o", ".", cwd=tmp_path, stdin=text)
+    assert (run.returncode, run.stderr) == (0, "wrote robot.robot.yaml\n")
+    assert compile_file(tmp_path / "robot.robot.yaml").result().name == "arm"
+    refused = linkforge("import", "-", cwd=tmp_path, stdin=text.replace("base", ""))
+    assert refused.stderr.startswith("<stdin>:1:")
+
+
 def test_an_output_called_by_a_dash_is_standard_output(arm, tmp_path: Path):
     run = linkforge("import", arm(), "-o", "-", cwd=tmp_path)
     assert (run.returncode, run.stdout.split("\n")[1], run.stderr) == (0, "name: arm", "")

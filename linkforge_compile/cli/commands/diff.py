@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.differences import Comparison, Side
 from linkforge_compile.cli.exits import OK, UsageError
+from linkforge_compile.cli.one_spec import STDIN, compile_spec, is_xml, once_only
 from linkforge_compile.cli.options import add_spec_options, name_set_by, packages_of, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, tell
 
@@ -23,7 +24,7 @@ DIFFERENT, NO_ROBOT = 1, 2
 _SIDES = ("before", "after")
 
 _EXAMPLES = """\
-A and B are specs, URDFs (.urdf, .xml) or xacros. `-p` goes to each of them that has the parameter and `--variant` to
+A and B are specs, URDFs of any name or xacros. `-p` goes to each of them that has the parameter and `--variant` to
 specs; `--before` and `--after` go to A or B alone, and come before what `-p` and a variant say. A spec is laid beside a
 URDF as the URDF that it compiles to. The semantic part of a URDF is its SRDF, which `--before-srdf` and `--after-srdf`
 name; without it that part is left out, which is said. Only their errors are told; `linkforge check` tells the rest.
@@ -36,13 +37,16 @@ examples:
   linkforge diff arm.robot.yaml arm.robot.yaml --before reach=0.7m --after reach=0.9m
   linkforge diff arm.robot.yaml arm.robot.yaml --after-variant sim
   linkforge diff old.urdf new.urdf --json
+  xacro arm.urdf.xacro | linkforge diff - arm.robot.yaml
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge diff [options] A B [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
-    parser.add_argument("words", metavar="A B", nargs="+", help="the robot before and the one after; - for a spec")
+    parser.add_argument(
+        "words", metavar="A B", nargs="+", help="the robot before and the one after; - for standard input"
+    )
     parser.add_argument("--json", action="store_true", help="as JSON, for tools")
     parser.add_argument(
         "--tolerance",
@@ -107,27 +111,30 @@ def _side(name: str, word: str, arguments: argparse.Namespace) -> Side:
     srdf: str | None = values[f"{name}_srdf"]
     if word.lower().endswith((".srdf", ".srdf.xacro")):
         raise UsageError(f"'{word}' is an SRDF; give it with its robot: --{name}-srdf {word}")
-    if _is_urdf(word) and (variant or (parameters and not _takes_parameters(Side(word, {}, None, srdf)))):
+    text = once_only(word)
+    settings = {name_set_by(pair): pair.partition("=")[2] for pair in parameters}
+    side = Side(word, settings, variant, srdf, text, is_urdf=is_xml(word, text))
+    if side.is_urdf and (variant or (parameters and not _takes_parameters(side))):
         raise UsageError(f"'{word}' has no {'variants' if variant else 'parameters'}")
-    if srdf and not _is_urdf(word):
+    if srdf and not side.is_urdf:
         raise UsageError(f"--{name}-srdf goes with a URDF; '{word}' has 'semantic' for it")
-    return Side(word, {name_set_by(pair): pair.partition("=")[2] for pair in parameters}, variant, srdf)
+    return side
 
 
 def _refuse_what_none_takes(sides: Sequence[Side], common: Sequence[str], variant: str | None) -> None:
     if common and not any(map(_takes_parameters, sides)):
         raise UsageError(f"nothing takes '{common[0]}': a URDF has no parameters")
-    if variant and all(_is_urdf(side.word) for side in sides):
+    if variant and all(side.is_urdf for side in sides):
         raise UsageError(f"nothing takes '--variant {variant}': a URDF has no variants")
 
 
 def _takes_parameters(side: Side) -> bool:
-    return not _is_urdf(side.word) or any(_is_xacro(file) for file in (side.word, side.srdf) if file)
+    return not side.is_urdf or any(_is_xacro(file) for file in (side.word, side.srdf) if file)
 
 
 def _shared_out(common: Sequence[str], sides: Sequence[Side], arguments: argparse.Namespace) -> list[list[str]]:
     """Return what each side takes of what is set for both: what it has, and what none has, to be told there."""
-    is_unknown = any(side.word == "-" for side in sides)  # which can be read once only
+    is_unknown = any(side.text is not None and not side.is_urdf for side in sides)  # which can be read once only
     if not common or is_unknown or len({(side.word, side.srdf) for side in sides}) == 1:
         return [list(common) for _ in sides]
     names = [_parameters_of(side, arguments) for side in sides]
@@ -139,7 +146,7 @@ def _parameters_of(side: Side, arguments: argparse.Namespace) -> frozenset[str]:
     """Return the names of what a side takes."""
     from linkforge_compile.pipeline import parameters_of
 
-    files = [side.word] if not _is_urdf(side.word) or _is_xacro(side.word) else []
+    files = [side.word] if not side.is_urdf or _is_xacro(side.word) else []
     files += [side.srdf] if side.srdf and _is_xacro(side.srdf) else []
     packages = packages_of(arguments)
     listings = (parameters_of(file, packages=packages, allow_outside=arguments.allow_outside)[0] for file in files)
@@ -163,7 +170,7 @@ def _beside_each_other(
 
     With them comes why that does not read back, where the spec is left as written.
     """
-    urdfs = [_is_urdf(side.word) for side in sides]
+    urdfs = [side.is_urdf for side in sides]
     if all(urdfs) or not any(urdfs):
         return robots, None
     from linkforge_compile.importing import as_read_back
@@ -176,13 +183,13 @@ def _beside_each_other(
 
 
 def _has_no_semantic(side: Side) -> bool:
-    return _is_urdf(side.word) and side.srdf is None
+    return side.is_urdf and side.srdf is None
 
 
 def _as_written(comparison: Comparison) -> Iterator[str]:
     """Yield the line that says that a spec beside a URDF is not compared as the URDF that it compiles to."""
     if comparison.not_read_back is not None:
-        spec = next(side.word for side in (comparison.before, comparison.after) if not _is_urdf(side.word))
+        spec = next(side.word for side in (comparison.before, comparison.after) if not side.is_urdf)
         yield f"{spec} is compared as written, since its URDF does not read back: {comparison.not_read_back}"
 
 
@@ -205,33 +212,29 @@ def _tolerance(text: str) -> float:
     return tolerance
 
 
-def _is_urdf(word: str) -> bool:
-    return Path(word).suffix.lower() in {".urdf", ".xml", ".xacro"}
-
-
 def _is_xacro(word: str) -> bool:
     return Path(word).suffix.lower() == ".xacro"
 
 
 def _robot(side: Side, arguments: argparse.Namespace) -> Robot | None:
-    if _is_urdf(side.word):
+    if side.is_urdf:
         from linkforge_compile.importing import import_urdf
         from linkforge_compile.pipeline import compile_text
 
+        name = STDIN if side.word == "-" else side.word
         imported = import_urdf(
-            side.word,
+            name,
             srdf=side.srdf,
             arguments=arguments.parameters if _takes_parameters(side) else (),
             packages=packages_of(arguments),
             allow_outside=arguments.allow_outside,
+            text=side.text,
         )
         if tell((*_errors(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
             return None
-        compilation = compile_text(imported.text, name=side.word, folder=Path(side.word).parent)
+        compilation = compile_text(imported.text, name=name, folder=Path(side.word).parent)
     else:
-        from linkforge_compile.cli.one_spec import compile_spec
-
-        compilation = compile_spec(side.word, [], arguments)
+        compilation = compile_spec(side.word, [], arguments, text=side.text)
     return None if tell(_errors(compilation.diagnostics), arguments) else compilation.robot
 
 

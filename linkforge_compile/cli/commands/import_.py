@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.one_spec import one_spec
+from linkforge_compile.cli.one_spec import STDIN, one_spec, standard_input
 from linkforge_compile.cli.options import (
     add_outside_option,
     add_package_option,
@@ -37,7 +37,9 @@ examples:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge import [options] ROBOT.urdf | ROBOT.urdf.xacro [ARGUMENT:=VALUE ...]"
     parser.epilog = _EXAMPLES
-    parser.add_argument("words", metavar="ROBOT.urdf", nargs="+", help="the robot; a xacro is expanded first")
+    parser.add_argument(
+        "words", metavar="ROBOT.urdf", nargs="+", help="the robot; a xacro is expanded first; - for standard input"
+    )
     parser.add_argument("--srdf", metavar="ROBOT.srdf", help="what planners know of the same robot, or its xacro")
     parser.add_argument(
         "-o", "--output", metavar="PATH", help="a file that ends in .yaml, or a folder for NAME.robot.yaml"
@@ -62,12 +64,13 @@ def run(arguments: argparse.Namespace) -> int:
 
     with told_when_long(urdf, arguments):
         imported = import_urdf(
-            urdf,
+            STDIN if urdf == "-" else urdf,
             srdf=arguments.srdf,
             arguments=[*arguments.parameters, *assignments],
             packages=packages_of(arguments),
             allow_outside=arguments.allow_outside,
             output=output.parent if output else None,
+            text=standard_input() if urdf == "-" else None,
         )
     is_faulty = tell(imported.diagnostics, arguments) or imported.has_errors
     if imported.text is None or (arguments.strict and (imported.losses or is_faulty)):

@@ -10,6 +10,9 @@ _DECLARED = re.compile(rb"""<\?xml\s(?:(?!\?>).)*?encoding\s*=\s*["']([A-Za-z0-9
 _SEARCHED = 4096
 """A declaration is looked for in so many bytes: some generators write a comment before it."""
 
+_BEGINS = re.compile(rb"(?:\xef\xbb\xbf|\xff\xfe|\xfe\xff)?[\s\x00]*<\x00?[?!A-Za-z_]")
+"""XML behind a byte order mark and blanks; the merge key of YAML, which begins with `<` too, is none."""
+
 # Names as Python has them. Not every codec: there are those that are no encodings of text, and those that unpack.
 _KNOWN = frozenset(
     (
@@ -21,6 +24,13 @@ _KNOWN = frozenset(
 
 class EncodingError(Exception):
     """The bytes are no text in the encoding that they are said to be; says why."""
+
+
+def begins_xml(data: bytes | str) -> bool:
+    """Whether a file is XML, whatever its name, by how it begins."""
+    if isinstance(data, str):
+        data = data[:_SEARCHED].encode("utf-8", errors="replace")
+    return _BEGINS.match(data) is not None
 
 
 def xml_text(data: bytes) -> str:
