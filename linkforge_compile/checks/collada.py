@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, TypeAlias
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
+    from linkforge_compile.checks.mesh_files import Effort
+
 _END = 1024
 """How much of each end of an array is looked at [bytes]."""
 
@@ -32,19 +34,6 @@ class _UnknownError(Exception):
     """The scene is made of what a first look does not understand, or has no time for."""
 
 
-class Effort:
-    """How much is looked at in all scenes of a robot, in tags, nodes and corners: half a million take a second."""
-
-    def __init__(self, room: int = 500_000) -> None:
-        self._room = room
-
-    def spend(self, count: int) -> None:
-        """Count what is looked at; refuse what there is no room for, and all behind it."""
-        self._room -= count
-        if self._room < 0:
-            raise _UnknownError
-
-
 def corners_of_scene(content: bytes, effort: Effort) -> Sequence[Corner]:
     """Return corners of a scene where its nodes place them [m]; () where that cannot be told at a look.
 
@@ -55,8 +44,9 @@ def corners_of_scene(content: bytes, effort: Effort) -> Sequence[Corner]:
 
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
         return ()
+    if not effort.takes(content.count(b"<")):
+        return ()
     try:
-        effort.spend(content.count(b"<"))
         pieces = (piece if len(piece) <= 2 * _END else _shortened(piece) for piece in content.split(b"<"))
         root = ElementTree.fromstring(b"<".join(pieces))
         corners = tuple(_Scene(root, effort).corners())
@@ -94,9 +84,13 @@ class _Scene:
         for url, matrix in self._geometries(self._at(scene), _IDENTITY) if scene is not None else ():
             if url not in shapes:
                 shapes[url] = self._shape(url)
-            self._effort.spend(len(shapes[url]))
+            self._spend(len(shapes[url]))
             for corner in shapes[url]:
                 yield _scaled(_moved(corner, matrix), meter)
+
+    def _spend(self, count: int) -> None:
+        if not self._effort.takes(count):
+            raise _UnknownError
 
     def _at(self, instance: Element) -> Element:
         return self._by_id[instance.get("url", "").removeprefix("#")]
@@ -105,7 +99,7 @@ class _Scene:
         """Yield each geometry that a node places, with the matrix to the scene."""
         if depth > _DEEPEST:
             raise _UnknownError
-        self._effort.spend(1 + len(node))
+        self._spend(1 + len(node))
         matrix = around
         for part in node:
             match part.tag:

@@ -14,7 +14,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-from linkforge_compile.checks.collada import Effort, corners_of_scene
 from linkforge_compile.checks.extents import Extent
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Collision, Link, Visual
@@ -58,6 +57,18 @@ class MeshUse(NamedTuple):
     link: Link
     shape: Visual | Collision
     mesh: Mesh
+
+
+class Effort:
+    """How much is looked at in all scenes of a robot, in tags, nodes and corners: half a million take a second."""
+
+    def __init__(self, room: int = 500_000) -> None:
+        self._room = room
+
+    def takes(self, count: int) -> bool:
+        """Count what is to be looked at; False where there is no room for it, nor for anything behind it."""
+        self._room -= count
+        return self._room >= 0
 
 
 class RobotMeshes:
@@ -176,6 +187,8 @@ def look_at(path: Path, effort: Effort) -> MeshFile:
             if ending == ".obj" or (ending == ".stl" and start.lstrip().lower().startswith(b"solid")):
                 return MeshFile(box=_around(_corners_in_text(stream, length)))
             if ending == ".dae" and length <= LARGEST:
+                from linkforge_compile.checks.collada import corners_of_scene
+
                 stream.seek(0)
                 return MeshFile(box=_around(corners_of_scene(stream.read(LARGEST), effort)))
     except (OSError, struct.error):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from linkforge_compile import compile_file
-from linkforge_compile.checks.collada import Effort, corners_of_scene
-from linkforge_compile.checks.mesh_files import MeshFile, look_at
+from linkforge_compile.checks.collada import corners_of_scene
+from linkforge_compile.checks.mesh_files import Effort, MeshFile, look_at
 from linkforge_compile.core.meshes.collada import collada_triangles
 from tests.meshes import GEOMETRY, block, collada
 

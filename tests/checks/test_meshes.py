@@ -6,8 +6,7 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.checks import check, mesh_files
-from linkforge_compile.checks.collada import Effort
-from linkforge_compile.checks.mesh_files import SAMPLES, MeshFile, look_at
+from linkforge_compile.checks.mesh_files import SAMPLES, Effort, MeshFile, look_at
 from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
 from linkforge_compile.diagnostics import Gaps
 from tests.checks.robots import told
