@@ -29,6 +29,11 @@ class Once(argparse.Action):
         setattr(namespace, self.dest, values)
 
 
+def add_spec_and_values(parser: argparse.ArgumentParser) -> None:
+    """Add the one spec of a command and the values of its parameters, which `split_assignments` tells apart."""
+    parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
+
+
 def add_spec_options(parser: argparse.ArgumentParser) -> None:
     add_parameter_option(parser, "set a parameter of the spec, such as reach=0.7m")
     parser.add_argument(

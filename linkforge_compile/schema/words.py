@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 from linkforge_compile.schema.json_types import Schema, branches, mapping
 from linkforge_compile.schema.repetition import LONG_FORM, RAW, WORDS
-from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.entries import kind_of
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import scalar_value
 
 COMMON_KEYS = frozenset({*WORDS, *RAW})
@@ -84,17 +85,13 @@ def words_of(schema: Schema) -> list[str]:
 def found(node: YamlNode) -> str:
     """Return what stands there: "a map", "a list", "3", "'three'", "the text '3'"."""
     match node:
-        case YamlMap():
-            return "a map"
-        case YamlList():
-            return "a list"
-        case YamlScalar(value=None):
-            return "nothing"
+        case YamlFault():
+            raise TypeError("a fault is not judged")
         case YamlScalar(text=text, value=str()):
             return f"the text '{text}'" if is_number(text) else f"'{shortened(text)}'"
-        case YamlScalar(text=text):
+        case YamlScalar(text=text, value=value) if value is not None:
             return text
-    raise TypeError("a fault is not judged")
+    return kind_of(node)
 
 
 def shortened(text: str) -> str:

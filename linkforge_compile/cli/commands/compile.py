@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.build import Order, compile_order, deliver
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.one_spec import one_spec
-from linkforge_compile.cli.options import add_spec_options, split_assignments
+from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
 from linkforge_compile.cli.targets import add_target_options, targets_of
 from linkforge_compile.cli.telling import add_telling_options
 
@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_build_arguments(parser: argparse.ArgumentParser) -> None:
     """Add what is said of each compile, be it the only one or one of many."""
-    parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
+    add_spec_and_values(parser)
     add_target_options(parser)
     parser.add_argument(
         "--source-map",

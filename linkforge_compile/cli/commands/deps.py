@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
 from linkforge_compile.cli.one_spec import compile_spec, one_spec
-from linkforge_compile.cli.options import add_spec_options, split_assignments
+from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
 from linkforge_compile.cli.targets import add_output_option, name_of, targets_of
 from linkforge_compile.cli.telling import add_telling_options, tell
 
@@ -35,7 +35,7 @@ own. A spec with errors has no rule of Make, for there is nothing made from it.
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge deps [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
-    parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
+    add_spec_and_values(parser)
     add_output_option(parser)
     parser.add_argument("--format", choices=FORMATS, default="make", help="a rule of Make (unless said), or JSON")
     add_spec_options(parser)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import compile_spec, one_spec
-from linkforge_compile.cli.options import add_spec_options, split_assignments
+from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, say, tell
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ examples:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge expand [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
-    parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
+    add_spec_and_values(parser)
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
     add_spec_options(parser)
     add_telling_options(parser)
