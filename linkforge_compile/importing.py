@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -113,17 +113,19 @@ def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     imported = read_urdf(file, sink)
     if imported is None:
         return None
-    spec, meshes = SpecFile(file, imported.tree, None), MeshSolids(loader.budget)
-
-    def judge(tree: YamlMap) -> Judged:
-        return judged(meshes, replace(spec, tree=tree), loader)
-
+    judge = _judge_of(SpecFile(file, imported.tree, None), loader)
     semantic = SourceFile("<srdf>", render_srdf(robot)) if robot.says_semantic else None
     both = with_srdf(imported, semantic, judge, sink) if semantic else (imported, judge(imported.tree))
     if both is None:
         return None
     sink.report_all(both[1].faults)
     return both[1].robot
+
+
+def _judge_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Judged]:
+    """Return what compiles a tree as that of a spec, by itself; of all that it is asked for, each mesh is read once."""
+    meshes = MeshSolids(loader.budget)
+    return lambda tree: judged(meshes, replace(spec, tree=tree), loader)
 
 
 def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
@@ -153,11 +155,7 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     if found is None or (srdf and semantic is None):
         return None
     file, robot = found
-    spec, meshes = SpecFile(file, robot.tree, urdf.path.parent), MeshSolids(loader.budget)
-
-    def judge(tree: YamlMap) -> Judged:
-        return judged(meshes, replace(spec, tree=tree), loader)
-
+    judge = _judge_of(SpecFile(file, robot.tree, urdf.path.parent), loader)
     both = with_srdf(robot, semantic.text, judge, sink, semantic.moved) if semantic else (robot, judge(robot.tree))
     if both is None:
         return None
