@@ -1,6 +1,7 @@
 """The house, held true: which room may import from which. Read downward, the table is the compiler."""
 
 import ast
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -99,3 +100,16 @@ def test_the_table_has_no_cycle():
 
 def test_every_room_is_in_the_table():
     assert {room_of(path) for path in FILES} - FACES == set(MAY_IMPORT)
+
+
+# What the user fixed, and what stands beside it.
+TOP_LEVEL = "pyproject.toml linkforge_compile schemas templates tests examples README.md LICENSE CHANGELOG.md"
+BESIDE = "benchmarks cmake docs"
+
+
+def test_nothing_else_is_kept_at_the_top_level():
+    if not (PACKAGE.parent / ".git").exists():
+        pytest.skip("not a checkout: what is kept is not known")
+    kept = subprocess.run(["git", "ls-files", "-z"], cwd=PACKAGE.parent, capture_output=True, text=True, check=True)
+    names = {path.split("/")[0] for path in kept.stdout.split("\0") if path and not path.startswith(".")}
+    assert names == {*TOP_LEVEL.split(), *BESIDE.split()}
