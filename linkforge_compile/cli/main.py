@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import errno
 import gc
 import sys
@@ -38,6 +39,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The process is ours: modules and trees of values grow, hold no cycles, and go when it ends. To look through
         # them again and again is a tenth of a short command, and a quarter of a long robot.
         gc.set_threshold(100_000, 50)
+        # Nor does what is left need a last look: that would be half of what Python does to end.
+        atexit.register(gc.freeze)
     if words in (["--version"], ["-V"]):
         # Asked for by scripts and completions on every prompt, so it is answered before argparse is imported.
         print(f"linkforge {__version__}")

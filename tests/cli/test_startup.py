@@ -45,3 +45,18 @@ def test_the_version_is_printed():
         [sys.executable, "-m", "linkforge_compile", "--version"], capture_output=True, text=True, check=True
     )
     assert run.stdout == f"linkforge {__version__}\n"
+
+
+def test_as_a_command_ends_python_does_not_look_for_cycles():
+    code = (
+        "import sys\n"
+        "from linkforge_compile.cli.main import main\n"
+        "class Told:\n"
+        "    def __init__(self): self.cycle = self\n"
+        "    def __del__(self): print('looked for')\n"
+        "Told()\n"
+        "sys.argv[1:] = ['--version']\n"
+        "main()"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout == f"linkforge {__version__}\n"
