@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.backends.element import InsideError, RestatedAttributeError, inside_of, place_of_attribute
 from linkforge_compile.backends.markup import spelled
 from linkforge_compile.backends.namespaces import undeclared_prefixes
-from linkforge_compile.backends.parts import Held, Part, parts_in
+from linkforge_compile.backends.parts import Held, Part, parts_in, parts_of_urdf
 from linkforge_compile.backends.srdf import render_srdf
 from linkforge_compile.backends.unwritable import unwritable_raw, unwritable_texts
 from linkforge_compile.backends.urdf import capsules, render_urdf, require_dialect, stated_version
@@ -43,8 +43,9 @@ def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
 
     """
     require_dialect(gazebo)
-    parts = parts_in(_collections(robot))
+    parts = parts_of_urdf(robot)
     yield from check_texts(robot, parts)
+    yield from check_raw_seconds(parts)
     yield from check_attributes(parts, robot, partial(render_urdf, robot, gazebo=gazebo))
     yield from check_capsules(robot)
     yield from check_version(robot)
@@ -100,16 +101,12 @@ def _is_extended(part: Part) -> bool:
     return not isinstance(part, Inside) and bool(part.extra_attributes or inside_of(part))
 
 
-def _collections(robot: Robot) -> tuple[object, ...]:
-    return (
-        tuple(robot.materials.values()),
-        robot.links,
-        robot.joints,
-        robot.sensors,
-        robot.transmissions,
-        robot.ros2_controls,
-        robot.gazebo_elements,
-    )
+def check_raw_seconds(parts: Sequence[Held]) -> Iterator[Diagnostic]:
+    """An element of which there can be one is written by its field or as raw XML, and not twice."""
+    if any(part.extra_elements for part, *_ in parts):
+        from linkforge_compile.backends.seconds import raw_seconds
+
+        yield from raw_seconds(parts)
 
 
 def check_capsules(robot: Robot) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends.element import inside_of
 from linkforge_compile.core.models.geometry import Vector3
@@ -13,6 +13,9 @@ from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.part import Element
 from linkforge_compile.source import SourceRef
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
 
 Part: TypeAlias = Element | Link | Interface
 """What becomes an XML element, and may hold what no field says."""
@@ -28,6 +31,21 @@ class Held(NamedTuple):
     where: SourceRef | None
     around: tuple[Part, ...]
     said: list[tuple[str, object]]
+
+
+def parts_of_urdf(robot: Robot) -> list[Held]:
+    """Return all parts that the URDF of a robot writes."""
+    return parts_in(
+        (
+            tuple(robot.materials.values()),
+            robot.links,
+            robot.joints,
+            robot.sensors,
+            robot.transmissions,
+            robot.ros2_controls,
+            robot.gazebo_elements,
+        )
+    )
 
 
 def parts_in(value: object) -> list[Held]:

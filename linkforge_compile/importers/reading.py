@@ -40,7 +40,6 @@ class Reading:
         self._attributes = dict(element.attributes)
         self._children = list(element.children)
         self._text_is_taken = False
-        self._single: set[str] = set()
         self._inside: dict[str, YamlNode] = {}
         self._left: YamlMap | None = None
 
@@ -147,8 +146,7 @@ class Reading:
         return self.within(child, read)
 
     def _only(self, tag: str) -> XmlElement | None:
-        """Return the first child of a tag of which there can be one: any more are told when they are left."""
-        self._single.add(tag)
+        """Return the first child of a tag of which there can be one: any more are left, and told of the robot."""
         return next((child for child in self._children if child.tag == tag), None)
 
     def text_number(self) -> YamlScalar:
@@ -226,7 +224,6 @@ class Reading:
         if text and not self._text_is_taken:
             shown = text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
             self.draft.told.append(TEXT_LEFT_OUT.at(self.span, tag=self.element.tag, text=shown))
-        self._tell_seconds()
         extra = [self._raw(child) for child in self._children]
         attributes = {one.name: self.draft.word(one.value, one.span) for one in self._attributes.values()}
         return {
@@ -234,14 +231,6 @@ class Reading:
             "extra_attributes": self.draft.map_of(attributes, self.span) if attributes else None,
             "extra_inside": self.draft.map_of(self._inside, self.span) if self._inside else None,
         }
-
-    def _tell_seconds(self) -> None:
-        """Tell of what is left of which there can be one, and which has one of its kind before it."""
-        first = {child.tag: child for child in reversed(list(self.element.children))}
-        for child in self._children:
-            if child.tag in self._single and child is not first[child.tag]:
-                reason = f"there is another <{child.tag}> before it"
-                self.draft.told.append(KEPT_RAW.at(child.span, tag=child.tag, reason=reason))
 
     def _raw(self, child: XmlElement) -> YamlNode:
         written = self.draft.text(tidy(without_instructions(child.raw)), child.span).text

@@ -275,6 +275,11 @@ def test_a_urdf_compiles_and_is_checked_alone(tmp_path):
     assert any("lower" in diagnostic.message for diagnostic in diagnostics)
 
 
+def test_a_second_of_what_there_can_be_one_is_told_once_as_on_import():
+    urdf = CASES / "LF7145_second_of_one.urdf"
+    assert [*map(str, compile_file(urdf).diagnostics)] == [*map(str, import_urdf(urdf).diagnostics)]
+
+
 @pytest.mark.parametrize("name", ["ur_ur5e", "lbr_iiwa7", "turtlebot3_burger"])
 def test_a_vendor_s_robot_moves_as_it_does_alone(name: str, tmp_path: Path):
     """Behind a mount and a prefix every frame of the robot is where the vendor's own file has it."""

@@ -35,6 +35,14 @@ UNDECLARED_PREFIX = Code(
     "no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into the robot's 'extra_attributes'",
 )
 
+# LF714x: what stands twice in what is written
+SECOND_OF_ONE = Code(
+    "LF7145",
+    Severity.WARNING,
+    "another <{tag}> stands before this one: readers take one of the two, mostly the first, or refuse the file; "
+    "leave one out",
+)
+
 # LF708x, LF709x: what a command asks of an output
 NO_SEMANTIC_PART = Code(
     "LF7085",

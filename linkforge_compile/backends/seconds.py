@@ -1,0 +1,76 @@
+"""Raw XML that writes a second of what there can be one of: beside the one of a field, or beside more raw XML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from linkforge_compile.backends.element import raw_texts
+from linkforge_compile.backends.parts import Held, Part
+from linkforge_compile.backends.raw import nodes_of
+from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.models.geometry import Transform
+from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.link import Collision, Inertial, Link, Visual
+from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.models.ros2_control import Ros2Control
+from linkforge_compile.core.models.transmission import Transmission
+from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics.codes.backends import SECOND_OF_ONE
+from linkforge_compile.source import SourceRef, Span
+
+_ONE_OF: Mapping[type[Part], Mapping[str, str]] = {
+    Link: {"inertial": "inertial"},
+    Inertial: {"origin": "origin", "mass": "mass", "inertia": "inertia"},
+    Visual: {"origin": "origin", "geometry": "geometry", "material": "material"},
+    Collision: {"origin": "origin", "geometry": "geometry"},
+    Material: {"color": "color", "texture": "texture"},
+    Joint: {
+        "origin": "origin",
+        "parent": "parent",
+        "child": "child",
+        "axis": "axis",
+        "limit": "limits",
+        "dynamics": "dynamics",
+        "mimic": "mimic",
+        "safety_controller": "safety_controller",
+        "calibration": "calibration",
+    },
+    Ros2Control: {"hardware": "hardware_plugin"},
+    Transmission: {"type": "type"},
+}
+"""The tags of which a part has one at most, and the field that writes it."""
+
+
+def raw_seconds(parts: Iterable[Held]) -> Iterator[Diagnostic]:
+    """Yield a warning for each such element that raw XML of parts says again."""
+    for part, where, *_ in parts:
+        if part.extra_elements and (fields := _ONE_OF.get(type(part))):
+            yield from _seconds_in(part, where, fields)
+
+
+def _seconds_in(part: Part, where: SourceRef | None, fields: Mapping[str, str]) -> Iterator[Diagnostic]:
+    first = {tag: _place(where, field) for tag, field in fields.items() if _is_written(getattr(part, field))}
+    for text, source, path in raw_texts(part, where):
+        for tag in _tags_of(text):
+            if tag not in fields:
+                continue
+            if tag not in first:
+                first[tag] = _place(source, *path)
+                continue
+            place = first[tag]
+            yield SECOND_OF_ONE.at(source, *path, tag=tag, notes=[Note("the first is here", place)] if place else [])
+
+
+def _is_written(value: object) -> bool:
+    return value.is_written if isinstance(value, Transform) else value is not None
+
+
+def _place(source: SourceRef | None, *path: str | int) -> Span | None:
+    return source.at(*path) if source else None
+
+
+def _tags_of(text: str) -> list[str]:
+    try:
+        return [node.tag for node in nodes_of(text)]
+    except RobotGeneratorError:
+        return []  # told by what looks at the texts
