@@ -59,11 +59,13 @@ def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
 
 def srdf_limits(robot: Robot) -> Iterator[Diagnostic]:
     """Yield what `render_srdf` refuses."""
+    if not robot.says_semantic:
+        # To ask for its semantic part would make one.
+        return
     parts = parts_in(robot.semantic)
     yield from unwritable_texts(parts)
-    if robot.says_semantic:
-        yield from undeclared_prefixes(robot.semantic, parts)
-        yield from check_attributes(parts, robot, partial(render_srdf, robot))
+    yield from undeclared_prefixes(robot.semantic, parts)
+    yield from check_attributes(parts, robot, partial(render_srdf, robot))
 
 
 def check_texts(robot: Robot, parts: Sequence[Held]) -> Iterator[Diagnostic]:

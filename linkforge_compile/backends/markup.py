@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from numbers import Real
 from typing import TypeAlias
 
 from linkforge_compile.backends.marks import is_recording, mark
@@ -63,7 +62,7 @@ def spelled(value: Spellable) -> str:
         return value
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, float | Real):  # float goes first, being the most frequent and the quickest to tell
+    if isinstance(value, float) or not isinstance(value, Iterable):  # the most frequent is the quickest to tell
         return number_text(value)
     return " ".join(map(number_text, value))
 

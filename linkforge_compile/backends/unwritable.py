@@ -68,11 +68,12 @@ def _in_value(value: object, where: SourceRef | None, *path: str) -> Iterator[Di
             yield from _in_value(inner, where, *path)
 
 
-def _keys_are_tags(part: Part) -> bool:
-    from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
-    from linkforge_compile.core.models.transmission import Transmission
+_WITH_TAGS_FOR_KEYS = frozenset({"GazeboElement", "GazeboPlugin", "Transmission"})
+"""Classes by name: to ask for them would import what the robot may have none of."""
 
-    return isinstance(part, GazeboElement | GazeboPlugin | Transmission)
+
+def _keys_are_tags(part: Part) -> bool:
+    return any(kind.__name__ in _WITH_TAGS_FOR_KEYS for kind in part.__class__.__mro__)
 
 
 def refused(write: Callable[[], object], where: SourceRef | None, *path: str | int) -> Iterator[Diagnostic]:

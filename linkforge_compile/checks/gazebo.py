@@ -139,6 +139,8 @@ def check_tags_of_several_blocks(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
 
     Of a tag that stands in two of them Gazebo takes the last, and says so in its log at best. Write it once.
     """
+    if not robot.gazebo_elements:
+        return
     said: dict[tuple[str, str], _Tag] = {}
     for tag in (*_tags_of_physics(robot), *_tags_of_blocks(robot)):
         first = said.setdefault((tag.reference, tag.name), tag)
@@ -196,14 +198,19 @@ _TRUTHS = {"true": 1.0, "yes": 1.0, "false": 0.0, "no": 0.0}
 
 
 def _merged_joints(robot: Robot) -> Iterator[Joint]:
+    kept = _kept_joints(robot)
+    for joint in robot.joints:
+        if joint.type == JointType.FIXED and joint.parent != WORLD and joint.name not in kept:
+            yield joint
+
+
+def _kept_joints(robot: Robot) -> set[str | None]:
+    """Return the fixed joints, among other names, that a block keeps."""
+    if not robot.gazebo_elements:
+        return set()
     from linkforge_compile.core.models.gazebo import keeps_fixed_joint
 
-    blocks: dict[str | None, list[GazeboElement]] = defaultdict(list)
-    for block in robot.gazebo_elements:
-        blocks[block.reference].append(block)
-    for joint in robot.joints:
-        if joint.type == JointType.FIXED and joint.parent != WORLD and not keeps_fixed_joint(blocks[joint.name]):
-            yield joint
+    return {block.reference for block in robot.gazebo_elements if keeps_fixed_joint([block])}
 
 
 def _merged_weights(robot: Robot, above: Mapping[str, Joint]) -> Mapping[str, float]:

@@ -45,7 +45,11 @@ LARGEST, SMALLEST = 100.0, 1e-3
 USUAL = 0.4
 """What part of the inertia of the box around it a body often has."""
 
-TOO_LARGE = {float(1 / UNITS[name].ratio): name for name in units_of(Dimension.INERTIA) if UNITS[name].ratio != 1}
+TOO_LARGE = {
+    UNITS[name].denominator / UNITS[name].numerator: name
+    for name in units_of(Dimension.INERTIA)
+    if name != Dimension.INERTIA.si_unit
+}
 """The units of inertia that the language reads, by how much a number in one is too large in kg·m²."""
 
 FARTHEST = 10.0

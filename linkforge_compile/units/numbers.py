@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import lru_cache
-from numbers import Integral
+from typing import SupportsIndex
 
 _IN_FULL = re.compile(r"-?(?:0|[1-9][0-9]*)\.[0-9]+")
 
@@ -17,7 +17,7 @@ def number_text(value: float) -> str:
     written as the double, or the integer, that they are.
     """
     if not isinstance(value, float):
-        if isinstance(value, Integral):
+        if isinstance(value, int | SupportsIndex):
             return str(int(value))
         value = float(value)
     return _text_of_double(value)

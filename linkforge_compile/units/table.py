@@ -4,23 +4,27 @@ from __future__ import annotations
 
 import math
 import re
-from fractions import Fraction
+from typing import TypeAlias
 
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.units.quantity import Dimension, Quantity
 
-_INCH = Fraction(254, 10_000)
-_POUND = Fraction(45_359_237, 100_000_000)
-_STANDARD_GRAVITY = Fraction(980_665, 100_000)
+_Ratio: TypeAlias = tuple[int, int]
+"""Numerator and denominator: to import `fractions` takes longer than all that is done with them here."""
+
+_INCH: _Ratio = (254, 10_000)
+_POUND: _Ratio = (45_359_237, 100_000_000)
+_STANDARD_GRAVITY: _Ratio = (980_665, 100_000)
 
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A unit and how many SI units it is: an exact ratio, times pi where `per_pi` is set."""
+    """A unit and how many SI units it is: `numerator` over `denominator`, times pi where `per_pi` is set."""
 
     name: str
     dimension: Dimension
-    ratio: Fraction
+    numerator: int
+    denominator: int
     per_pi: bool = False
 
     def to_si(self, digits: str) -> float:
@@ -30,71 +34,78 @@ class Unit:
         25 * 0.001. Angles go through the same product as `radians()`, so `30 deg` equals `radians(30)`.
         """
         if self.per_pi:
-            return float(digits) * (math.pi * self.ratio.numerator / self.ratio.denominator)
+            return float(digits) * (math.pi * self.numerator / self.denominator)
+        significand, _, exponent = digits.lower().partition("e")
+        whole, _, decimals = significand.partition(".")
+        power = int(exponent or 0) - len(decimals)
+        tens: int = 10 ** abs(power)
+        over, under = int(whole + decimals) * self.numerator, self.denominator
         try:
-            return float(Fraction(digits) * self.ratio)
+            # Division of whole numbers gives the nearest double, however long they are.
+            return over * tens / under if power > 0 else over / (under * tens)
         except OverflowError:
-            return math.copysign(math.inf, float(digits))
+            return math.copysign(math.inf, over)
 
 
-def _unit(name: str, dimension: Dimension, ratio: Fraction | int = 1, *, per_pi: bool = False) -> Unit:
-    return Unit(name, dimension, Fraction(ratio), per_pi)
+def _unit(name: str, dimension: Dimension, *factors: int | _Ratio, per_pi: bool = False) -> Unit:
+    ratios = [(factor, 1) if isinstance(factor, int) else factor for factor in factors]
+    return Unit(name, dimension, math.prod(over for over, _ in ratios), math.prod(under for _, under in ratios), per_pi)
 
 
 _D = Dimension
 _TABLE = (
     _unit("m", _D.LENGTH),
-    _unit("cm", _D.LENGTH, Fraction(1, 100)),
-    _unit("mm", _D.LENGTH, Fraction(1, 1000)),
-    _unit("um", _D.LENGTH, Fraction(1, 1_000_000)),
+    _unit("cm", _D.LENGTH, (1, 100)),
+    _unit("mm", _D.LENGTH, (1, 1000)),
+    _unit("um", _D.LENGTH, (1, 1_000_000)),
     _unit("km", _D.LENGTH, 1000),
     _unit("in", _D.LENGTH, _INCH),
-    _unit("ft", _D.LENGTH, 12 * _INCH),
+    _unit("ft", _D.LENGTH, 12, _INCH),
     _unit("rad", _D.ANGLE),
-    _unit("mrad", _D.ANGLE, Fraction(1, 1000)),
-    _unit("deg", _D.ANGLE, Fraction(1, 180), per_pi=True),
+    _unit("mrad", _D.ANGLE, (1, 1000)),
+    _unit("deg", _D.ANGLE, (1, 180), per_pi=True),
     _unit("rev", _D.ANGLE, 2, per_pi=True),
     _unit("kg", _D.MASS),
-    _unit("g", _D.MASS, Fraction(1, 1000)),
-    _unit("mg", _D.MASS, Fraction(1, 1_000_000)),
+    _unit("g", _D.MASS, (1, 1000)),
+    _unit("mg", _D.MASS, (1, 1_000_000)),
     _unit("t", _D.MASS, 1000),
     _unit("lb", _D.MASS, _POUND),
     _unit("s", _D.TIME),
-    _unit("ms", _D.TIME, Fraction(1, 1000)),
-    _unit("us", _D.TIME, Fraction(1, 1_000_000)),
+    _unit("ms", _D.TIME, (1, 1000)),
+    _unit("us", _D.TIME, (1, 1_000_000)),
     _unit("min", _D.TIME, 60),
     _unit("Hz", _D.FREQUENCY),
     _unit("kHz", _D.FREQUENCY, 1000),
     _unit("MHz", _D.FREQUENCY, 1_000_000),
     _unit("N", _D.FORCE),
-    _unit("mN", _D.FORCE, Fraction(1, 1000)),
+    _unit("mN", _D.FORCE, (1, 1000)),
     _unit("kN", _D.FORCE, 1000),
     _unit("kgf", _D.FORCE, _STANDARD_GRAVITY),
-    _unit("lbf", _D.FORCE, _POUND * _STANDARD_GRAVITY),
+    _unit("lbf", _D.FORCE, _POUND, _STANDARD_GRAVITY),
     _unit("N*m", _D.TORQUE),
-    _unit("mN*m", _D.TORQUE, Fraction(1, 1000)),
-    _unit("N*mm", _D.TORQUE, Fraction(1, 1000)),
-    _unit("N*cm", _D.TORQUE, Fraction(1, 100)),
+    _unit("mN*m", _D.TORQUE, (1, 1000)),
+    _unit("N*mm", _D.TORQUE, (1, 1000)),
+    _unit("N*cm", _D.TORQUE, (1, 100)),
     _unit("kN*m", _D.TORQUE, 1000),
-    _unit("kgf*cm", _D.TORQUE, _STANDARD_GRAVITY / 100),
+    _unit("kgf*cm", _D.TORQUE, _STANDARD_GRAVITY, (1, 100)),
     _unit("kgf*m", _D.TORQUE, _STANDARD_GRAVITY),
-    _unit("lbf*in", _D.TORQUE, _POUND * _STANDARD_GRAVITY * _INCH),
-    _unit("lbf*ft", _D.TORQUE, _POUND * _STANDARD_GRAVITY * 12 * _INCH),
+    _unit("lbf*in", _D.TORQUE, _POUND, _STANDARD_GRAVITY, _INCH),
+    _unit("lbf*ft", _D.TORQUE, _POUND, _STANDARD_GRAVITY, 12, _INCH),
     _unit("m/s", _D.VELOCITY),
-    _unit("cm/s", _D.VELOCITY, Fraction(1, 100)),
-    _unit("mm/s", _D.VELOCITY, Fraction(1, 1000)),
-    _unit("km/h", _D.VELOCITY, Fraction(1000, 3600)),
+    _unit("cm/s", _D.VELOCITY, (1, 100)),
+    _unit("mm/s", _D.VELOCITY, (1, 1000)),
+    _unit("km/h", _D.VELOCITY, (1000, 3600)),
     _unit("rad/s", _D.ANGULAR_VELOCITY),
-    _unit("deg/s", _D.ANGULAR_VELOCITY, Fraction(1, 180), per_pi=True),
-    _unit("rpm", _D.ANGULAR_VELOCITY, Fraction(1, 30), per_pi=True),
+    _unit("deg/s", _D.ANGULAR_VELOCITY, (1, 180), per_pi=True),
+    _unit("rpm", _D.ANGULAR_VELOCITY, (1, 30), per_pi=True),
     _unit("rev/s", _D.ANGULAR_VELOCITY, 2, per_pi=True),
     _unit("kg/m^3", _D.DENSITY),
     _unit("g/cm^3", _D.DENSITY, 1000),
     _unit("kg*m^2", _D.INERTIA),
-    _unit("kg*cm^2", _D.INERTIA, Fraction(1, 10_000)),
-    _unit("g*cm^2", _D.INERTIA, Fraction(1, 10_000_000)),
-    _unit("kg*mm^2", _D.INERTIA, Fraction(1, 1_000_000)),
-    _unit("g*mm^2", _D.INERTIA, Fraction(1, 1_000_000_000)),
+    _unit("kg*cm^2", _D.INERTIA, (1, 10_000)),
+    _unit("g*cm^2", _D.INERTIA, (1, 10_000_000)),
+    _unit("kg*mm^2", _D.INERTIA, (1, 1_000_000)),
+    _unit("g*mm^2", _D.INERTIA, (1, 1_000_000_000)),
 )
 
 UNITS: dict[str, Unit] = {unit.name: unit for unit in _TABLE}
@@ -139,7 +150,7 @@ _WORDS = {
 _UNITS_BY_WORD = {word: UNITS[name] for name, words in _WORDS.items() for word in words}
 """What people write for a unit, which messages answer with it: taking all of it would make specs of many tongues."""
 
-# Bounded digits: a float needs no more, and Fraction("1e999999999") would fill the memory.
+# Bounded digits: a float needs no more, and the whole number that 1e999999999 is would fill the memory.
 _QUANTITY = re.compile(
     r"([+-]?(?:[0-9]{1,400}(?:\.[0-9]{0,400})?|\.[0-9]{1,400})(?:[eE][+-]?[0-9]{1,3})?)\s*([A-Za-zµμ°][^\s]*)"
 )

@@ -13,7 +13,6 @@ from linkforge_compile.core.models.graph import refuse_cycles, refuse_loose_join
 from linkforge_compile.core.models.index import NAME, Index
 from linkforge_compile.core.models.inventory import require_robot_name
 from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.core.models.merging import PrefixedParts, new_materials, with_rest_of
 from linkforge_compile.core.models.semantic_parts import SemanticParts
 from linkforge_compile.core.models.semantic_robot import SemanticRobot
 
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.geometry import Transform, Vector3
     from linkforge_compile.core.models.joint import JointLimits
     from linkforge_compile.core.models.link import Link
+    from linkforge_compile.core.models.merging import PrefixedParts
     from linkforge_compile.core.models.ros2_control import Ros2Control
     from linkforge_compile.core.models.sensor import Sensor
     from linkforge_compile.core.models.transmission import Transmission
@@ -143,6 +143,8 @@ class Robot(SemanticRobot):
                 different materials of one name; what Joint raises for the connecting one.
 
         """
+        from linkforge_compile.core.models.merging import PrefixedParts, with_rest_of
+
         if at_link is not None:
             _require(self.links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
         parts = PrefixedParts.of(component, prefix)
@@ -158,6 +160,8 @@ class Robot(SemanticRobot):
         return self
 
     def _take_in(self, parts: PrefixedParts, links: Index[Link]) -> None:
+        from linkforge_compile.core.models.merging import new_materials
+
         materials = new_materials(self.materials, parts.materials)
         add_materials = self.materials.update
         joints = self.joints.extended(parts.joints)
@@ -189,6 +193,8 @@ class Robot(SemanticRobot):
         """
         if not prefix:
             return
+        from linkforge_compile.core.models.merging import PrefixedParts
+
         require_robot_name(prefix + self.name)
         parts = PrefixedParts.of(self, prefix)
         self.links = parts.links  # first, for they alone can be refused: two may have been renamed to one name
