@@ -32,9 +32,9 @@ def _environment() -> Environment:
     # jinja2 costs 75 ms to import, and most commands write nothing.
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    from linkforge_compile.backends.bytecode import TemplateBytecode
+    from linkforge_compile.backends.bytecode import TemplateBytecode, TemplatePython
 
-    return Environment(
+    environment = Environment(
         loader=FileSystemLoader(templates_folder()),
         bytecode_cache=TemplateBytecode(__file__),
         autoescape=True,
@@ -45,14 +45,16 @@ def _environment() -> Environment:
         keep_trailing_newline=True,  # an included template ends its last line
         auto_reload=False,
     )
+    environment.code_generator_class = TemplatePython
+    return environment
 
 
-def _finished(value: object) -> object:
-    """Escape a string; Jinja's own escaping leaves what is XML alone, and knows nothing of line ends."""
-    if hasattr(value, "__html__"):
+def _finished(value: object) -> str:
+    """Escape a string but for what is XML already: ours, or what a macro of Jinja's returns."""
+    if value.__class__ is Xml:  # nine of ten
         return value
     if isinstance(value, str):
-        return Xml(escaped(value))
+        return value if hasattr(value, "__html__") else escaped(value)
     raise TypeError(f"templates place strings that are ready, found {value!r}")
 
 

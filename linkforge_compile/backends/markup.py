@@ -58,11 +58,13 @@ Spellable: TypeAlias = str | float | bool | Iterable[float]
 
 def spelled(value: Spellable) -> str:
     """Return a value as the text that URDF writes, not escaped yet."""
+    if value.__class__ is float:  # the most frequent
+        return number_text(value)
     if isinstance(value, str):
         return value
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, float) or not isinstance(value, Iterable):  # the most frequent is the quickest to tell
+    if not isinstance(value, Iterable):
         return number_text(value)
     return " ".join(map(number_text, value))
 
@@ -93,6 +95,8 @@ def verbatim_text(text: str) -> Xml:
         RobotGeneratorError: for a character that XML 1.0 cannot hold.
 
     """
+    if _MARKED.search(text) is None:
+        return Xml(text)
     require_writable(text)
     return Xml(text.translate(_MARKED_IN_TEXT).translate(_STAND_INS))
 
@@ -161,14 +165,17 @@ def lay_out(text: str, *, pretty: bool) -> str:
     depth = 0
     opened = False
     for line in _lines(text):
-        closes = is_closing(line)
-        depth -= closes
-        if closes and opened:
-            lines[-1] = f"{lines[-1][:-1]}/>"
-        else:
-            whole = _EMPTY.sub(r"<\1/>", line) if "></" in line else line
-            lines.append("  " * depth + whole if pretty else whole)
-        opened = not closes and is_opening(line)
+        if is_closing(line):
+            depth -= 1
+            if opened:
+                lines[-1] = f"{lines[-1][:-1]}/>"
+            else:
+                lines.append("  " * depth + line if pretty else line)
+            opened = False
+            continue
+        whole = _EMPTY.sub(r"<\1/>", line) if "></" in line else line
+        lines.append("  " * depth + whole if pretty else whole)
+        opened = is_opening(line)
         depth += opened
     whole_text = ("\n" if pretty else "").join(lines)
     return whole_text if is_recording() else restored(whole_text)

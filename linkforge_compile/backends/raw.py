@@ -45,7 +45,12 @@ class Node(NamedTuple):
     @property
     def start(self) -> str:
         """The opening tag without its end."""
-        return f"<{self.tag}{self.mark}" + "".join(f' {name}="{escaped(value)}"' for name, value in self.attributes)
+        start = f"<{self.tag}{self.mark}"
+        return (
+            start + "".join(f' {name}="{escaped(value)}"' for name, value in self.attributes)
+            if self.attributes
+            else start
+        )
 
 
 def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -> Xml:

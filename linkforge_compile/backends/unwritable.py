@@ -18,9 +18,12 @@ from linkforge_compile.source import Key, SourceRef
 def unwritable_texts(parts: Iterable[Held]) -> Iterator[Diagnostic]:
     """Yield an error for each text in parts of a robot that cannot be written as XML."""
     for part, where, _, said in parts:
-        yield from unwritable_raw(part, where)
+        if part.extra_attributes or part.extra_elements:
+            yield from unwritable_raw(part, where)
         for name, value in said:
-            if name == "raw_xml" or not (isinstance(value, str) and is_writable(value)):
+            # Most fields are plain text, or a part, which is looked at for itself.
+            is_sound = is_writable(value) if isinstance(value, str) else isinstance(value, Element)
+            if name == "raw_xml" or not is_sound:
                 yield from _in_field(part, name, value, where)
 
 
@@ -45,15 +48,16 @@ def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> 
     elif isinstance(value, Mapping) and _keys_are_tags(part):
         from linkforge_compile.backends.raw import parameter_elements
 
-        # A plugin's raw XML stands in place of its parameters.
-        for key, text in value.items() if getattr(part, "raw_xml", None) is None else ():
-            yield from refused(partial(parameter_elements, {key: text}), where, name, key)
+        # A plugin's raw XML stands in place of its parameters; key by key is only to find the one at fault.
+        if getattr(part, "raw_xml", None) is None and any(refused(partial(parameter_elements, value), where)):
+            for key, text in value.items():
+                yield from refused(partial(parameter_elements, {key: text}), where, name, key)
     else:
         yield from _in_value(value, where, name)
 
 
 def _in_value(value: object, where: SourceRef | None, *path: str) -> Iterator[Diagnostic]:
-    """Look at texts, and those in collections; parts in them are looked at for themselves."""
+    """Look at texts, and those in collections, but not into parts in these."""
     if isinstance(value, str):
         if not is_writable(value):
             yield from refused(partial(require_writable, value), where, *path)

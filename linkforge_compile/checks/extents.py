@@ -8,10 +8,13 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Transform
-from linkforge_compile.core.models.link import Collision, Visual
+from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.physics import rotation_matrix
 
-Shapes: TypeAlias = Sequence[Visual] | Sequence[Collision]
+Shapes: TypeAlias = Sequence[Visual] | Sequence[Collision] | Sequence[Visual | Collision]
+
+MESH_SLACK = 10.0
+"""How much farther bounds lie for meshes: they may be hollow, and more may hang on a link than is drawn."""
 
 
 class Extent(NamedTuple):
@@ -47,13 +50,52 @@ MeasureMesh: TypeAlias = Callable[[Mesh], Extent | None]
 
 def extent_of(shapes: Iterable[Visual | Collision], measure: MeasureMesh = lambda _: None) -> Extent | None:
     """Return the box that holds all of the shapes; None without any, and where a mesh cannot be measured."""
-    extents = [_extent(shape.geometry, shape.origin, measure) for shape in shapes]
+    return around(extents_of(shapes, measure))
+
+
+def extents_of(shapes: Iterable[Visual | Collision], measure: MeasureMesh) -> list[Extent | None]:
+    """Return the box of each shape, None for a mesh that cannot be measured."""
+    return [_extent(shape.geometry, shape.origin, measure) for shape in shapes]
+
+
+def around(extents: Sequence[Extent | None]) -> Extent | None:
+    """Return the box that holds all of the boxes; None without any, and where one is not known."""
     known = [extent for extent in extents if extent]
     if not known or len(known) < len(extents):
         return None
+    if len(known) == 1:
+        return known[0]
     lows, highs = zip(*(extent.low for extent in known), strict=True), zip(*(one.high for one in known), strict=True)
     (x, y, z), (to_x, to_y, to_z) = map(min, lows), map(max, highs)
     return Extent((x, y, z), (to_x, to_y, to_z))
+
+
+class Room(NamedTuple):
+    """The box around the shapes of a link, and whether meshes are among them."""
+
+    box: Extent
+    is_of_meshes: bool
+
+    @property
+    def slack(self) -> float:
+        """How far a bound is moved because the box is that of a few corners."""
+        return MESH_SLACK if self.is_of_meshes else 1.0
+
+    @property
+    def volume(self) -> float:
+        """The volume of the box [m³]; a sheet of triangles counts for a plate."""
+        thinnest = self.box.diagonal / 100 if self.is_of_meshes else 0.0
+        return math.prod(max(side, thinnest) for side in self.box.sides)
+
+
+def room_of(link: Link, measure: MeasureMesh) -> Room | None:
+    """Return the room of all shapes of a link, or of those to touch or to see where the others are unknown."""
+    seen, touched = extents_of(link.visuals, measure), extents_of(link.collisions, measure)
+    both: Shapes = (*link.visuals, *link.collisions)
+    for shapes, boxes in ((both, [*seen, *touched]), (link.collisions, touched), (link.visuals, seen)):
+        if box := around(boxes):
+            return Room(box, any(isinstance(shape.geometry, Mesh) for shape in shapes))
+    return None
 
 
 def volume_of(shapes: Shapes) -> float | None:
@@ -70,15 +112,14 @@ def _extent(geometry: Geometry, pose: Transform, measure: MeasureMesh) -> Extent
         middle = (x, y, z)
     if half is None:
         return None
-    if any(pose.rpy):
-        matrix = rotation_matrix(pose.rpy)
+    place, turn = pose.xyz, pose.rpy
+    if turn.x or turn.y or turn.z:
+        matrix = rotation_matrix(turn)
         half = tuple(sum(map(operator.mul, map(abs, row), half)) for row in matrix)
         x, y, z = (sum(map(operator.mul, row, middle)) for row in matrix)
         middle = (x, y, z)
-    (x, y, z), (to_x, to_y, to_z) = (
-        [place + at + sign * side for place, at, side in zip(pose.xyz, middle, half, strict=True)] for sign in (-1, 1)
-    )
-    return Extent((x, y, z), (to_x, to_y, to_z))
+    x, y, z = place.x + middle[0], place.y + middle[1], place.z + middle[2]
+    return Extent((x - half[0], y - half[1], z - half[2]), (x + half[0], y + half[1], z + half[2]))
 
 
 def _half(geometry: Geometry) -> tuple[float, ...] | None:

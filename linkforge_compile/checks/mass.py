@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from typing import NamedTuple
 
-from linkforge_compile.checks.extents import Extent, extent_of, volume_of
+from linkforge_compile.checks.extents import MESH_SLACK, volume_of
 from linkforge_compile.checks.mesh_files import RobotMeshes
 from linkforge_compile.core.models.geometry import Mesh
-from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, Visual
+from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.physics import inertial_of_shapes, rotated
 from linkforge_compile.diagnostics import Diagnostic, Gaps
@@ -32,9 +31,6 @@ from failing, and markers for shapes.
 
 LIGHTEST, DENSEST = 1.0, 25_000.0
 """Bounds of what links are made of [kg/m³]: air weighs 1.2, osmium 22,600."""
-
-MESH_SLACK = 10.0
-"""How much farther bounds lie for meshes: they may be hollow, and more may hang on a link than is drawn."""
 
 WIDEST = 10.0
 """The radius of gyration of a body some 30 m wide [m]; no link is."""
@@ -66,7 +62,7 @@ def check_density(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     are not judged.
     """
     for link, inertial in _bodies(robot):
-        room = _room(link, meshes)
+        room = meshes.room(link)
         volumes = [volume for shapes in (link.visuals, link.collisions) if (volume := volume_of(shapes))]
         least, slack = min(volumes, default=None), 1.0
         if least is None and room and room.is_of_meshes:
@@ -89,7 +85,7 @@ def check_inertia_scale(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnosti
     """
     for link, inertial in _bodies_with_a_tensor(robot):
         moment = (inertial.inertia.ixx + inertial.inertia.iyy + inertial.inertia.izz) / 2
-        room = _room(link, meshes)
+        room = meshes.room(link)
         if room and room.box.diagonal:
             part = moment / (inertial.mass * room.box.diagonal**2 / 12)
             if part > LARGEST * room.slack:
@@ -124,7 +120,7 @@ def check_centre_of_mass(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnost
     .obj or .dae files at hand.
     """
     for link, inertial in _bodies_with_a_tensor(robot):
-        around = room.box if (room := _room(link, meshes)) else None
+        around = room.box if (room := meshes.room(link)) else None
         if around and (distance := around.distance(inertial.origin.xyz)) > FARTHEST * around.diagonal > 0:
             size = f"{around.diagonal:.2g}"
             yield FAR_CENTRE.at(
@@ -159,34 +155,6 @@ def _is_turned(tensor: InertiaTensor, computed: InertiaTensor) -> bool:
 
 def _products(tensor: InertiaTensor) -> tuple[float, float, float]:
     return tensor.ixy, tensor.ixz, tensor.iyz
-
-
-class _Room(NamedTuple):
-    """The box around the shapes of a link, and whether meshes are among them."""
-
-    box: Extent
-    is_of_meshes: bool
-
-    @property
-    def slack(self) -> float:
-        """How far a bound is moved because the box is that of a few corners."""
-        return MESH_SLACK if self.is_of_meshes else 1.0
-
-    @property
-    def volume(self) -> float:
-        """The volume of the box [m³]; a sheet of triangles counts for a plate."""
-        thinnest = self.box.diagonal / 100 if self.is_of_meshes else 0.0
-        return math.prod(max(side, thinnest) for side in self.box.sides)
-
-
-def _room(link: Link, meshes: RobotMeshes) -> _Room | None:
-    """Return the room of all shapes of a link, or of those to touch or to see where the others are unknown."""
-    seen: list[Visual | Collision] = [*link.visuals]
-    touched: list[Visual | Collision] = [*link.collisions]
-    for shapes in ([*seen, *touched], touched, seen):
-        if box := extent_of(shapes, meshes.fitting_box):
-            return _Room(box, any(isinstance(shape.geometry, Mesh) for shape in shapes))
-    return None
 
 
 def _bodies(robot: Robot) -> Iterator[tuple[Link, Inertial]]:

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-from linkforge_compile.checks.extents import Extent
+from linkforge_compile.checks.extents import Extent, Room, room_of
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
@@ -72,12 +72,13 @@ class Effort:
 
 
 class RobotMeshes:
-    """The meshes of one robot, each file looked for and looked at once, when somebody asks for it."""
+    """The meshes of one robot, and the room of its links: each looked for and looked at once, when somebody asks."""
 
     def __init__(self, robot: Robot, gaps: Gaps) -> None:
         self.uses: Sequence[MeshUse] = tuple(_uses(robot))
         self.finder = MeshFinder(robot, gaps)
         self._looked_at: dict[Path, MeshFile] = {}
+        self._rooms: dict[str, Room | None] = {}
         self._effort = Effort()
 
     def file(self, mesh: Mesh) -> MeshFile | None:
@@ -101,6 +102,12 @@ class RobotMeshes:
         """Return the box of a mesh for who measures others by it: not of one that is told to be too wide itself."""
         box = self.box(mesh)
         return box if box and max(box.sides) <= WIDEST else None
+
+    def room(self, link: Link) -> Room | None:
+        """Return the room of a link of the robot, by the boxes of meshes that fit; None where it is not known."""
+        if link.name not in self._rooms:
+            self._rooms[link.name] = room_of(link, self.fitting_box)
+        return self._rooms[link.name]
 
 
 class MeshFinder:

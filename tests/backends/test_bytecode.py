@@ -7,6 +7,8 @@ import pytest
 from jinja2 import Environment, FileSystemLoader
 
 from linkforge_compile.backends.bytecode import TemplateBytecode
+from linkforge_compile.backends.environment import _environment
+from linkforge_compile.backends.markup import Xml
 
 
 @pytest.fixture(autouse=True)
@@ -34,6 +36,17 @@ def _rendered(folder: Path) -> tuple[str, int]:
     """Return the text as a new process would write it, and how many templates that compiled."""
     environment = _Counting(folder)
     return environment.get_template("link.j2").render(), environment.compiled
+
+
+def test_templates_leave_escaping_to_the_one_place_that_does_it() -> None:
+    text = "<link name='a&b'/>"
+    template = _environment().from_string(
+        "{% macro twice(one) %}{{ one }}{{ one }}{% endmacro %}{{ twice(text) }}{{ xml }}"
+    )
+    assert template.render(text=text, xml=Xml(text)) == 2 * "&lt;link name='a&amp;b'/&gt;" + text
+    python = _environment().compile("{{ robot.name }}", raw=True)
+    assert "environment.finalize(environment.getattr(" in python
+    assert "escape(" not in python
 
 
 def test_a_template_is_compiled_once_for_all_processes(tmp_path: Path) -> None:

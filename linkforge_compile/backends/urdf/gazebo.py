@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from linkforge_compile.backends.element import attributes, attributes_at, elements
+from linkforge_compile.backends.marks import is_recording
 from linkforge_compile.backends.markup import Xml, placed, spelled
 from linkforge_compile.backends.raw import parameter_elements, raw_elements
 from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS
@@ -69,6 +70,8 @@ def plugin_view(plugin: GazeboPlugin) -> PluginView:
 
 
 def _properties(block: GazeboElement) -> Xml:
+    if not is_recording():
+        return parameter_elements(block.properties)
     # Tags of Gazebo that are keys of the language stand in the block itself, others in its `properties`.
     own = block.source.node if block.source else None
     return Xml(
