@@ -21,7 +21,7 @@ from linkforge_compile.expressions import grammar, operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.lowering import mesh_solids
 from linkforge_compile.modules import includes, patterns
-from linkforge_compile.modules.expand import MAX_DEPTH
+from linkforge_compile.modules.expansion import MAX_DEPTH
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import definitions
 from linkforge_compile.schema.repetition import LONG_FORM, WORDS

@@ -25,7 +25,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch_ros.parameter_descriptions import ParameterValue
 
 from linkforge_compile.modules import XACRO
-from linkforge_compile.pipeline import CompileError, ListedParameter, Packages, Told, compile_file, parameters_of
+from linkforge_compile.pipeline import CompileError, Packages, Told, compile_file, parameters_of
 from linkforge_compile.stamps import Stamps
 
 if TYPE_CHECKING:
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
     from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
+    from linkforge_compile.modules.listing import ListedParameter
 
     Asked: TypeAlias = tuple[str | None, Mapping[str, Told]]
     Words: TypeAlias = str | Substitution | Sequence[str | Substitution]

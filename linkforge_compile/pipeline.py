@@ -20,10 +20,7 @@ from linkforge_compile.modules import (
     XACRO,
     Arguments,
     Instance,
-    ListedParameter,
-    Listing,
     Loader,
-    Plain,
     SpecFile,
     Told,
     Unset,
@@ -32,8 +29,6 @@ from linkforge_compile.modules import (
     arguments_from_told,
     arguments_from_values,
     expand,
-    list_parameters,
-    variants_of,
 )
 from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.stack import with_room
@@ -44,14 +39,16 @@ if TYPE_CHECKING:
     from linkforge_compile.core import Robot
     from linkforge_compile.core.resolver import FileSystemResolver
 
+    # Types that whoever lists the parameters of a spec asks this room for.
+    from linkforge_compile.modules.listing import ListedParameter as ListedParameter  # noqa: PLC0414
+    from linkforge_compile.modules.listing import Listing as Listing  # noqa: PLC0414
+    from linkforge_compile.modules.listing import Plain as Plain  # noqa: PLC0414
+
 __all__ = [
     "Compilation",
     "CompileError",
-    "ListedParameter",
-    "Listing",
     "Packages",
     "Parameters",
-    "Plain",
     "Settings",
     "Told",
     "check_file",
@@ -197,6 +194,8 @@ def _variants(path: Path, settings: Settings) -> Iterable[str]:
     """Return the names of a spec's variants, none where it cannot be read: then its check says so."""
     if path.suffix.lower() == XACRO:
         return ()
+    from linkforge_compile.modules.variants import variants_of
+
     try:
         spec = settings.loader(path).open(path, Diagnostics())
     except BeyondLimitError:
@@ -211,6 +210,8 @@ def parameters_of(
 
     Those of a xacro file are the arguments that it and what it includes declare; none is declared by a URDF.
     """
+    from linkforge_compile.modules.listing import list_parameters
+
     sink, loader = Diagnostics(), Settings(packages=packages, allow_outside=allow_outside).loader(Path(path))
     listing = None
     try:

@@ -14,14 +14,12 @@ from linkforge_compile.lowering import lower
 from linkforge_compile.modules import (
     Arguments,
     Instance,
-    ListedParameter,
     Loader,
     Unset,
     expand,
-    list_parameters,
-    list_used,
 )
-from linkforge_compile.modules.module_entry import joint_name_of
+from linkforge_compile.modules.assembly import joint_name_of
+from linkforge_compile.modules.listing import ListedParameter, list_parameters, list_used
 from linkforge_compile.roots import Roots
 from linkforge_compile.stack import with_room
 from linkforge_compile.syntax import YamlEntry, YamlMap

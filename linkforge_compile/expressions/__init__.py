@@ -3,7 +3,7 @@
 from linkforge_compile.expressions.evaluate import evaluate, handed_on
 from linkforge_compile.expressions.forgotten import as_one_expression, forgotten_expression
 from linkforge_compile.expressions.functions import RESERVED_NAMES
-from linkforge_compile.expressions.parse import has_expression, parse_template
+from linkforge_compile.expressions.parse import parse_template
 from linkforge_compile.expressions.scope import FileFunction, Lazy, Scope
 from linkforge_compile.expressions.template import Expression, Template
 from linkforge_compile.expressions.types import FAULT, Fault, PathText, Value, as_text, kind_name, seen_from_compiled
@@ -24,7 +24,6 @@ __all__ = [
     "evaluate",
     "forgotten_expression",
     "handed_on",
-    "has_expression",
     "kind_name",
     "parse_template",
     "seen_from_compiled",

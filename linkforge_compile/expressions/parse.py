@@ -23,11 +23,6 @@ _BRACKETS_AND_QUOTES = re.compile(rf"{_STRING}|['\"()]", re.DOTALL)
 _STRINGS_AND_SPACES = re.compile(rf"{_STRING}|\s", re.DOTALL)
 
 
-def has_expression(text: str) -> bool:
-    """Whether text must go through `parse_template`: it holds an expression, or `$$(` for a literal `$(`."""
-    return "$(" in text
-
-
 def parse_template(text: str, span: Span, sink: Diagnostics) -> Template | None:
     """Read the text of the scalar at `span`; None where an expression in it is at fault, which is reported."""
     place = TextPlace.of(text, span)

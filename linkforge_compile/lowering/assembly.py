@@ -23,8 +23,7 @@ from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.lowering.module_joint import ModuleJoint, lower_module_joint, module_fields
 from linkforge_compile.lowering.mount import handed_on, hang_on_world, hung_by, only_mount
 from linkforge_compile.lowering.positions import SAY_POSITIONS, judge_positions_elsewhere
-from linkforge_compile.modules.assembly import Instance
-from linkforge_compile.modules.module_entry import joint_name_of
+from linkforge_compile.modules.assembly import Instance, joint_name_of
 from linkforge_compile.source import SourceFile, SourceRef
 
 if TYPE_CHECKING:

@@ -9,8 +9,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.model import JOINT_WITHOUT_PARENT
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.joint import Ends, joint_between
-from linkforge_compile.modules.assembly import Instance
-from linkforge_compile.modules.module_entry import joint_name_of
+from linkforge_compile.modules.assembly import Instance, joint_name_of
 from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
 
 if TYPE_CHECKING:

@@ -3,26 +3,21 @@
 from linkforge_compile.modules.arguments import (
     Arguments,
     Told,
+    Unset,
     arguments_from_text,
     arguments_from_told,
     arguments_from_values,
 )
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.modules.expand import expand
-from linkforge_compile.modules.given import Unset
-from linkforge_compile.modules.listing import ListedParameter, Listing, Plain, list_parameters, list_used
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.uses import XACRO
-from linkforge_compile.modules.variants import variants_of
 
 __all__ = [
     "XACRO",
     "Arguments",
     "Instance",
-    "ListedParameter",
-    "Listing",
     "Loader",
-    "Plain",
     "SpecFile",
     "Told",
     "Unset",
@@ -31,7 +26,4 @@ __all__ = [
     "arguments_from_told",
     "arguments_from_values",
     "expand",
-    "list_parameters",
-    "list_used",
-    "variants_of",
 ]

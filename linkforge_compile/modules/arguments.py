@@ -5,20 +5,29 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
-from numbers import Real
+from enum import Enum
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE
-from linkforge_compile.expressions import Value
 from linkforge_compile.frozen import dataclass
-from linkforge_compile.modules.values import node_of
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlNode, YamlScalar, scalar_value
 from linkforge_compile.units import Quantity
 
+if TYPE_CHECKING:
+    from linkforge_compile.expressions import Value
+
 COMMAND_LINE = "<command line>"
+
+
+class Unset(Enum):
+    """What it is when nothing sets a required parameter of the compiled file."""
+
+    ERROR = "error"
+    NOTE = "note"
+    """Told once for all of them; what depends on them is not judged."""
 
 
 class Told(NamedTuple):
@@ -86,6 +95,10 @@ def arguments_from_told(values: Mapping[str, Told]) -> Arguments:
 
 def arguments_from_values(values: Mapping[str, object]) -> Arguments:
     """Take Python values: text is read as on the command line, None sets nothing; TypeError for what no spec says."""
+    if not values:
+        return Arguments(folder=Path(), as_text=True)
+    from linkforge_compile.modules.values import node_of
+
     entries: dict[str, YamlEntry] = {}
     for name, given in values.items():
         if not isinstance(name, str):
@@ -119,6 +132,8 @@ def _spec_value(name: str, given: object) -> Value:
         return given
     if isinstance(given, os.PathLike):
         return str(given)
+    from numbers import Real
+
     if isinstance(given, Real):  # numpy's, among others
         return float(given)
     if isinstance(given, Mapping):

@@ -12,7 +12,8 @@ from linkforge_compile.diagnostics import Removed
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.mesh_files import FindMesh, no_mesh
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.syntax.nodes import YamlMap
+from linkforge_compile.source.ref import Located
+from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
 
 
 class NameReference(NamedTuple):
@@ -68,3 +69,10 @@ class Instance:
         """The files that are used more than once, by this use and those below it."""
         uses = Counter(use.tree.span.file for use in self.with_modules if use.tree)
         return frozenset(file for file, count in uses.items() if count > 1)
+
+
+def joint_name_of(module: str, fields: Located) -> str:
+    """Return what an entry of `modules` calls the joint that it hangs by, whether it is a name or not."""
+    said = fields.child("joint")
+    said = said.child("name") if isinstance(said, YamlMap) else said
+    return said.text if isinstance(said, YamlScalar) and said.value is not None else f"{module}_joint"

@@ -17,12 +17,12 @@ from linkforge_compile.diagnostics.codes.repetition import (
     LONG_FORM,
     RESERVED_KEY,
 )
-from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression, has_expression
+from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression
 from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.values import describe
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import Shape
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 
 if TYPE_CHECKING:

@@ -20,11 +20,11 @@ from linkforge_compile.expressions import (
     Value,
     as_text,
     evaluate,
-    has_expression,
     kind_name,
     parse_template,
 )
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.modules.changing import Changing
 from linkforge_compile.modules.computed import judge_computed
 from linkforge_compile.modules.conditions import occurrences, without_words
 from linkforge_compile.modules.disabled import Disabled
@@ -34,21 +34,21 @@ from linkforge_compile.modules.values import node_of, passed_on, plain_value, si
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.source import ComputedSpan, SourceFile, Span
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.nodes import fault_of
 
 MAX_COMPUTED_DEPTH = 100
 """How deep the lists and maps of one value may lie in one another: every later stage walks them by recursion."""
 
 
-class Expressions:
+class Expressions(Changing):
     """What all uses of all files of one compile share: each expression parsed once, and what they take counted."""
 
     def __init__(self, budget: Budget) -> None:
+        super().__init__()
         self.budget = budget
         self._templates: dict[YamlScalar, Template | None] = {}
         self._live: dict[YamlList | YamlMap, bool] = {}
-        self._changing: dict[YamlList | YamlMap, bool] = {}
         self._sizes: dict[YamlList | YamlMap, tuple[int, int]] = {}
 
     def template(self, scalar: YamlScalar, sink: Diagnostics) -> Template | None:
@@ -69,26 +69,6 @@ class Expressions:
             else:
                 self._live[node] = any(has_expression(entry.name) or self.are_in(entry.value) for entry in node)
         return self._live[node]
-
-    def change(self, node: YamlNode) -> bool:
-        """Whether a node or anything in it, keys too, holds an expression or a word of repetition."""
-        if isinstance(node, YamlScalar):
-            return has_expression(node.text)
-        if isinstance(node, YamlFault):
-            return False
-        changing = self._changing.get(node)
-        if changing is None:
-            changing = any(map(self.change, node.items)) if isinstance(node, YamlList) else self._changes_in(node)
-            self._changing[node] = changing
-        return changing
-
-    def _changes_in(self, node: YamlMap) -> bool:
-        for name, entry in node.entries.items():
-            value = entry.value
-            inside = has_expression(value.text) if isinstance(value, YamlScalar) else self.change(value)
-            if inside or name in WORDS or has_expression(name):
-                return True
-        return False
 
     def size(self, node: YamlNode) -> tuple[int, int]:
         """Return how many nodes a node is, tags of raw XML among them, and how many characters its scalars have."""

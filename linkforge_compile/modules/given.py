@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Container, Sequence
 from dataclasses import replace
-from enum import Enum
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,7 +15,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_WITHOUT_TYPE,
     UNKNOWN_PARAMETER,
 )
-from linkforge_compile.expressions import FAULT, Fault, Value, has_expression
+from linkforge_compile.expressions import FAULT, Fault, Value
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import COMMAND_LINE, Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
@@ -31,21 +30,13 @@ from linkforge_compile.modules.values import plain_value
 from linkforge_compile.modules.variants import Variants
 from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, read
+from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read
 
 _SHOWN = 8
 """How many parameters, choices and variants a message shows."""
 
 _SHOWN_TEXT = 60
 """How long choices may be that a message shows."""
-
-
-class Unset(Enum):
-    """What it is when nothing sets a required parameter of the compiled file."""
-
-    ERROR = "error"
-    NOTE = "note"
-    """Told once for all of them; what depends on them is not judged."""
 
 
 @dataclass(frozen=True, slots=True)

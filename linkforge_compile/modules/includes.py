@@ -18,10 +18,18 @@ from linkforge_compile.diagnostics.codes.files import (
     SAID_BY_MAIN_FILE,
     TOO_MANY_INCLUDES,
 )
-from linkforge_compile.expressions import has_expression
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.source import SourceFile
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
+from linkforge_compile.syntax import (
+    YamlEntry,
+    YamlFault,
+    YamlList,
+    YamlMap,
+    YamlNode,
+    YamlScalar,
+    has_expression,
+    is_null,
+)
 
 MAX_DEPTH = 20
 MAX_INCLUDES = 200

@@ -8,9 +8,9 @@ from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expressions import FAULT, Value
-from linkforge_compile.modules.arguments import Arguments
+from linkforge_compile.modules.arguments import Arguments, Unset
 from linkforge_compile.modules.evaluate_tree import Expressions
-from linkforge_compile.modules.given import Given, Unset, declared_kind
+from linkforge_compile.modules.given import Given, declared_kind
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
 from linkforge_compile.modules.parameters import Declaration, parameter_of

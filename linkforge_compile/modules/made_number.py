@@ -13,10 +13,9 @@ from linkforge_compile.expressions import (
     Value,
     as_one_expression,
     forgotten_expression,
-    has_expression,
 )
 from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlNode, YamlScalar, scalar_value
+from linkforge_compile.syntax import YamlNode, YamlScalar, has_expression, scalar_value
 from linkforge_compile.units import UNITS, parse_quantity
 
 if TYPE_CHECKING:

@@ -14,7 +14,6 @@ from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.overrides import Override, refuse_empty
 from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.source import SourceRef, Span
-from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
 
@@ -73,13 +72,6 @@ def read_entry(entry: YamlEntry, tree: TreeEvaluator, folder: Path | None, trail
 def module_shape() -> Shape:
     """Return the shape of an entry of `modules`."""
     return shapes().under("modules").under("")
-
-
-def joint_name_of(module: str, fields: Located) -> str:
-    """Return what an entry of `modules` calls the joint that it hangs by, whether it is a name or not."""
-    said = fields.child("joint")
-    said = said.child("name") if isinstance(said, YamlMap) else said
-    return said.text if isinstance(said, YamlScalar) and said.value is not None else f"{module}_joint"
 
 
 def with_fields(entry: ModuleEntry, fields: YamlMap, sink: Diagnostics) -> ModuleEntry:

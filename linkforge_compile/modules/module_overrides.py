@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from linkforge_compile.diagnostics import Removed
 from linkforge_compile.frozen import dataclass
-from linkforge_compile.modules.module_entry import ModuleEntry, joint_name_of, with_fields
+from linkforge_compile.modules.assembly import joint_name_of
+from linkforge_compile.modules.module_entry import ModuleEntry, with_fields
 from linkforge_compile.modules.overrides import Override
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 

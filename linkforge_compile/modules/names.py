@@ -19,9 +19,10 @@ from linkforge_compile.diagnostics.codes.modules import (
 )
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Lazy, PathText, Scope, Value
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.modules.arguments import Unset
 from linkforge_compile.modules.data import data_of
 from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
-from linkforge_compile.modules.given import Given, Unset, parameter_value, tell_unset
+from linkforge_compile.modules.given import Given, parameter_value, tell_unset
 from linkforge_compile.modules.kinds import KINDS
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.origins import Setting

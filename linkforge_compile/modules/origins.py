@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expressions import FAULT, forgotten_expression, handed_on, has_expression
+from linkforge_compile.expressions import FAULT, forgotten_expression, handed_on
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.values import describe
 from linkforge_compile.source import ComputedSpan, Key, Origin
-from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 
 if TYPE_CHECKING:
     from linkforge_compile.modules.evaluate_tree import TreeEvaluator

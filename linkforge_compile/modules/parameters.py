@@ -20,13 +20,13 @@ from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_TOO_SMALL,
     UNFIT_CONSTRAINT,
 )
-from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_expression, has_expression
+from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_expression
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.kinds import KINDS, Kind
 from linkforge_compile.modules.values import describe
 from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, unit_text
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Note
-from linkforge_compile.expressions import PathText
 from linkforge_compile.modules.paths import as_typed
 from linkforge_compile.source import Span
 from linkforge_compile.source.ref import Located
@@ -20,19 +19,25 @@ def written_place(path: Located) -> Span:
     """
     where = path.span
     origin = where.origin
-    is_moved = isinstance(path, YamlScalar) and isinstance(path.value, PathText)
-    if origin is None or origin.is_data or is_moved or _is_foreign(where):
+    if origin is None or origin.is_data or _is_foreign(where):
         return where
-    return origin.span
+    return where if isinstance(path, YamlScalar) and _is_moved(path.value) else origin.span
 
 
 def looked_for(path: Path, text: str, where: Span) -> Note:
     """Return where a file was looked for that a text at a place names, and why there if another file wrote it."""
     is_relative = "://" not in text and not Path(text).is_absolute()
-    if not is_relative or isinstance(text, PathText) or not _is_foreign(where):
+    if not is_relative or not _is_foreign(where) or _is_moved(text):
         return Note(f"looked for it at {as_typed(path)}")
     why = "a path in text starts at the file that uses it; declare 'type: file' for one that starts where it is written"
     return Note(f"looked for it at {as_typed(path)}: {why}")
+
+
+def _is_moved(value: object) -> bool:
+    """Whether an expression has handed it on as a path that starts where it is used."""
+    from linkforge_compile.expressions import PathText  # where an expression hands on, they are imported already
+
+    return isinstance(value, PathText)
 
 
 def _is_foreign(where: Span) -> bool:

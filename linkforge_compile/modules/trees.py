@@ -11,7 +11,6 @@ from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
-from linkforge_compile.modules.places import judge_places
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, read
@@ -101,7 +100,12 @@ def tree_of(source: SourceFile, sink: Diagnostics, budget: Budget) -> YamlMap | 
     tree = read(source, watched, budget)
     if tree is None:
         return None
-    whole = judge_places(validate(tree, watched, is_included=source.included is not None), watched)
+    whole = validate(tree, watched, is_included=source.included is not None)
+    # What is judged by its place has a dollar sign, written as such or escaped.
+    if "$" in source.text or "\\" in source.text:
+        from linkforge_compile.modules.places import judge_places
+
+        whole = judge_places(whole, watched)
     if watched.is_silent:
         _faultless.keep(_Read(source, whole, before - budget.left(Limit.VALUES)))
     return whole

@@ -8,7 +8,6 @@ from pathlib import Path
 from linkforge_compile.bytecode import kept
 from linkforge_compile.resources import schemas_folder
 from linkforge_compile.schema.json_types import Json, Schema, mapping, reference
-from linkforge_compile.schema.patches import add_patches
 from linkforge_compile.schema.repetition import add_repetition
 
 ROOT = "robot"
@@ -47,6 +46,9 @@ def definitions() -> dict[str, Schema]:
 @cache
 def definitions_with_patches() -> dict[str, Schema]:
     """Return all definitions and the patch forms that `override` and `defaults` take, as `link_patch`."""
+    # Asked for by who makes the whole anew, and by editors.
+    from linkforge_compile.schema.patches import add_patches
+
     return add_patches(definitions(), ROOT)
 
 

@@ -1,27 +1,20 @@
-"""Judges the shape of a tree by the schema, tells all faults, and takes what is faulty out."""
+"""Judges the shape of a tree by the schema: what is right goes on as it is; what is faulty is told and taken out."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from functools import cache
-from itertools import islice
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
-from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, too_many_errors
-from linkforge_compile.schema.explain import Judgement, explain
+from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.schema.fit import fit_of
-from linkforge_compile.schema.json_types import Schema
-from linkforge_compile.schema.meant import Path
 from linkforge_compile.schema.registry import linked
-from linkforge_compile.schema.shapes import FREE, Shape, shape_of
-from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, fault_of
+from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity
 
 if TYPE_CHECKING:
-    from jsonschema import Draft7Validator
-    from jsonschema.exceptions import ValidationError
+    from linkforge_compile.schema.shapes import Shape
 
-_HEADER = ("linkforge", "name")
+HEADER = ("linkforge", "name")
+"""The keys that every file says; an included one says the first only."""
 
 
 def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> YamlMap:
@@ -34,11 +27,10 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     """
     if _is_right(tree, is_included):
         return tree
-    errors = (error for error in _errors(tree, is_included) if not _is_in_reserved_name(error))
-    found = (judgement for error in errors for judgement in explain(error, tree))
-    # Each is explained with all that is near it: of the hundred thousand faults of a hostile file, those that are told.
-    judgements = list(islice(found, MAX_TOLD + 1))
-    return _told(tree, judgements, sink)
+    # The words for faults, and jsonschema, which takes 110 ms to import, are needed for a faulty file only.
+    from linkforge_compile.schema.faults import without_faults
+
+    return without_faults(tree, sink, is_included=is_included)
 
 
 def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics) -> YamlNode:
@@ -49,64 +41,15 @@ def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics)
     written = _with_units(node)
     if fit_of(shape.schema).takes(written):
         return node
-    from jsonschema import Draft7Validator
+    from linkforge_compile.schema.faults import computed_without_faults
 
-    name = YamlScalar(key, key, node.span)
-    tree = YamlMap({key: YamlEntry(name, node)}, node.span)
-    shown = YamlMap({key: YamlEntry(name, written)}, node.span)
-    whole: Schema = {"type": "object", "properties": {key: shape.schema}}
-    errors = Draft7Validator(whole).iter_errors({key: _plain(shown.entries[key].value)})
-    judgements = [one for error in errors for one in explain(error, shown) if len(one.path) > 1]
-    return _told(tree, judgements, sink).entries[key].value
-
-
-def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> YamlMap:
-    """Report what was found; return the tree without what it is about."""
-    if not judgements:
-        return tree
-    from linkforge_compile.schema.missing_level import told_once
-
-    judgements = told_once(judgements, tree)
-    for judgement in sorted(judgements, key=lambda judgement: judgement.diagnostic.order):
-        sink.report(judgement.diagnostic)
-    if sum(1 + len(judgement.also) for judgement in judgements) > MAX_TOLD:
-        raise too_many_errors(judgements[-1].diagnostic.span)
-    return _pruned(tree, judgements)
+    return computed_without_faults(node, written, key, shape.schema, sink)
 
 
 def _is_right(tree: YamlMap, is_included: bool) -> bool:
     """Whether a file is certainly as the language says; jsonschema, which takes long, is asked of others only."""
-    said = ("linkforge",) if is_included else _HEADER
+    said = ("linkforge",) if is_included else HEADER
     return all(tree.get(name) is not None for name in said) and fit_of(linked()).takes(tree)
-
-
-@cache
-def _validator(is_included: bool) -> Draft7Validator:
-    # 110 ms to import: only where there is something to tell.
-    from jsonschema import Draft7Validator
-
-    return Draft7Validator(linked() if is_included else {**linked(), "required": [*_HEADER]})
-
-
-def _errors(tree: YamlMap, is_included: bool) -> Iterator[ValidationError]:
-    data = {entry.name: _plain(entry.value) for entry in tree}
-    for name in _HEADER:
-        if tree.get(name) is None:
-            data.pop(name, None)
-    return _validator(is_included).iter_errors(data)
-
-
-def _is_in_reserved_name(error: ValidationError) -> bool:
-    """Whether an error lies in what has `for` as its name: whoever reads the words tells of that, and it is all."""
-    shape = shape_of(linked())
-    for step in error.absolute_path:
-        if isinstance(step, int):
-            shape = shape.item or FREE
-        elif shape.reserves(step):
-            return True
-        else:
-            shape = shape.under(step)
-    return False
 
 
 def _with_units(node: YamlNode) -> YamlNode:
@@ -119,42 +62,3 @@ def _with_units(node: YamlNode) -> YamlNode:
         case YamlScalar(value=Quantity() as quantity):
             return YamlScalar(str(quantity), str(quantity), node.span)
     return node
-
-
-_FAULTY: Final = object()
-"""Stands for a YamlFault in plain data: no kind of value, so every schema errs on it, and `explain` passes over it."""
-
-
-def _plain(node: YamlNode) -> object:
-    match node:
-        case YamlMap():
-            return {entry.name: _plain(entry.value) for entry in node}
-        case YamlList():
-            return [_plain(item) for item in node]
-        case YamlScalar():
-            return node.value
-        case YamlFault():
-            return _FAULTY
-
-
-def _pruned(tree: YamlMap, judgements: Iterable[Judgement]) -> YamlMap:
-    faulty = {path for judgement in judgements for path in (judgement.path, *judgement.also)}
-    touched = {path[:length] for path in faulty for length in range(len(path) + 1)}
-
-    def pruned(node: YamlNode, path: Path) -> YamlNode:
-        if path in faulty:
-            return fault_of(node)
-        if path not in touched:
-            return node
-        if isinstance(node, YamlList):
-            return YamlList(tuple(pruned(item, (*path, i)) for i, item in enumerate(node)), node.span)
-        return pruned_map(node, path) if isinstance(node, YamlMap) else node
-
-    def pruned_map(node: YamlMap, path: Path) -> YamlMap:
-        entries = {entry.name: YamlEntry(entry.key, pruned(entry.value, (*path, entry.name))) for entry in node}
-        return YamlMap(entries, node.span)
-
-    if () in faulty:
-        faulty |= {(entry.name,) for entry in tree if entry.name not in _HEADER}
-        touched |= faulty
-    return pruned_map(tree, ())

@@ -12,7 +12,7 @@ from linkforge_compile.syntax.nodes import (
     is_null,
 )
 from linkforge_compile.syntax.reader import Tags, read, read_data
-from linkforge_compile.syntax.scalars import scalar_value, word_value
+from linkforge_compile.syntax.scalars import has_expression, scalar_value, word_value
 
 __all__ = [
     "ScalarValue",
@@ -23,6 +23,7 @@ __all__ = [
     "YamlMap",
     "YamlNode",
     "YamlScalar",
+    "has_expression",
     "ignore_comments",
     "is_null",
     "read",

@@ -54,6 +54,11 @@ def is_overflow(text: str, value: ScalarValue) -> bool:
     return isinstance(value, float) and math.isinf(value) and text not in _WORDS
 
 
+def has_expression(text: str) -> bool:
+    """Whether text holds an expression, `$(...)`, or `$$(` for a literal `$(`."""
+    return "$(" in text
+
+
 def is_cut_expression(text: str) -> bool:
     """Whether a plain scalar holds `$(` without its `)`: in a flow list a comma or a bracket ended it early."""
     start = text.find("$(")

@@ -28,8 +28,23 @@ UNSAID = {
     "core.models.sensor",
     "core.models.srdf",
     "core.models.transmission",
+    "expressions",
+    "importers",
+    "modules.evaluate_tree",
+    "modules.expansion",
+    "modules.listing",
+    "modules.names",
+    "modules.overrides",
+    "modules.places",
+    "modules.variants",
+    "modules.xacro",
+    "schema.explain",
+    "schema.faults",
+    "schema.meant",
+    "schema.patches",
+    "schema.shapes",
 }
-"""What serves something that PLAIN does not say."""
+"""Rooms and modules that serve something which PLAIN does not say, or a fault that it does not have."""
 
 
 def modules_after(*words: str) -> set[str]:

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkforge_compile.expressions import FAULT, Value, has_expression
+from linkforge_compile.expressions import FAULT, Value
+from linkforge_compile.syntax import has_expression
 from linkforge_compile.units import Dimension, Quantity
 from tests.expressions.compute import compute
 

@@ -7,7 +7,7 @@ import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.modules import Instance, Loader, Unset, arguments_from_text, expand
-from linkforge_compile.modules.expand import MAX_DEPTH
+from linkforge_compile.modules.expansion import MAX_DEPTH
 from tests.modules.assembling import metadata_of, plain, write
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
-from linkforge_compile.schema import validate, validator
+from linkforge_compile.schema import faults, validate, validator
 from linkforge_compile.schema.fit import Fit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlList, YamlMap, YamlScalar, read
@@ -35,7 +35,7 @@ def told_by_jsonschema(tree: YamlMap, monkeypatch: pytest.MonkeyPatch, *, is_inc
     sink = Diagnostics()
     with monkeypatch.context() as patched:
         patched.setattr(validator, "_is_right", lambda *_: False)
-        patched.setattr(validator, "_is_in_reserved_name", lambda _: False)  # told by a later stage
+        patched.setattr(faults, "_is_in_reserved_name", lambda _: False)  # told by a later stage
         validate(tree, sink, is_included=is_included)
     return [str(diagnostic) for diagnostic in sink]
 
