@@ -49,7 +49,7 @@ def raw_seconds(parts: Iterable[Held]) -> Iterator[Diagnostic]:
 
 
 def _seconds_in(part: Part, where: SourceRef | None, fields: Mapping[str, str]) -> Iterator[Diagnostic]:
-    first = {tag: _place(where, field) for tag, field in fields.items() if _is_written(getattr(part, field))}
+    first = {tag: _place(where, field) for tag, field in fields.items() if _is_written(part, field, where)}
     for text, source, path in raw_texts(part, where):
         for tag in _tags_of(text):
             if tag not in fields:
@@ -61,7 +61,10 @@ def _seconds_in(part: Part, where: SourceRef | None, fields: Mapping[str, str]) 
             yield SECOND_OF_ONE.at(source, *path, tag=tag, notes=[Note("the first is here", place)] if place else [])
 
 
-def _is_written(value: object) -> bool:
+def _is_written(part: Part, field: str, where: SourceRef | None) -> bool:
+    value = getattr(part, field)
+    if isinstance(part, Joint) and where and where.at(field) == where.span:
+        return False  # what a joint lacks has a stand-in, and is told
     return value.is_written if isinstance(value, Transform) else value is not None
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sized
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -144,11 +145,13 @@ def _far_beyond(interface: Exported, joint: Joint, lowest: float, highest: float
     parameter, found = ("max", highest) if abs(highest) >= abs(lowest) else ("min", lowest)
     shown = f"{found:.6g}"
     if interface.name == "effort":
-        remedy = "correct one of them"
+        remedy = in_si = "correct one of them"
     elif units is _SLIDING:
         remedy = f"write '$({shown} / 1000)' if millimetres are meant"
+        in_si = f"write '{found / 1000:.6g}' if millimetres are meant"
     else:
         remedy = f"write '$(radians({shown}))' if degrees are meant"
+        in_si = f"write '{math.radians(found):.6g}' if degrees are meant"
     yield _at(interface, parameter).told(
         RANGE_FAR_BEYOND,
         interface=f"interface '{interface.name}'",
@@ -157,6 +160,7 @@ def _far_beyond(interface: Exported, joint: Joint, lowest: float, highest: float
         limit=f"{limit:.6g}",
         si=units[interface.name],
         remedy=remedy,
+        in_si=in_si,
     )
 
 

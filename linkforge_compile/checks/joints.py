@@ -182,8 +182,17 @@ def check_joint_speed(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         found, is_turning = f"{velocity:.6g}", joint.type == JointType.REVOLUTE
         also = f", {velocity / math.tau:.3g} turns a second" if is_turning else ""
         si, unit, units = ("rad/s", "deg/s", "degrees") if is_turning else ("m/s", "mm/s", "millimetres")
-        where = (joint.source, "limits", "velocity")
-        yield FAST_JOINT.at(*where, joint=joint.name, found=found, also=also, si=si, unit=unit, units=units)
+        meant = f"{math.radians(velocity) if is_turning else velocity / 1000:.6g}"
+        yield FAST_JOINT.at(
+            *(joint.source, "limits", "velocity"),
+            joint=joint.name,
+            found=found,
+            also=also,
+            si=si,
+            unit=unit,
+            units=units,
+            meant=meant,
+        )
 
 
 def check_soft_limits(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

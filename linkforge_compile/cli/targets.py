@@ -85,11 +85,11 @@ def imported_spec(robot: str, output: str | None) -> Path | None:
 
 
 def name_of(spec: str) -> str:
-    """Return what the files of a spec are named after: arm for arm.robot.yaml, and for arm.urdf.xacro."""
+    """Return what the files of a spec are named after: arm for arm.robot.yaml, arm.xml and arm.urdf.xacro."""
     if spec == "-":
         return "robot"
     name = Path(spec).name
-    for ending in (".yaml", ".yml", ".robot", ".xacro", ".urdf"):
+    for ending in (".yaml", ".yml", ".robot", ".xacro", ".xml", ".urdf"):
         name = name.removesuffix(ending)
     return name
 

@@ -72,6 +72,9 @@ class Diagnostic:
 class Code:
     """A kind of fault. `message` is its sentence, with the facts it needs as `{name}` fields.
 
+    `in_xml` is the sentence for a URDF, SRDF or xacro, whose author writes elements and not keys of the language;
+    empty where one suits all.
+
     Ids are never renumbered nor reused: people write them into ignore comments and CI settings.
     """
 
@@ -81,6 +84,7 @@ class Code:
     blame: Blame = Blame.USER
     is_of_a_name: bool = False
     """Whether it tells of a name that is declared nowhere: all who use the name have one cause."""
+    in_xml: str = ""
 
     @property
     def title(self) -> str:
@@ -106,11 +110,12 @@ class Code:
 
         `near` lists the names that would have been right: the one like the fact `name`, if any, is offered.
         """
-        message = on_one_line(self.message.format(**facts) + did_you_mean(str(facts.get("name", "")), near))
         span = where.at(*path) if isinstance(where, SourceRef) else where
         trail = where.trail_to(span) if isinstance(where, SourceRef) and span else ()
         changed = notes_of_changes(where.changes(*path), span) if isinstance(where, SourceRef) else ()
         span, moved = self._blamed(span) if span else (None, ())
+        sentence = self.in_xml if self.in_xml and span and span.file.is_xml else self.message
+        message = on_one_line(sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near))
         includes = [Note("included here", include) for include in (span.file.includes if span else ())]
         uses = [Note("used here", use) for use in trail]
         return Diagnostic(self, message, span, (*notes, *moved, *changed, *includes, *uses))

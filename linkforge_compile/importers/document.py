@@ -37,7 +37,8 @@ def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None
         sink.report(NOT_A_ROBOT.at(root.span, tag=root.tag))
         return None
     if xacro := next((child for child in root.children if child.tag.startswith("xacro:")), None):
-        sink.report(STILL_XACRO.at(xacro.span, tag=xacro.tag, name=posixpath.basename(file.name)))
+        name = posixpath.basename(file.name).removesuffix(".xml") if file.path else "NAME.urdf"
+        sink.report(STILL_XACRO.at(xacro.span, tag=xacro.tag, name=f"{name}.xacro"))
         return None
     if root.get("name") is None:
         sink.report(ROBOT_WITHOUT_NAME.at(root.span))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator
 from enum import StrEnum
 from typing import TypeVar
@@ -23,12 +22,20 @@ from linkforge_compile.diagnostics.codes.names import INVALID_NAME, NAME_TWICE
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.extra import extras_of
-from linkforge_compile.lowering.quantities import Bound, Measure, Refusal, doubt, found, si_number
+from linkforge_compile.lowering.quantities import Bound, Measure, Refusal, doubt, found, list_meant, si_number
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.syntax.xacro import xacro_facts
 from linkforge_compile.units import Dimension, number_text
+
+_NEEDED_IN_XML = {
+    "axis": """an <axis>; write '<axis xyz="0 0 1"/>'""",
+    "limits": """a <limit>; write '<limit lower="-1" upper="1" effort="50" velocity="1"/>'""",
+    "limits.effort": """an effort in its <limit>; write 'effort="50"'""",
+    "limits.velocity": """a velocity in its <limit>; write 'velocity="1"'""",
+}
+"""What a URDF lacks that has none of a required field, and how it says it; by the field."""
 
 T = TypeVar("T")
 Choice = TypeVar("Choice", bound=StrEnum)
@@ -222,14 +229,14 @@ class Fields:
             self.tell(number.code, node, near=number.near, field=field, **number.facts)
             return None
         if code := doubt(node, number, measure):
-            self.tell(code, node, field=field, found=number_text(number))
+            self.tell(code, node, field=field, found=number_text(number), thousandth=number_text(number / 1000))
         return number
 
     def numbers_at(self, node: YamlNode, field: str, measure: Measure, *counts: int) -> tuple[float, ...] | None:
         """Read a list of as many numbers as one of `counts` says."""
         expected = f"{' or '.join(map(str, counts))} numbers"
         if not isinstance(node, YamlList):
-            self.tell_kind(node, field, _list_meant(node, counts) or f"a list of {expected}")
+            self.tell_kind(node, field, list_meant(node, counts) or f"a list of {expected}")
             return None
         if any(isinstance(item, YamlFault) for item in node):
             return None
@@ -307,7 +314,8 @@ class Fields:
         node = self.node.get(key)
         if node is None and required:
             field = f"{self.path}.{key}" if self.path else key
-            self.tell_lack(MISSING_FIELD, owner=self.owner, field=field, key=key, example=required)
+            element = _NEEDED_IN_XML.get(field, f"a '{key}'")
+            self.tell_lack(MISSING_FIELD, owner=self.owner, field=field, key=key, example=required, element=element)
         return node
 
     def tell_kind(self, node: YamlNode, field: str, expected: str) -> None:
@@ -328,20 +336,6 @@ def _nodes_within(node: YamlNode) -> Iterator[YamlNode]:
                 yield from _nodes_within(item)
         case _:
             yield node
-
-
-_WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$])+")
-"""One of the numbers of a row that was written as one text: what holds no space, or an expression."""
-
-
-def _list_meant(node: YamlNode, counts: tuple[int, ...]) -> str | None:
-    """Return the list that a row of numbers in one text was meant for, to be put behind "takes"; None for no row."""
-    words = _WORD.findall((node.span.text or "").strip("'\"")) if isinstance(node, YamlScalar) else []
-    if len(words) not in counts or len(words) < 2:
-        return None
-    # A comma or bracket in an expression would end the item of the list.
-    items = [f'"{word}"' if any(mark in word for mark in ",[]{}") else word for word in words]
-    return f"a list such as [{', '.join(items)}]"
 
 
 def or_default(said: T | None, default: T) -> T:

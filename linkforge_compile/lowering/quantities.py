@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import field
 
@@ -173,3 +174,17 @@ def _no_number(node: YamlNode, measure: Measure) -> Refusal:
         hint = f"; write '{node.text.strip().removesuffix(unit).rstrip()} {meant.name}'"
         return Refusal(UNKNOWN_UNIT, {"expected": measure.words, "name": unit, "hint": hint})
     return Refusal(UNKNOWN_UNIT, {"expected": measure.words, "name": unit, "hint": ""}, known)
+
+
+_WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$])+")
+"""One of the numbers of a row that was written as one text: what holds no space, or an expression."""
+
+
+def list_meant(node: YamlNode, counts: tuple[int, ...]) -> str | None:
+    """Return the list that a row of numbers in one text was meant for, to be put behind "takes"; None for no row."""
+    words = _WORD.findall((node.span.text or "").strip("'\"")) if isinstance(node, YamlScalar) else []
+    if len(words) not in counts or len(words) < 2:
+        return None
+    # A comma or bracket in an expression would end the item of the list.
+    items = [f'"{word}"' if any(mark in word for mark in ",[]{}") else word for word in words]
+    return f"a list such as [{', '.join(items)}]"

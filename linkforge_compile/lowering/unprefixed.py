@@ -19,9 +19,6 @@ _RAW_VALUE = re.compile(r"""(?<![\w:.-])([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)')
 _NAMED_FOR_ITSELF = ("visual", "collision", "material")
 """Elements whose own name may well be that of their link."""
 
-_FORMATS_WITHOUT_EXPRESSIONS = (".urdf", ".srdf", ".xacro")
-
-
 _SAYS_TOPIC_OR_FRAME = re.compile(
     r"(?:topic|frame|namespace|remapping)(?:_?(?:name|id|prefix))?s?$|^collision$", re.IGNORECASE
 )
@@ -89,7 +86,7 @@ def warnings_under_a_prefix(passed: PassedOn, robot: Robot) -> Iterator[Diagnost
             if name not in names:
                 continue
             remedy = f"write '$({kind}('{name}'))'"
-            if _has_no_expressions(where):
+            if where.file.is_xml:
                 paths = paths or dict(_paths(passed.tree))
                 to_final = f" to '{passed.prefix}{name}'" if passed.prefix else ""
                 remedy = f"change it{to_final} by 'override: {_override(paths.get(where, ()))}' where this file is used"
@@ -147,7 +144,7 @@ def _topics_and_frames(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
         is_told = bool(_named_in(text, robot))
         # An argument of a xacro may have put it there.
         has_prefix = bool(passed.prefix) and passed.prefix in text
-        is_judged = passed.is_shared or _has_no_expressions(where)
+        is_judged = passed.is_shared or where.file.is_xml
         if is_judged and _names_topic_or_frame(key, text) and not (is_told or has_prefix):
             found.setdefault(text, where)
     if found:
@@ -158,10 +155,6 @@ def _topics_and_frames(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
 
 def _names_topic_or_frame(key: str, text: str) -> bool:
     return bool(_SAYS_TOPIC_OR_FRAME.search(key)) and not _IS_NO_NAME.fullmatch(text)
-
-
-def _has_no_expressions(where: Span) -> bool:
-    return where.file.name.lower().endswith(_FORMATS_WITHOUT_EXPRESSIONS)
 
 
 def _parameters(robot: Robot) -> Iterator[tuple[SourceRef | None, str, FreePart]]:

@@ -38,6 +38,13 @@ class SourceFile:
         """Return line `number`, counted from 1; empty behind the end of the file."""
         return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
 
+    @cached_property
+    def is_xml(self) -> bool:
+        """Whether it is a URDF, an SRDF or a xacro, whatever its name: its author knows no words of the language."""
+        from linkforge_compile.source.encoding import begins_xml
+
+        return begins_xml(self.text)
+
     @property
     def includes(self) -> tuple[Span, ...]:
         """Every `include` that led to this file, the last one first."""

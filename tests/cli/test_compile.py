@@ -79,6 +79,13 @@ def test_asking_for_srdf_without_a_semantic_part_is_told(pendulum: Path):
     assert [one["code"] for one in json.loads(run.stderr)["diagnostics"]] == ["LF7085"]
 
 
+def test_asking_for_the_srdf_of_a_urdf_is_told_in_its_words(tmp_path: Path):
+    (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
+    run = linkforge("compile", "arm.urdf", "--format", "srdf", cwd=tmp_path)
+    assert (run.returncode, run.stdout) == (1, "")
+    assert "arm.urdf:1:14: error: a URDF has no planning groups, so there is no SRDF to write of robot" in run.stderr
+
+
 @pytest.mark.parametrize("words", [("-o", "out.srdf"), ("-o", "out.xml", "--format", "srdf")])
 def test_one_file_takes_its_format_from_its_name_or_the_option(pendulum: Path, words: tuple[str, ...]):
     (pendulum / "swing.robot.yaml").write_text(PENDULUM + SEMANTIC)
@@ -121,7 +128,7 @@ def test_meshes_beside_the_spec_are_told_where_the_urdf_goes_elsewhere(pendulum:
     (pendulum / "rod.robot.yaml").write_text(f"linkforge: 1\nname: rod\nlinks:\n{mesh}")
     told = linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
     expected = (
-        "'meshes/rod.stl' leads nowhere from 'build', where the URDF goes, for it lies beside the spec; "
+        "'meshes/rod.stl' leads nowhere from 'build', where the URDF goes, for it lies beside this file; "
         "write 'package://NAME/PATH', or the URDF into '.' [LF7006]"
     )
     assert f"rod.robot.yaml:4:24: warning: {expected}" in told

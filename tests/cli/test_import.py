@@ -135,6 +135,18 @@ def test_a_urdf_comes_from_standard_input(tmp_path: Path):
     assert refused.stderr.startswith("<stdin>:1:")
 
 
+def test_the_xacro_on_standard_input_is_told_as_no_file_of_that_name(tmp_path: Path):
+    xacro = '<robot name="arm"><xacro:include filename="x"/></robot>'
+    run = linkforge("import", "-", cwd=tmp_path, stdin=xacro)
+    assert (run.returncode, run.stdout) == (1, "")
+    assert "it is expanded in a file named 'NAME.urdf.xacro'" in run.stderr
+
+
+def test_a_spec_is_named_after_an_xml_file_without_its_ending(tmp_path: Path):
+    (tmp_path / "base.xml").write_text(ARM.format(""))
+    assert linkforge("import", "base.xml", "-o", ".", cwd=tmp_path).stderr == "wrote base.robot.yaml\n"
+
+
 def test_an_output_called_by_a_dash_is_standard_output(arm, tmp_path: Path):
     run = linkforge("import", arm(), "-o", "-", cwd=tmp_path)
     assert (run.returncode, run.stdout.split("\n")[1], run.stderr) == (0, "name: arm", "")

@@ -406,7 +406,7 @@ def test_what_is_kept_raw_keeps_its_comments_and_is_told_of_its_instructions(tmp
 def test_what_is_kept_raw_for_one_reason_is_told_once_with_how_often(tmp_path: Path):
     told = imported_from("<link name='a'/>" + "\n<transmission/>" * 9, tmp_path)
     [one] = told.diagnostics
-    assert one.message == "<transmission> is kept as raw XML in 'extra': it has no 'name'"
+    assert one.message == "<transmission> is kept as raw XML: it has no 'name'"
     assert [(note.message, note.span.line) for note in one.notes] == [("and 8 more like this, the next one here", 3)]
 
 

@@ -26,13 +26,14 @@ TWO_MATERIALS = Code(
 MESH_BESIDE_THE_SPEC = Code(
     "LF7006",
     Severity.WARNING,
-    "'{path}' leads nowhere from '{folder}', where the URDF goes, for it lies beside the spec; "
+    "'{path}' leads nowhere from '{folder}', where the URDF goes, for it lies beside this file; "
     "write 'package://NAME/PATH', or the URDF into '{back}'",
 )
 UNDECLARED_PREFIX = Code(
     "LF7007",
     Severity.WARNING,
     "no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into the robot's 'extra_attributes'",
+    in_xml="no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into <robot>",
 )
 
 # LF714x: what stands twice in what is written
@@ -48,6 +49,8 @@ NO_SEMANTIC_PART = Code(
     "LF7085",
     Severity.ERROR,
     "robot '{robot}' has no 'semantic' part, so there is no SRDF to write; add one, or compile to URDF",
+    in_xml="a URDF has no planning groups, so there is no SRDF to write of robot '{robot}'; compile to URDF, or a spec "
+    "with 'use' of it and 'srdf'",
 )
 CHANGED_SINCE = Code(
     "LF7086", Severity.WARNING, "this file changed since {when}, so what is told of it may be off; compile it again"

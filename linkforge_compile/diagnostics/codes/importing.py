@@ -17,16 +17,15 @@ NO_CHARACTER_OF_A_SPEC = Code("LF8005", _E, "a spec cannot hold the character {c
 # LF801x: URDF
 NOT_A_ROBOT = Code("LF8011", _E, "expected <robot>, found <{tag}>")
 ROBOT_WITHOUT_NAME = Code("LF8012", _E, "the robot has no name; write <robot name='...'>")
-STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro's; it is expanded in a file named '{name}.xacro'")
+STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro's; it is expanded in a file named '{name}'")
 
 # LF802x: what comes in, but not as its own kind
-KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML in 'extra': {reason}")
+KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML: {reason}")
 
 ENDS_KEPT_RAW = Code(
     "LF8090",
     _W,
-    "lower is {lower} and upper is {upper}: they are kept as raw attributes in 'extra_attributes'; a lower limit is not"
-    " above its upper one",
+    "lower is {lower} and upper is {upper}: they are kept as raw attributes; a lower limit is not above its upper one",
 )
 
 # LF803x: xacro
@@ -50,6 +49,12 @@ ARGUMENTS_NOT_LISTED = Code("LF8061", Severity.NOTE, "the arguments that '{path}
 # LF813x: which file goes where
 URDF_FOR_SRDF = Code(
     "LF8132", _E, "this is a URDF, not an SRDF, for it has a <{tag}> of its own; give the robot's SRDF"
+)
+SRDF_FOR_URDF = Code(
+    "LF8145",
+    _E,
+    "this is an SRDF, not a URDF, for it has a <{tag}> and no <link>; give the robot's URDF, and this file as its "
+    "'srdf', in a 'use' or to 'linkforge import'",
 )
 SRDF_OF_ANOTHER = Code(
     "LF8154",

@@ -10,7 +10,9 @@ WRONG_KIND = Code("LF5001", _E, "{field} takes {expected}, found {found}", _KIND
 WRONG_DIMENSION = Code("LF5002", _E, "{field} takes {expected}, found {found}, which is {other}", _KIND)
 UNKNOWN_UNIT = Code("LF5003", _E, "{field} takes {expected}; there is no unit '{name}'{hint}", _KIND)
 NOT_FINITE = Code("LF5004", _E, "{field} must be a finite number, found {found}", _WRITER)
-MISSING_FIELD = Code("LF5005", _E, "{owner} has no '{field}'; write '{key}: {example}'", _KIND)
+MISSING_FIELD = Code(
+    "LF5005", _E, "{owner} has no '{field}'; write '{key}: {example}'", _KIND, in_xml="{owner} needs {element}"
+)
 OUT_OF_RANGE = Code("LF5006", _E, "{field} must be {bound}, found {found}", _WRITER)
 UNKNOWN_CHOICE = Code("LF5007", _E, "{field} is one of {choices}, found '{name}'", _WRITER)
 WRONG_COUNT = Code("LF5008", _E, "{field} takes {expected}, found {count}", _KIND)
@@ -20,7 +22,13 @@ WIDE_ANGLE = Code(
     "{field} is {found} radians, more than a whole turn; write '{found} deg' if degrees are meant",
     _WRITER,
 )
-LONG_LENGTH = Code("LF5010", _W, "{field} is {found} metres; write '{found} mm' if millimetres are meant", _WRITER)
+LONG_LENGTH = Code(
+    "LF5010",
+    _W,
+    "{field} is {found} metres; write '{found} mm' if millimetres are meant",
+    _WRITER,
+    in_xml="{field} is {found} metres; write '{thousandth}' if millimetres are meant",
+)
 REFUSED = Code("LF5011", _E, "{owner}: {reason}", _WRITER)
 
 # LF51xx: shapes, materials and inertials
@@ -97,7 +105,10 @@ IDLE_SOFT_LIMIT = Code(
     "LF5508", _W, "joint '{joint}' stops at its {side} limit {hard}, before soft_{side}_limit {soft}"
 )
 FAST_JOINT = Code(
-    "LF5585", _N, "joint '{joint}' is as fast as {found} {si}{also}; write '{found} {unit}' if {units} are meant"
+    "LF5585",
+    _N,
+    "joint '{joint}' is as fast as {found} {si}{also}; write '{found} {unit}' if {units} are meant",
+    in_xml="joint '{joint}' is as fast as {found} {si}{also}; write '{meant}' if {units} are meant",
 )
 MIMIC_STANDS_STILL = Code("LF5509", _W, "joint '{joint}' mimics '{leader}' with a multiplier of 0, so it stands still")
 MIMIC_OUTSIDE_LIMITS = Code("LF5575", _W, "joint '{joint}' goes {range}, but its leader '{leader}' drives it {found}")
@@ -131,7 +142,10 @@ VIRTUAL_NAME_TAKEN = Code(
 NO_ARM = Code("LF5616", _N, "no planning group holds parent link '{link}', so MoveIt knows no arm for it")
 GROUP_WITHOUT_JOINT = Code("LF5617", _W, "planning group '{group}' has no joint, so MoveIt leaves it out")
 ENABLED_ANYWAY = Code(
-    "LF5618", _N, "the pair of '{link1}' and '{link2}' is looked at anyway: neither is in 'no_default_collision_links'"
+    "LF5618",
+    _N,
+    "the pair of '{link1}' and '{link2}' is looked at anyway: neither is in 'no_default_collision_links'",
+    in_xml="the pair of '{link1}' and '{link2}' is looked at anyway: neither has a <disable_default_collisions>",
 )
 STATE_TAKES_OTHERS_ALONG = Code(
     "LF5680", _W, "state '{state}' takes over {joints} from another group, not in '{group}', and cannot set {them}"

@@ -42,7 +42,12 @@ OPEN_MESH = Code("LF6016", _E, "mesh '{path}' is not watertight: {reason}; close
 TWISTED_MESH = Code("LF6017", _E, "mesh '{path}' faces both ways: {reason}; make its normals consistent")
 INSIDE_OUT_MESH = Code("LF6018", _E, "mesh '{path}' is inside out: {reason}; flip its normals")
 FLAT_MESH = Code("LF6019", _E, "mesh '{path}' is no solid body: {reason}")
-WIDE_MESH = Code("LF6020", _W, "mesh '{path}' is {size} metres wide; write 'scale: 0.001' if it is in millimetres")
+WIDE_MESH = Code(
+    "LF6020",
+    _W,
+    "mesh '{path}' is {size} metres wide; write 'scale: 0.001' if it is in millimetres",
+    in_xml="mesh '{path}' is {size} metres wide; write 'scale=\"0.001 0.001 0.001\"' if it is in millimetres",
+)
 
 # LF602x, past the width: mesh files that are at hand
 MISSING_MESH = Code("LF6021", _W, "there is no mesh '{path}'")
@@ -88,12 +93,16 @@ BLOCK_OF_MERGED_JOINT = Code(
     "LF6040",
     _N,
     "Gazebo merges the links of fixed joint '{joint}' and drops this; say `preserveFixedJoint: true` in it",
+    in_xml="Gazebo merges the links of fixed joint '{joint}' and drops this; "
+    "say <preserveFixedJoint>true</preserveFixedJoint> in it",
 )
 MERGED_LINK_NAMED = Code(
     "LF6041",
     _N,
     "Gazebo merges '{link}' into '{parent}', so this plugin finds no such link; "
     "say `preserveFixedJoint: true` in the `gazebo` of joint '{joint}'",
+    in_xml="Gazebo merges '{link}' into '{parent}', so this plugin finds no such link; "
+    "say <preserveFixedJoint>true</preserveFixedJoint> in the <gazebo> of joint '{joint}'",
 )
 
 # LF605x: shapes to see and to touch
@@ -121,7 +130,11 @@ RANGE_FAR_BEYOND = Code(
     "LF6185",
     _W,
     "{interface} of joint '{joint}' has a range to {found}, far beyond its limit of {limit} {si}; {remedy}",
+    in_xml="{interface} of joint '{joint}' has a range to {found}, far beyond its limit of {limit} {si}; {in_si}",
 )
 NO_SIMULATOR_PLUGIN = Code(
-    "LF6113", _N, "'{plugin}' runs in Gazebo's plugin '{needed}', which this robot does not load; add it to 'gazebo'"
+    "LF6113",
+    _N,
+    "'{plugin}' runs in Gazebo's plugin '{needed}', which this robot does not load; add it to 'gazebo'",
+    in_xml="'{plugin}' runs in Gazebo's plugin '{needed}', which this robot does not load; add it in a <gazebo>",
 )

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.importing import SRDF_FOR_URDF
 from linkforge_compile.importers.comments import placed_comments
 from linkforge_compile.importers.document import Imported, Move, read_document
 from linkforge_compile.importers.draft import DeclinedError, Draft
@@ -22,6 +23,10 @@ from linkforge_compile.importers.xml import XmlElement
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
+_OF_SRDF = (
+    *("group", "group_state", "end_effector", "virtual_joint", "passive_joint", "disable_collisions"),
+    *("enable_collisions", "disable_default_collisions", "joint_property", "link_sphere_approximation"),
+)
 _VERSIONS_WITHOUT_QUATERNIONS = (None, "1.0")
 
 
@@ -35,11 +40,22 @@ def read_urdf(file: SourceFile, sink: Diagnostics, moved: Move | None = None) ->
     if document is None:
         return None
     root = document.root
+    if part := _part_of_srdf(root):
+        sink.report(SRDF_FOR_URDF.at(part.span, tag=part.tag))
+        return None
     draft = Draft(has_quaternions=_has_quaternions(root), shapes=_shapes_of(root))
     tree = _robot(Reading(draft, root))
     draft.bodies[root] = tree
     draft.tell(sink)
     return Imported(tree, placed_comments(document, draft, tree), (document,))
+
+
+def _part_of_srdf(root: XmlElement) -> XmlElement | None:
+    """Return what shows that a document is an SRDF, None where it may be a URDF."""
+    tags = [child.tag for child in root.children]
+    if "link" in tags or "joint" in tags:
+        return None
+    return next((child for child in root.children if child.tag in _OF_SRDF), None)
 
 
 def _has_quaternions(root: XmlElement) -> bool:

@@ -1,0 +1,18 @@
+"""Who checks a URDF, or uses one, is told what is wrong in the words of that file."""
+
+from linkforge_compile import compile_file
+from linkforge_compile.diagnostics.codes import REGISTER
+from tests.conftest import ROOT
+from tests.urdf_case import expected_in_xml
+from tests.yaml_case import told
+
+CASE = ROOT / "tests" / "cases" / "urdf_in_its_words"
+TOLD_ELSEWHERE = {"LF5005": "tests/cases/bad_urdf", "LF7085": "tests/cli/test_compile.py"}
+
+
+def test_what_has_words_of_its_own_for_xml_is_told_in_them_there():
+    found = told(compile_file(CASE / "cell.robot.yaml"))
+    files = [CASE / name for name in ("arm.urdf", "arm.srdf")]
+    assert found == {one for file in files for one in expected_in_xml(file.name, file.read_text("utf-8"))}
+    with_words = {code.id for code in REGISTER.values() if code.in_xml}
+    assert with_words == {one.code for one in found} | set(TOLD_ELSEWHERE)
