@@ -103,8 +103,18 @@ def _gaps(tree: YamlMap, lost: Iterable[str]) -> Gaps:
         return gaps_of(lost) | Gaps(prefixes=("",))
     modules = (entry.name for entry in tree if isinstance(entry.value, YamlFault) and "use" in entry.value.keys)
     brought = [f"{name}_$(…)" for name in modules]  # whatever names those have
+    # An entry that is indented stands among the keys of the one above.
+    sections = [node for name in _SECTIONS_OF_NAMES if isinstance(node := tree.get(name), YamlMap)]
+    inside = [name for section in sections for entry in section for name in names_at_fault(entry.value)]
     return gaps_of(
-        [*lost, *_without_mimic(tree.get("joints")), *names_at_fault(tree), *names_at_fault(semantic), *brought]
+        [
+            *lost,
+            *_without_mimic(tree.get("joints")),
+            *names_at_fault(tree),
+            *names_at_fault(semantic),
+            *brought,
+            *inside,
+        ]
     )
 
 

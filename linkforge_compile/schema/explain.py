@@ -142,8 +142,10 @@ def _thing_without_name(tree: YamlMap, path: Path) -> Judgement | None:
     for length, key in enumerate(path if "linkforge" in tree.entries else ()):
         entry = shape.under(str(key))
         if shape.has_names and _is_one_of(node, entry):
-            field, said = path[length - 1], next(iter(node))
-            seen = f"the keys of one; write '{field}: {{NAME: {{{said.name}: …}}}}'"
+            field, first = path[length - 1], next(iter(node))
+            said = next(one for one in node if one.name in entry.keys)
+            name = "NAME" if first is said else first.name
+            seen = f"the keys of one; write '{field}: {{{name}: {{{said.name}: …}}}}'"
             where = said.key.span
             return Judgement(WRONG_KIND.at(where, field=f"'{field}'", expected=shape.title, found=seen), path[:length])
         inner = node.child(key)
@@ -154,9 +156,10 @@ def _thing_without_name(tree: YamlMap, path: Path) -> Judgement | None:
 
 
 def _is_one_of(node: YamlMap, thing: Shape) -> bool:
-    """Whether a map has the keys of a thing, and values of which not all can be things."""
-    # The names first: of a hundred thousand things, the first tells.
-    has_keys = all(entry.name in thing.keys for entry in node)
+    """Whether a map has the keys of a thing, and values of which not all can be things; its name may be above."""
+    first = next(iter(node), None)
+    # The names first: of a hundred thousand things, the first ones tell.
+    has_keys = all(entry.name in thing.keys or (entry is first and is_null(entry.value)) for entry in node)
     return has_keys and not all(is_null(entry.value) or isinstance(entry.value, YamlMap) for entry in node)
 
 

@@ -12,7 +12,7 @@ from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
 from linkforge_compile.schema.repetition import has_names
 from linkforge_compile.schema.words import COMMON_KEYS, alternatives, shown
-from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode, YamlScalar, is_null
+from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, is_null
 
 _SHOWN_KEYS = 10
 """More keys than that help nobody who wrote another one."""
@@ -32,7 +32,9 @@ def unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
     unknown = (
         (before, entry)
         for before, entry in zip(chain((None,), node), node, strict=False)
-        if entry.name not in known and not any(re.search(pattern, entry.name) for pattern in patterns)
+        if entry.name not in known
+        and not isinstance(entry.value, YamlFault)
+        and not any(re.search(pattern, entry.name) for pattern in patterns)
     )
     together: dict[str, list[YamlEntry]] = {}
     for before, entry in islice(unknown, MAX_TOLD + 1):  # a hostile map has a hundred thousand

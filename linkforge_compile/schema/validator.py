@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.schema.fit import fit_of
 from linkforge_compile.schema.registry import linked
-from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.schema.shapes import shapes
+from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.units import Quantity
 
 if TYPE_CHECKING:
@@ -25,12 +26,13 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     misspelt is not told twice. What was YamlFault before is not judged.
     What is missing inside an entry, names, and the units of quantities are for later stages to judge.
     """
-    if _is_right(tree, is_included):
+    if _is_right(tree, is_included) and not _may_lack_a_line(tree):
         return tree
     # The words for faults, and jsonschema, which takes 110 ms to import, are needed for a faulty file only.
     from linkforge_compile.schema.faults import without_faults
+    from linkforge_compile.schema.section_lines import with_sections_restored
 
-    return without_faults(tree, sink, is_included=is_included)
+    return without_faults(with_sections_restored(tree, sink), sink, is_included=is_included)
 
 
 def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics) -> YamlNode:
@@ -50,6 +52,21 @@ def _is_right(tree: YamlMap, is_included: bool) -> bool:
     """Whether a file is certainly as the language says; jsonschema, which takes long, is asked of others only."""
     said = ("linkforge",) if is_included else HEADER
     return all(tree.get(name) is not None for name in said) and fit_of(linked()).takes(tree)
+
+
+def _may_lack_a_line(tree: YamlMap) -> bool:
+    """Whether a file may have lost the line of a section, though it is shaped as the language.
+
+    A line that is indented is an entry without a value, and a frame in the place of a joint has no child.
+    """
+    for node, shape in ((tree, shapes()), (tree.get("semantic"), shapes().under("semantic"))):
+        for section in node if isinstance(node, YamlMap) else ():
+            inside = section.value.entries if isinstance(section.value, YamlMap) else {}
+            if any(is_null(inside[name].value) for name in inside.keys() & shape.keys):
+                return True
+    joints = tree.get("joints")
+    last = [entry.value for entry in joints][-1:] if isinstance(joints, YamlMap) else []
+    return any(isinstance(said, YamlMap) and "child" not in said.entries for said in last)
 
 
 def _with_units(node: YamlNode) -> YamlNode:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
@@ -51,9 +51,13 @@ def _unique(entries: Sequence[YamlEntry], sink: Diagnostics, *, is_top: bool = F
     unique.clear()
     for entry in entries:
         if entry is not (kept := unique.setdefault(entry.name, entry)):
-            note = Note("first written here", kept.key.span)
-            sink.report(codes.DUPLICATE_KEY.at(entry.key.span, key=entry.name, notes=[note]))
             again.setdefault(entry.name, [kept]).append(entry)
+    begin = None if is_top else _begin_of_another(entries, again)
+    if begin is not None and (line := _tell_another(entries, begin, again, sink)):
+        unique[line.name] = YamlEntry(line.key, YamlFault(line.key.span))
+    for first, *others in again.values() if begin is None else ():
+        note = Note("first written here", first.key.span)
+        sink.report_all(codes.DUPLICATE_KEY.at(one.key.span, key=one.name, more="", notes=[note]) for one in others)
     for name, (first, *others) in again.items():
         value: YamlNode = YamlFault(first.value.span)
         maps = [one.value for one in (first, *others) if isinstance(one.value, YamlMap)]
@@ -61,6 +65,32 @@ def _unique(entries: Sequence[YamlEntry], sink: Diagnostics, *, is_top: bool = F
             value = YamlMap(_unique([entry for each in maps for entry in each], sink), first.value.span)
         unique[name] = YamlEntry(first.key, value)
     return unique
+
+
+def _begin_of_another(entries: Sequence[YamlEntry], again: Mapping[str, Sequence[YamlEntry]]) -> int | None:
+    """Return where the keys of a second entry begin, whose own line is not where it was; None where there is none.
+
+    Such keys are several, and from the first of them on none stands there for the first time and comes again.
+    """
+    seconds = {id(second) for _, second, *_ in again.values()}
+    begin = next((at for at, entry in enumerate(entries) if id(entry) in seconds), 0)
+    firsts = {id(first) for first, *_ in again.values()}
+    is_one = len(again) > 1 and all(len(each) == 2 for each in again.values())
+    return begin if is_one and not any(id(entry) in firsts for entry in entries[begin:]) else None
+
+
+def _tell_another(
+    entries: Sequence[YamlEntry], begin: int, again: Mapping[str, Sequence[YamlEntry]], sink: Diagnostics
+) -> YamlEntry | None:
+    """Tell of the keys of a second entry at the first of them; return the line with its name, if that stands above."""
+    first, before = entries[begin], entries[begin - 1]
+    note = Note("first written here", again[first.name][0].key.span)
+    others = [f"'{entry.name}'" for entry in entries[begin + 1 :] if entry.name in again]
+    more = f"as is {others[0]}" if len(others) == 1 else f"as are {len(others)} more below it"
+    line = before if is_null(before.value) and before.name not in again else None
+    cause = f"is '{line.name}' above it indented too far?" if line else "is a line with a name missing above it?"
+    sink.report(codes.DUPLICATE_KEY.at(first.key.span, key=first.name, more=f", {more}; {cause}", notes=[note]))
+    return line
 
 
 def _merged(entries: dict[str, YamlEntry], sink: Diagnostics) -> dict[str, YamlEntry]:

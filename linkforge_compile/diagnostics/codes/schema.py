@@ -14,6 +14,16 @@ MISSING_NAME = Code(
     "a robot needs a 'name'; a file for 'include' is checked with the one that includes it",
 )
 UNKNOWN_KEY = Code("LF2101", Severity.ERROR, "'{name}' is not a key of {owner}{hint}", _WRITER)
+SECTION_LINE_LOST = Code(
+    "LF2155",
+    Severity.ERROR,
+    "'{name}' stands in '{around}' and is written as one of '{section}'; write the line '{section}:' above it",
+)
+SECTION_LINE_INDENTED = Code(
+    "LF2156",
+    Severity.ERROR,
+    "'{name}' stands in '{around}', with all below it; write it as far to the left as '{around}'",
+)
 WRONG_KIND = Code("LF2201", Severity.ERROR, "{field} takes {expected}, found {found}", _KIND)
 UNKNOWN_WORD = Code("LF2202", Severity.ERROR, "{field} takes {expected}, found '{name}'{hint}", _WRITER)
 WRONG_LENGTH = Code("LF2203", Severity.ERROR, "{field} takes {expected}, found {found}", _KIND)

@@ -36,7 +36,7 @@ COMMENT_TAKES_BRACKET = Code(
 )
 BRACKET_TOO_MANY = Code("LF1076", Severity.ERROR, "one '{bracket}' too many: what it could close is closed already")
 
-DUPLICATE_KEY = Code("LF1101", Severity.ERROR, "the key '{key}' is written twice")
+DUPLICATE_KEY = Code("LF1101", Severity.ERROR, "the key '{key}' is written twice{more}")
 KEY_NOT_SCALAR = Code("LF1102", Severity.ERROR, "a key must be text, found {found}")
 TAG = Code("LF1103", Severity.ERROR, "YAML tags are not part of the language, found '{tag}'")
 UNKNOWN_ANCHOR = Code("LF1104", Severity.ERROR, "no anchor named '{name}' above")
