@@ -110,7 +110,9 @@ link_physics = st.builds(LinkPhysics, st.booleans(), mu=sizes)
 
 
 def links(named: Strategy = names) -> Strategy:
-    return st.builds(Link, named, maybe(inertials), link_physics, tuples_of(visuals), tuples_of(collisions), **extras)
+    orders = tuples_of(st.sampled_from(["visual", "collision"]), max_size=6)
+    shapes = tuples_of(visuals), tuples_of(collisions)
+    return st.builds(Link, named, maybe(inertials), link_physics, *shapes, shape_order=orders, **extras)
 
 
 limits = st.builds(

@@ -68,7 +68,7 @@ LANGUAGE: dict[type, Said] = {
     link.Link: Said(
         ("a link",),
         {"visuals": "visual", "collisions": "collision"},
-        {**KEY, "collisions_first": "whether `collision` stands before `visual`"},
+        KEY,
         frozenset({"gazebo"}),
     ),
     link.Visual: Said(("a visual",), {"geometry": SHAPES}),

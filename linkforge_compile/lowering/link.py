@@ -32,6 +32,7 @@ from linkforge_compile.lowering.geometry import lower_geometry
 from linkforge_compile.lowering.material import lower_visual_material
 from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_NEGATIVE, found
 from linkforge_compile.lowering.scope import FileScope
+from linkforge_compile.lowering.shape_order import lower_shape_order
 from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
@@ -62,7 +63,7 @@ def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
             physics,
             [visual for visual in visuals if visual],
             [collision for collision in collisions if collision],
-            collisions_first=_are_collisions_first(fields),
+            shape_order=lower_shape_order(fields, visuals, collisions),
             source=_source(fields),
             **outer_extras_of(fields),
         )
@@ -75,11 +76,6 @@ def _source(link: Fields) -> SourceRef:
     if lost is None:
         return link.ref
     return replace(link.ref, node=YamlMap({"visual": lost, "collision": lost, **link.node.entries}, link.node.span))
-
-
-def _are_collisions_first(link: Fields) -> bool:
-    shapes = [entry.name for entry in link.node if entry.name in ("visual", "collision")]
-    return shapes == ["collision", "visual"]
 
 
 def _physics(link: Fields) -> LinkPhysics:

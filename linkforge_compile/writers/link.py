@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Material
+from linkforge_compile.shape_order import COLLISION, VISUAL, as_said
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 from linkforge_compile.writers.geometry import written_geometry, written_origin
@@ -16,15 +17,21 @@ from linkforge_compile.writers.pen import Pen
 def written_link(pen: Pen, link: Link, materials: Mapping[str, Material], gazebo: YamlNode | None) -> YamlMap:
     """Return a link; `gazebo` is what a simulator is told about it beside its physics."""
     visuals = _one_or_list(pen, [_visual(pen, visual, materials) for visual in link.visuals])
-    shapes = {"visual": visuals, "collision": _collisions(pen, link)}
+    shapes = {VISUAL: visuals, COLLISION: _collisions(pen, link)}
+    kinds = [VISUAL if isinstance(shape, Visual) else COLLISION for shape in link.shapes]
     return pen.element(
         link,
         # Their order is that of the output.
-        **dict(reversed(shapes.items()) if link.collisions_first else shapes),
+        **dict(reversed(shapes.items()) if kinds[:1] == [COLLISION] else shapes),
+        shape_order=_shape_order(pen, as_said(kinds)),
         inertial=_inertial(pen, link.inertial) if link.inertial else None,
         physics=_physics(pen, link.physics),
         gazebo=gazebo,
     )
+
+
+def _shape_order(pen: Pen, said: str | Sequence[str] | None) -> YamlNode | None:
+    return pen.text(said) if said is None or isinstance(said, str) else pen.texts(said)
 
 
 def _visual(pen: Pen, visual: Visual, materials: Mapping[str, Material]) -> YamlNode:

@@ -55,6 +55,21 @@ def test_nan_and_infinity_are_refused(make, field):
         assert caught.value.field == (field,)
 
 
+def test_shapes_that_the_order_does_not_list_come_last_and_what_it_lists_too_much_is_none():
+    one, two, touch = Visual(BALL, name="one"), Visual(BALL, name="two"), Collision(BALL, name="touch")
+    link = Link("a", visuals=[one], collisions=[touch], shape_order=["collision", "collision"])
+    link.add_visual(two)
+    assert list(link.shapes) == [touch, one, two]
+    assert list(link.with_prefix("b_").shapes) == [shape.with_prefix("b_") for shape in link.shapes]
+
+
+def test_the_order_of_shapes_knows_two_words():
+    with pytest.raises(RobotValidationError) as caught:
+        Link("a", shape_order=["visual", "colision"])
+    assert caught.value.code is ValidationErrorCode.INVALID_VALUE
+    assert caught.value.field == ("shape_order",)
+
+
 def test_a_link_without_inertial_weighs_nothing():
     frame = Link("tool0")
     assert frame.mass == 0

@@ -17,7 +17,7 @@ EVERYWHERE = {"for", "when", "extra", "extra_attributes", "extra_inside"}
 GEOMETRY = ["box", "capsule", "cylinder", "mesh", "sphere"]
 JOINT_TYPES = ["continuous", "fixed", "floating", "planar", "prismatic", "revolute"]
 JOINT_KEYS = ["axis", "calibration", "child", "dynamics", "gazebo", "limits", "mimic", "origin", "parent"]
-LINK_KEYS = ["collision", "gazebo", "inertial", "physics", "visual"]
+LINK_KEYS = ["collision", "gazebo", "inertial", "physics", "shape_order", "visual"]
 SENSOR_KINDS = ["camera", "contact", "depth_camera", "force_torque", "gps", "gpu_lidar", "imu", "lidar", "ray"]
 ROBOT_KEYS = [
     *("data", "defaults", "description", "frames", "gazebo", "include", "joints", "links", "materials", "metadata"),
@@ -38,7 +38,7 @@ OFFERED = {
     "in a link": ("links:\n  base:\n    |", sorted([*LINK_KEYS, "link"])),
     "in a link that has shapes": (
         "links:\n  base:\n    visual: {box: [1, 1, 1]}\n    |\njoints:\n",
-        ["collision", "gazebo", "inertial", "link", "physics"],
+        ["collision", "gazebo", "inertial", "link", "physics", "shape_order"],
     ),
     "half a key of a link in flow style": ("links:\n  base: {v|}", sorted([*LINK_KEYS, "link"])),
     "in a visual": (
@@ -206,7 +206,7 @@ IN_EXAMPLES = {
         "01_two_link_arm/two_link_arm",
         "    inertial: {mass: 4 kg} ",
         "    i| ",
-        ["gazebo", "inertial", "link", "physics"],
+        ["gazebo", "inertial", "link", "physics", "shape_order"],
     ),
     "a key of a module": (
         "09_mobile_manipulator/mobile_manipulator",

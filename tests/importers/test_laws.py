@@ -59,6 +59,13 @@ def test_an_imported_robot_has_all_its_elements(robot: Robot):
     again = compiled(imported(robot))
     assert elements(render_urdf(again)) == elements(render_urdf(robot))
     assert elements(render_srdf(again)) == elements(render_srdf(robot))
+    assert shapes(render_urdf(again)) == shapes(render_urdf(robot))
+
+
+def shapes(document: str) -> dict[str, list[str]]:
+    """Return for each link the tags of its shapes in their order."""
+    links = ElementTree.fromstring(document).iter("link")
+    return {link.get("name", ""): [one.tag for one in link if one.tag in {"visual", "collision"}] for link in links}
 
 
 @few

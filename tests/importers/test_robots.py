@@ -81,9 +81,8 @@ def judge(shared: Path):
 REFUSED_BY_MUJOCO = {"romeo_laas_small", "tiago", "tiago_dual", "tiago_no_hand", "unitree_go2_description"}
 """The vendors' own files, of which it tells as much as of ours."""
 
-COLOURED_BY_ORDER = {"so101", "talos_full_v2", "talos_full_v2_box"}
-"""MuJoCo alone gives these other colours than the vendor's file: it goes by the order of the document, in which the
-first of two colours of one name counts, and a collision has the colour of the visual before it."""
+COLOURED_BY_ORDER = {"talos_full_v2", "talos_full_v2_box"}
+"""MuJoCo alone gives these other colours than the vendor's file: the first of two colours of one name counts there."""
 
 
 @pytest.mark.parametrize("robot", ROBOTS, ids=str)

@@ -1,6 +1,7 @@
 """A URDF comes in as a person would write it: short forms, defaults left out, numbers to the last digit."""
 
 import math
+import re
 from pathlib import Path
 from textwrap import dedent
 
@@ -161,6 +162,21 @@ def test_collisions_before_visuals_stay_there(read):
     assert text == "links:\n  a: {collision: visual, visual: {sphere: 1}}"
     urdf = compiled(f"linkforge: 1\nname: r\n{text}\n")
     assert urdf.index("<collision") < urdf.index("<visual")
+
+
+@pytest.mark.parametrize(
+    ("tags", "said"),
+    [
+        ("visual collision visual collision", "shape_order: pairs"),
+        ("collision visual collision", "shape_order: pairs"),
+        ("visual visual collision visual", "shape_order: [visual, visual, collision, visual]"),
+    ],
+)
+def test_shapes_that_are_mixed_stay_so(read, tags: str, said: str):
+    shape = "<{0}><geometry><sphere radius='1'/></geometry></{0}>"
+    text = read(f"<link name='a'>{''.join(map(shape.format, tags.split()))}</link>")
+    assert said in text
+    assert re.findall(r"<(visual|collision)>", compiled(f"linkforge: 1\nname: r\n{text}\n")) == tags.split()
 
 
 def test_a_named_collision_is_not_the_visual(read):

@@ -11,6 +11,7 @@ from linkforge_compile.core import (
     Sphere,
     Transform,
     Vector3,
+    Visual,
 )
 from tests.lowering.specs import Spec, lowered, robot_of
 
@@ -54,6 +55,27 @@ def test_collision_visual_copies_shapes_and_places_but_not_names():
         (Sphere(1), Transform(Vector3(0, 0, 1)), None),
         (Box(Vector3(1, 1, 1)), Transform.identity(), None),
     ]
+
+
+@pytest.mark.parametrize(
+    ("keys", "order"),
+    [
+        ("visual: BALLS, collision: BALL", "VVC"),
+        ("collision: BALL, visual: BALLS", "CVV"),
+        ("visual: BALLS, collision: visual, shape_order: pairs", "VCVC"),
+        ("collision: visual, visual: BALLS, shape_order: pairs", "CVCV"),
+        ("visual: BALLS, collision: BALL, shape_order: pairs", "VCV"),
+        ("visual: BALL, shape_order: pairs", "V"),
+        ("shape_order: pairs", ""),
+        ("visual: BALLS, collision: BALL, shape_order: [visual, visual, collision]", "VVC"),
+        ("visual: BALLS, collision: visual, shape_order: [collision, visual, visual, collision]", "CVVC"),
+    ],
+)
+def test_shapes_stand_in_the_order_of_their_keys_or_as_it_is_said(keys: str, order: str):
+    said = keys.replace("BALLS", "[{sphere: 1}, {sphere: 2}]").replace("BALL", "{sphere: 3}")
+    link = robot_of(f"name: arm\nlinks: {{base: {{{said}}}}}").link("base")
+    assert "".join(type(shape).__name__[0] for shape in link.shapes) == order
+    assert [shape for shape in link.shapes if isinstance(shape, Visual)] == list(link.visuals)
 
 
 def test_a_visual_takes_a_material_of_the_file_or_one_in_place():

@@ -148,6 +148,26 @@ def test_expressions_and_repetition_see_the_overriding_files_names(change):
     assert made.at("joints", "wrist", "axis") == "x"
 
 
+@pytest.mark.parametrize(
+    ("shape_order", "left"),
+    [("pairs", ["visual", "collision", "collision"]), ("[visual, visual, collision, collision]", None)],
+)
+def test_an_order_of_pairs_outlives_a_shape_that_is_taken_away_and_a_list_is_told(tmp_path, shape_order, left):
+    arm = f"links: {{base: {{visual: [{{sphere: 1}}, {{sphere: 2}}], collision: visual, shape_order: {shape_order}}}}}"
+    override = "links: {base: {visual: {1: null}}}"
+    write(tmp_path, {
+        "arm.robot.yaml": arm,
+        "robot.robot.yaml": f"modules: {{arm: {{use: arm.robot.yaml, override: {{{override}}}}}}}",
+    })  # fmt: skip
+    made = compile_file(tmp_path / "robot.robot.yaml")
+    told = {one.code.id: [note.message for note in one.notes] for one in made.diagnostics if one.severity == "error"}
+    if left is None:
+        assert told == {"LF5140": ["'1' is changed by this override", "used here"]}
+    else:
+        assert not told
+        assert [type(shape).__name__.lower() for shape in made.result().links[0].shapes] == left
+
+
 def test_a_whole_override_may_depend_on_a_condition(change):
     assert change("when: $(heavy > 9)\nlinks: {base: null}", "{heavy: 3}").at("links", "base") is not None
     assert change("when: $(heavy > 1)\nlinks: {base: null}", "{heavy: 3}").at("links", "base") is None

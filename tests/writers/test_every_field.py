@@ -132,7 +132,7 @@ def full() -> Robot:
         LinkPhysics(self_collide=True, gravity=False, mu=0.5, mu2=0.6, kp=7, kd=8),
         [core.Visual(shape, replace(POSE, **EXTRAS), shared, "seen", **raw("geometry")) for shape in _shapes()],
         [core.Collision(shape, POSE, "felt", **raw("geometry")) for shape in _shapes()],
-        collisions_first=True,
+        shape_order=["collision", "collision", "visual"],
         **EXTRAS,
     )
     return Robot(

@@ -4,6 +4,7 @@ from dataclasses import replace
 from textwrap import dedent
 
 import pytest
+import yaml
 
 from linkforge_compile import compile_text, write_spec
 from linkforge_compile.core.exceptions import RobotGeneratorError
@@ -45,10 +46,28 @@ def test_a_link_takes_the_shortest_forms():
     """)
 
 
-def test_collisions_that_come_out_first_are_written_first():
-    ball = Sphere(0.1)
-    link = Link("ball", visuals=[Visual(ball)], collisions=[Collision(ball)], collisions_first=True)
-    assert spec(links=[link]) == "links:\n  ball: {collision: visual, visual: {sphere: 0.1}}\n"
+@pytest.mark.parametrize(
+    ("shape_order", "written"),
+    [
+        ("", "visual, collision"),
+        ("v", "visual, collision"),
+        ("ccvv", "collision, visual"),
+        ("vcvc", "visual, collision, shape_order: pairs"),
+        ("vc", "visual, collision, shape_order: pairs"),
+        ("cvcv", "collision, visual, shape_order: pairs"),
+        ("cvvc", "collision, visual, shape_order: [collision, visual, visual, collision]"),
+        ("cvvcvvc", "collision, visual, shape_order: [collision, visual, visual, collision]"),
+    ],
+)
+def test_the_order_of_shapes_is_said_in_the_shortest_words(shape_order: str, written: str):
+    balls = [Sphere(1), Sphere(2)]
+    kinds = [{"v": "visual", "c": "collision"}[letter] for letter in shape_order]
+    link = Link("a", visuals=list(map(Visual, balls)), collisions=list(map(Collision, balls)), shape_order=kinds)
+    said = yaml.safe_load(spec(links=[link]))["links"]["a"]
+    order = said.get("shape_order")
+    words = [key for key in said if key != "shape_order"]
+    told = ", ".join([*words, *([f"shape_order: {order}".replace("'", "")] if order else [])])
+    assert told == written
 
 
 def test_what_differs_between_visual_and_collision_is_written_twice():

@@ -143,7 +143,6 @@ OF_NO_SPEC = {
     (core.Color, "a"): "one of the numbers of a list, which are all written",
     (core.SemanticRobotDescription, "robot_name"): "the name of the robot",
     (Link, "physics"): "a part, whose fields are here",
-    (Link, "collisions_first"): "the order of the keys",
 }
 
 

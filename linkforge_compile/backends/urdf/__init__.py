@@ -80,10 +80,9 @@ def stated_version(robot: Robot) -> str | None:
 def capsules(robot: Robot) -> Iterator[Capsule]:
     """Yield the capsules of all links in the order in which they are written."""
     for link in robot.links:
-        for shapes in (link.visuals, link.collisions):
-            for shape in shapes:
-                if isinstance(shape.geometry, Capsule):
-                    yield shape.geometry
+        for shape in link.shapes:
+            if isinstance(shape.geometry, Capsule):
+                yield shape.geometry
 
 
 def _robot_view(robot: Robot, gazebo: Gazebo) -> RobotView:

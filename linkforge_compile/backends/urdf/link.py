@@ -10,6 +10,7 @@ from linkforge_compile.backends.markup import NOTHING, Xml, placed
 from linkforge_compile.core.models.geometry import Box, Geometry, Mesh, Sphere, Transform, Vector3
 from linkforge_compile.core.models.link import Collision, Inertial, Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Material
+from linkforge_compile.shape_order import COLLISION, VISUAL
 from linkforge_compile.units import number_text
 
 DEFAULT_PHYSICS = LinkPhysics()
@@ -118,18 +119,16 @@ def _inertial(inertial: Inertial, version: str | None) -> InertialView:
 
 
 def _shapes(link: Link, materials: Mapping[str, Material], version: str | None) -> tuple[ShapeView, ...]:
-    visuals = [_shape("visual", visual, _material_of(visual, materials), version) for visual in link.visuals]
-    collisions = [_shape("collision", collision, None, version) for collision in link.collisions]
-    return (*collisions, *visuals) if link.collisions_first else (*visuals, *collisions)
+    return tuple([_shape(shape, materials, version) for shape in link.shapes])
 
 
-def _shape(tag: str, shape: Visual | Collision, material: MaterialView | None, version: str | None) -> ShapeView:
+def _shape(shape: Visual | Collision, materials: Mapping[str, Material], version: str | None) -> ShapeView:
     return ShapeView(
-        tag,
+        VISUAL if isinstance(shape, Visual) else COLLISION,
         attributes(shape, name=shape.name),
         origin(shape.origin, version),
         _geometry(shape.geometry),
-        material,
+        _material_of(shape, materials) if isinstance(shape, Visual) else None,
         elements(shape),
     )
 

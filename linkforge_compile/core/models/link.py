@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
+from itertools import islice
 
 from linkforge_compile.core.constants import (
     DEFAULT_CONTACT_KD,
@@ -14,7 +15,7 @@ from linkforge_compile.core.constants import (
     GRAVITY_ENABLED,
     MIN_REASONABLE_INERTIA,
 )
-from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
 from linkforge_compile.core.models.index import Renamable
 from linkforge_compile.core.models.material import Material
@@ -22,6 +23,7 @@ from linkforge_compile.core.naming import prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
 from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
 from linkforge_compile.source import SourceRef
 
 
@@ -157,12 +159,13 @@ class Link(Renamable):
     """A rigid body, or a frame if `inertial` is None and it has no shapes: `<link name>`. It may be changed in place.
 
     `source` says where it was written, None if nowhere; it is not compared. `extra_attributes` and
-    `extra_elements` are as on `Element`. `collisions_first` says that the collisions are written before the visuals,
-    which to some readers changes colors; it is not compared.
+    `extra_elements` are as on `Element`. `shape_order` has a 'visual' or 'collision' for each shape in the order in
+    which they are written, empty for visuals before collisions: to MuJoCo a collision has the color of the visual
+    before it. It is not compared.
 
     Raises:
         RobotValidationError: NAME_EMPTY for an empty name, INVALID_NAME for one with other characters than
-            letters, digits and `_ - . /`.
+            letters, digits and `_ - . /`, INVALID_VALUE for another word in `shape_order`.
 
     """
 
@@ -171,7 +174,7 @@ class Link(Renamable):
     physics: LinkPhysics = LinkPhysics()
     visuals: Sequence[Visual] = ()
     collisions: Sequence[Collision] = ()
-    collisions_first: bool = field(default=False, compare=False, repr=False, kw_only=True)
+    shape_order: Sequence[str] = field(default=(), compare=False, repr=False, kw_only=True)
     extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False, kw_only=True)
     extra_elements: Sequence[str] = field(default=(), repr=False, kw_only=True)
     source: SourceRef | None = field(default=None, compare=False, repr=False, kw_only=True)
@@ -181,6 +184,7 @@ class Link(Renamable):
         require_valid_characters(self.name, "link name", "LinkName")
         self.visuals = tuple(self.visuals)
         self.collisions = tuple(self.collisions)
+        self.shape_order = _kinds(self.shape_order)
         self.extra_attributes = attribute_pairs(self.extra_attributes)
         self.extra_elements = tuple(self.extra_elements)
 
@@ -191,6 +195,16 @@ class Link(Renamable):
     def add_collision(self, collision: Collision) -> None:
         """Put a collision behind those that are there."""
         self.collisions = (*self.collisions, collision)
+
+    @property
+    def shapes(self) -> Iterator[Visual | Collision]:
+        """The visuals and collisions as they are written; those that `shape_order` does not list come last."""
+        visuals, collisions = iter(self.visuals), iter(self.collisions)
+        of_kind: Mapping[str, Iterator[Visual | Collision]] = {VISUAL: visuals, COLLISION: collisions}
+        for kind in self.shape_order:
+            yield from islice(of_kind[kind], 1)
+        yield from visuals
+        yield from collisions
 
     @property
     def mass(self) -> float:
@@ -219,3 +233,16 @@ class Link(Renamable):
             collisions=tuple([collision.with_prefix(prefix) for collision in self.collisions]),
         )
         return link
+
+
+def _kinds(words: Sequence[str]) -> tuple[str, ...]:
+    for word in words:
+        if word not in KINDS:
+            raise RobotValidationError(
+                ValidationErrorCode.INVALID_VALUE,
+                f"shape_order has the words {' and '.join(map(repr, KINDS))}, found {word!r}",
+                target="ShapeOrder",
+                value=word,
+                field=("shape_order",),
+            )
+    return tuple(words)

@@ -85,9 +85,23 @@ OTHER_ROBOT = Code(
 )
 DOES_NOT_COME_OUT = Code("LF8190", _W, "{what} does not come out of the spec")
 BECOMES_OTHER = Code("LF8191", _W, "{what} is '{was}' here, and '{now}' as it comes out of the spec")
+SHAPES_REORDERED = Code(
+    "LF8140",
+    _W,
+    "visuals and collisions of link '{link}' come out of the spec in another order, and MuJoCo gives a collision the "
+    "color of the visual before it",
+)
 COMES_IN_ADDITION = Code("LF8192", _W, "{what} comes out of the spec, and does not stand here")
 
 LOSSES = frozenset(
-    {TEXT_LEFT_OUT, INSTRUCTION_LEFT_OUT, OTHER_ROBOT, DOES_NOT_COME_OUT, BECOMES_OTHER, COMES_IN_ADDITION}
+    {
+        TEXT_LEFT_OUT,
+        INSTRUCTION_LEFT_OUT,
+        OTHER_ROBOT,
+        DOES_NOT_COME_OUT,
+        BECOMES_OTHER,
+        COMES_IN_ADDITION,
+        SHAPES_REORDERED,
+    }
 )
 """What `--strict` makes a failure of."""

@@ -43,6 +43,11 @@ DENSITY_WITH_INERTIA = Code("LF5108", _E, "{owner} has 'inertia', which goes wit
 ORIGIN_WITHOUT_INERTIA = Code(
     "LF5109", _E, "{owner} has an 'origin' without 'inertia'; give both, or neither to have them computed"
 )
+SHAPE_ORDER_COUNT = Code(
+    "LF5140",
+    _E,
+    "shape_order of {owner} lists each shape once, {expected}, found {found}; 'pairs' goes with any number of them",
+)
 INERTIA_OF_NOTHING = Code("LF5111", _E, "{owner} cannot be computed without a collision or visual; give 'inertia'")
 
 # LF52xx: joints

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
-from linkforge_compile.importers.draft import same
+from linkforge_compile.importers.draft import Draft, same
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.urdf.gazebo import Blocks
 from linkforge_compile.importers.urdf.geometry import read_geometry, read_origin
 from linkforge_compile.importers.urdf.material import Palette
+from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL, as_said
+from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlMap, YamlNode
 
 _MOMENTS = ("ixx", "iyy", "izz")
@@ -19,14 +22,25 @@ def read_link(link: Reading, palette: Palette, blocks: Blocks) -> YamlMap:
     """Read a link, whose name is taken; `blocks` has what a simulator is told about it."""
     visuals = link.each("visual", partial(_visual, palette=palette))
     collisions = link.each("collision", _collision)
-    shapes = {"visual": link.draft.one_or_list(visuals), "collision": _collisions(link, visuals, collisions)}
-    tags = [child.tag for child in link.element.children if child.tag in shapes]
+    shapes = {VISUAL: link.draft.one_or_list(visuals), COLLISION: _collisions(link, visuals, collisions)}
+    kept_raw = set(link.children())
+    read = [child for child in link.element.children if child.tag in KINDS and child not in kept_raw]
+    kinds = [child.tag for child in read]
     return link.map(
         # Their order is that of the output.
-        **dict(reversed(shapes.items()) if tags[:1] == ["collision"] else shapes),
+        **dict(reversed(shapes.items()) if kinds[:1] == [COLLISION] else shapes),
+        shape_order=_shape_order(link.draft, as_said(kinds), read[0].span) if read else None,
         inertial=link.one("inertial", _inertial),
         gazebo=blocks.beside(link.element.get("name") or ""),
     )
+
+
+def _shape_order(draft: Draft, said: str | Sequence[str] | None, where: Span) -> YamlNode | None:
+    if said is None:
+        return None
+    if isinstance(said, str):
+        return draft.text(said, where)
+    return draft.list_of([draft.text(kind, where) for kind in said], where)
 
 
 def _visual(visual: Reading, palette: Palette) -> YamlNode:
