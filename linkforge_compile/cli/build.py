@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.banner import banner_of
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import compile_spec
+from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.cli.telling import say, tell
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespac
     """Tell of a compilation and write or compare what comes out of it; return the exit code."""
     outputs = None if compilation.robot is None else _outputs(compilation.robot, order, arguments)
     if outputs is not None:
-        _refuse_to_replace(compilation.files, outputs, arguments.depfile)
+        _refuse_to_replace(compilation.files, outputs, file_to_write(arguments.depfile))
     stale = _stale(outputs, order.spec, compilation.robot) if arguments.check and outputs else ()
     if tell((*_report(compilation, outputs), *stale), arguments) or outputs is None:
         return FAULTY_SPEC
@@ -67,18 +68,14 @@ def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespac
     return OK
 
 
-def _refuse_to_replace(files: Sequence[Path], outputs: Sequence[Output], depfile: str | None) -> None:
-    """Refuse to write over what the robot is made from, as the URDF of a vendor beside a spec of the same name.
+def _refuse_to_replace(files: Sequence[Path], outputs: Sequence[Output], depfile: Path | None) -> None:
+    """Refuse to write over what the robot is made from, or over another output, as a depfile over the URDF."""
+    from linkforge_compile.cli.output import refuse_to_replace
 
-    Nor may one thing that is written replace another, as a depfile the URDF.
-    """
-    made_from = {file.resolve() for file in files}
     places: set[Path] = set()
-    written = [output.path for output in outputs if output.path] + ([Path(depfile)] if depfile else [])
-    for path in written:
+    for path in filter(None, (*(output.path for output in outputs), depfile)):
+        refuse_to_replace(files, path)
         place = path.resolve()
-        if place in made_from:
-            raise UsageError(f"'{path}' would be replaced, and the robot is made from it; write to another place")
         # A device, such as /dev/null, takes whatever comes.
         if place in places and (place.is_file() or not place.exists()):
             raise UsageError(f"'{path}' would be written twice, and the second replaces the first; give each a file")

@@ -89,6 +89,12 @@ def standard_input() -> str:
     return _text(sys.stdin.buffer, "standard input")
 
 
+def require_file(option: str, word: str | None) -> None:
+    """Refuse standard input for what is read beside the robot."""
+    if word == "-":
+        raise UsageError(f"{option} takes a file; standard input may be the robot")
+
+
 def once_only(word: str) -> str | None:
     """Return the text of what can be read once only, standard input or a pipe; None for a file."""
     if word == "-":

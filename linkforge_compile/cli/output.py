@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
+from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
 from linkforge_compile.cli.exits import UsageError
-from linkforge_compile.cli.targets import is_standard_output
+from linkforge_compile.cli.targets import file_to_write
 
 
 def write_to_stdout(text: str) -> None:
@@ -30,14 +31,22 @@ def put_json(text: str, output: str | None, *, quiet: bool) -> None:
 
     What was done is said to standard error unless that is to be `quiet`.
     """
-    if output is None or is_standard_output(output):
+    file = file_to_write(output)
+    if file is None:
         write_to_stdout(text)
-    elif not output.endswith(".json"):
+    elif file.suffix != ".json":
         raise UsageError(f"-o takes a file that ends in .json, found '{output}'")
     else:
-        is_new = write_if_changed(Path(output), text)
+        is_new = write_if_changed(file, text)
         if not quiet and sys.stderr is not None:
             sys.stderr.write(f"wrote {output}\n" if is_new else f"{output} is up to date\n")
+
+
+def refuse_to_replace(made_from: Iterable[Path], path: Path) -> None:
+    """Refuse to write over what a robot is made from, as the URDF of a vendor beside a spec of the same name."""
+    place = path.resolve()
+    if any(place == one.resolve() for one in made_from):
+        raise UsageError(f"'{path}' would be replaced, and the robot is made from it; write to another place")
 
 
 def write_if_changed(path: Path, text: str) -> bool:

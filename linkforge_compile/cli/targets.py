@@ -59,7 +59,7 @@ def add_output_option(parser: argparse.ArgumentParser) -> None:
 
 def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets:
     """Return where each format of a spec goes; UsageError for outputs that cannot be meant together."""
-    if not outputs or (len(outputs) == 1 and is_standard_output(outputs[0])):
+    if not outputs or (len(outputs) == 1 and file_to_write(outputs[0]) is None):
         return Targets({chosen or "urdf": None})
     if len(outputs) > 1:
         return Targets(_several(outputs, chosen))
@@ -71,16 +71,16 @@ def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets
     return Targets(paths, is_srdf_asked_for=chosen == "srdf")
 
 
-def is_standard_output(output: str | None) -> bool:
-    """Whether what `-o` says is standard output: nothing, or `-`."""
-    return output in (None, _STANDARD_OUTPUT)
+def file_to_write(output: str | None) -> Path | None:
+    """Return the file that an option names to write, None for standard output: nothing, or `-`."""
+    return None if output is None or output == _STANDARD_OUTPUT else Path(output)
 
 
 def imported_spec(robot: str, output: str | None) -> Path | None:
     """Return where an imported spec goes: a file, NAME.robot.yaml in a folder, None for standard output."""
-    if output is None or is_standard_output(output):
+    path = file_to_write(output)
+    if output is None or path is None:
         return None
-    path = Path(output)
     return path if _is_file(output, _SPEC_ENDINGS) else path / f"{name_of(robot)}.robot.yaml"
 
 
@@ -97,7 +97,7 @@ def name_of(spec: str) -> str:
 def _several(outputs: Sequence[str], chosen: str | None) -> dict[str, Path | None]:
     paths: dict[str, Path | None] = {}
     for output in outputs:
-        if is_standard_output(output):
+        if file_to_write(output) is None:
             raise UsageError("-o - is standard output, which takes one format; leave the other -o out")
         if not _is_file(output):
             raise UsageError(f"-o takes several files, one a format, or one folder; found the folder '{output}'")

@@ -187,6 +187,12 @@ def test_a_build_that_asks_for_a_depfile_is_told_of_faults_only(cell: Path, capf
     assert "".join(capfd.readouterr()) == ""
 
 
+def test_a_depfile_called_by_a_dash_is_standard_output(cell: Path, capfd: pytest.CaptureFixture[str]):
+    assert main(["compile", "cell.robot.yaml", "-o", "robot.urdf", "--depfile", "-"]) == 0
+    assert capfd.readouterr().out.startswith("robot.urdf: \\\n  cell.robot.yaml ")
+    assert not (cell / "-").exists()
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

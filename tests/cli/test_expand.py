@@ -126,7 +126,7 @@ def test_a_file_takes_it_and_parameters_are_set(cart: Path):
 def test_no_file_is_replaced_that_it_is_made_from(cart: Path):
     run = linkforge("expand", "cart.robot.yaml", "-o", "parts/wheel.robot.yaml", cwd=cart)
     assert (run.returncode, run.stdout) == (2, "")
-    assert "-o would replace 'parts/wheel.robot.yaml', which it is made from" in run.stderr
+    assert "'parts/wheel.robot.yaml' would be replaced, and the robot is made from it" in run.stderr
     assert (cart / "parts" / "wheel.robot.yaml").read_text() == WHEEL
 
 

@@ -181,7 +181,7 @@ def test_who_waits_at_a_terminal_is_told_for_what(arm, monkeypatch: pytest.Monke
 def test_the_robot_itself_is_never_written_over(arm, capfd: pytest.CaptureFixture[str]):
     urdf = arm()
     assert main(["import", urdf, "-o", urdf]) == 2
-    assert "would replace" in capfd.readouterr().err
+    assert "would be replaced" in capfd.readouterr().err
 
 
 def test_a_file_that_is_not_there_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
@@ -194,6 +194,13 @@ def test_a_file_in_another_encoding_than_it_says_is_told(tmp_path: Path, capfd: 
     urdf.write_bytes(b'<?xml version="1.0" encoding="utf-8"?><robot name="\xff"/>')
     assert main(["import", str(urdf)]) == 1
     assert "line 1 has the byte 0xff, which is not utf-8" in capfd.readouterr().err
+
+
+def test_standard_input_is_no_srdf(arm, capfd: pytest.CaptureFixture[str]):
+    assert main(["import", arm(), "--srdf", "-"]) == 2
+    assert main(["diff", arm(), arm(), "--after-srdf", "-"]) == 2
+    words = "takes a file; standard input may be the robot"
+    assert capfd.readouterr().err == f"linkforge import: --srdf {words}\nlinkforge diff: --after-srdf {words}\n"
 
 
 def test_a_xacro_finds_its_packages_where_they_are_said_to_be(tmp_path: Path):

@@ -48,7 +48,9 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
         help="write FILE.map.json beside each file, for `linkforge where FILE:LINE` to tell what wrote the line",
     )
     parser.add_argument(
-        "--depfile", metavar="FILE", help="write what the output was made from, as a rule of Make, for a build to read"
+        "--depfile",
+        metavar="FILE",
+        help="write what the output was made from, as a rule of Make, for a build to read; - for standard output",
     )
     parser.add_argument(
         "--installed-in",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.differences import Comparison, Side
 from linkforge_compile.cli.exits import OK, UsageError
-from linkforge_compile.cli.one_spec import STDIN, compile_spec, is_xml, once_only
+from linkforge_compile.cli.one_spec import STDIN, compile_spec, is_xml, once_only, require_file
 from linkforge_compile.cli.options import add_spec_options, name_set_by, packages_of, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, tell
 
@@ -109,6 +109,7 @@ def _side(name: str, word: str, arguments: argparse.Namespace) -> Side:
     parameters: list[str] = values[name]
     variant: str | None = values[f"{name}_variant"]
     srdf: str | None = values[f"{name}_srdf"]
+    require_file(f"--{name}-srdf", srdf)
     if word.lower().endswith((".srdf", ".srdf.xacro")):
         raise UsageError(f"'{word}' is an SRDF; give it with its robot: --{name}-srdf {word}")
     text = once_only(word)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK
 from linkforge_compile.cli.one_spec import compile_spec, one_spec
 from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
+from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.cli.telling import add_telling_options, say, tell
 
 if TYPE_CHECKING:
@@ -39,19 +40,17 @@ def run(arguments: argparse.Namespace) -> int:
     compilation = compile_spec(spec, assignments, arguments)
     if tell(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
-    if arguments.output is not None and Path(arguments.output).resolve() in {
-        one.resolve() for one in compilation.files
-    }:
-        raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
-    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
-    from linkforge_compile.cli.targets import is_standard_output
+    from linkforge_compile.cli.output import refuse_to_replace, write_if_changed, write_to_stdout
     from linkforge_compile.writers import write_spec
 
+    output = file_to_write(arguments.output)
+    if output is not None:
+        refuse_to_replace(compilation.files, output)
     banner = None if spec == "-" else f"Expanded by linkforge from {Path(spec).name}; edit that file, not this one."
     text = write_spec(compilation.robot, banner=banner, origins=True)
-    if is_standard_output(arguments.output):
+    if output is None:
         write_to_stdout(text)
-    elif write_if_changed(Path(arguments.output), text):
+    elif write_if_changed(output, text):
         say(f"wrote {arguments.output}", arguments)
     else:
         say(f"{arguments.output} is up to date", arguments)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.one_spec import STDIN, one_spec, standard_input
+from linkforge_compile.cli.one_spec import STDIN, one_spec, require_file, standard_input
 from linkforge_compile.cli.options import (
     add_outside_option,
     add_package_option,
@@ -14,7 +14,7 @@ from linkforge_compile.cli.options import (
     packages_of,
     split_assignments,
 )
-from linkforge_compile.cli.targets import imported_spec
+from linkforge_compile.cli.targets import file_to_write, imported_spec
 from linkforge_compile.cli.telling import add_telling_options, say, tell
 from linkforge_compile.cli.waiting import told_when_long
 
@@ -56,9 +56,11 @@ def run(arguments: argparse.Namespace) -> int:
     files, assignments = split_assignments(arguments.words)
     urdf = one_spec(files)
     _refuse_others(urdf)
-    sources = {Path(file).resolve() for file in (urdf, arguments.srdf) if file is not None}
-    if arguments.output is not None and Path(arguments.output).resolve() in sources:
-        raise UsageError(f"-o would replace '{arguments.output}', which it is made from")
+    from linkforge_compile.cli.output import refuse_to_replace
+
+    require_file("--srdf", arguments.srdf)
+    if (named := file_to_write(arguments.output)) is not None:
+        refuse_to_replace([Path(file) for file in (urdf, arguments.srdf) if file is not None], named)
     output = imported_spec(urdf, arguments.output)
     from linkforge_compile.importing import import_urdf
 
