@@ -1,9 +1,15 @@
 """A frozen class of ours is what the standard library would make of it."""
 
+from __future__ import annotations
+
+import copy
 import dataclasses
 import inspect
 import pickle
+import sys
+import typing
 from collections.abc import Callable
+from typing import ClassVar
 
 import pytest
 
@@ -25,6 +31,7 @@ def _of(decorator: Callable) -> tuple[type, type, type]:
     class Joint(Sourced):
         """Moves."""
 
+        moves: ClassVar[bool] = True
         name: str
         axis: tuple[float, ...] = (1.0, 0.0, 0.0)
         limits: dict[str, float] = dataclasses.field(default_factory=dict, hash=None)
@@ -34,7 +41,7 @@ def _of(decorator: Callable) -> tuple[type, type, type]:
             if not self.name:
                 raise ValueError("no name")
 
-    @decorator(frozen=True)
+    @decorator(frozen=True, slots=True)
     class Mass:
         """Weighs."""
 
@@ -48,6 +55,16 @@ Sourced, Joint, Mass = OURS
 # For pickle, which looks classes up by their names.
 for one in OURS:
     one.__qualname__ = one.__name__
+
+
+def is_quick(cls: type) -> bool:
+    return "set_0" in cls.__init__.__code__.co_freevars
+
+
+def test_it_is_not_the_standard_librarys():
+    assert all(map(is_quick, OURS))
+    assert not any(map(is_quick, THEIRS))
+
 
 ARGUMENTS = [
     (("elbow",), {}),
@@ -88,7 +105,8 @@ def test_equality_and_hash_are_of_what_is_compared(classes):
     assert joint("a", place="here") == joint("a", place="there")
     assert joint("a") != joint("b")
     assert joint("a", (NAN,)) != joint("a", (float("nan"),))
-    assert mass(NAN) == mass(NAN)
+    # As of 3.13 the standard library compares field by field.
+    assert (mass(NAN) == mass(NAN)) is (classes is OURS or sys.version_info < (3, 13))
     assert mass(1.0) != (1.0,)
     assert hash(mass(1.0)) == hash(mass(1))
     assert sourced(place="here") == sourced()
@@ -107,11 +125,11 @@ def test_nothing_is_set_or_deleted(classes):
     assert dataclasses.replace(joint, name="b", place="here").place == "here"
 
 
-def test_it_goes_through_pickle():
+@pytest.mark.parametrize("through", [lambda one: pickle.loads(pickle.dumps(one)), copy.copy, copy.deepcopy])
+def test_its_copies_are_equal(through):
     joint = Joint("a", (0.0,), {"lower": 1.0}, place="here")
-    copy = pickle.loads(pickle.dumps(joint))
-    assert copy == joint
-    assert copy.place == "here"
+    assert through(joint) == joint
+    assert through(joint).place == "here"
 
 
 def test_it_matches_by_position():
@@ -120,12 +138,50 @@ def test_it_matches_by_position():
             assert (name, axis) == ("a", (0.0,))
 
 
-def test_others_may_derive_from_it_with_the_standard_decorator():
-    @dataclasses.dataclass(frozen=True)
-    class Motor(Joint):
-        gear: float = 1.0
+@pytest.mark.parametrize("classes", [OURS, THEIRS])
+def test_it_is_seen_as_a_dataclass(classes):
+    _, joint, mass = classes
+    assert [one.name for one in dataclasses.fields(joint)] == ["place", "name", "axis", "limits", "mimic"]
+    assert [(one.type, one.default, one.kw_only) for one in dataclasses.fields(mass)] == [
+        ("float", dataclasses.MISSING, False)
+    ]
+    assert dataclasses.is_dataclass(joint)
+    assert dataclasses.asdict(joint("a"))["axis"] == (1.0, 0.0, 0.0)
+    assert joint.moves
+    assert repr(joint("a", place="here")).endswith("(name='a', axis=(1.0, 0.0, 0.0), limits={}, mimic=None)")
+    assert typing.get_type_hints(mass.__init__) == {"kilograms": float, "return": type(None)}
 
-    assert Motor("a", gear=2.0) == dataclasses.replace(Motor("a"), gear=2.0)
+
+@pytest.mark.skipif(sys.version_info < (3, 13), reason="copy.replace is of Python 3.13")
+def test_copy_replaces_its_fields():
+    assert copy.replace(Mass(1.0), kilograms=2.0) == Mass(2.0)
+
+
+@pytest.mark.parametrize("base", [Joint, THEIRS[1]])
+@pytest.mark.parametrize("decorator", [dataclass, dataclasses.dataclass])
+def test_each_may_derive_from_the_other(base, decorator):
+    @decorator(frozen=True, slots=True)
+    class Motor(base):
+        gear: float = 1.0
+        name: str = "motor"
+
+    assert Motor(gear=2.0) == dataclasses.replace(Motor(), gear=2.0)
+    assert Motor("a", place="here").place == "here"
+    assert [one.name for one in dataclasses.fields(Motor)] == ["place", "name", "axis", "limits", "mimic", "gear"]
+
+
+def test_a_plain_class_of_it_is_free_but_for_the_fields():
+    # As the standard library has it, too, for classes without slots.
+    class Load(Mass):
+        pass
+
+    load = Load(1.0)
+    load.color = "red"
+    del load.color
+    with pytest.raises(dataclasses.FrozenInstanceError, match="cannot assign to field 'kilograms'"):
+        load.kilograms = 2.0
+    with pytest.raises(dataclasses.FrozenInstanceError, match="cannot delete field 'kilograms'"):
+        del load.kilograms
 
 
 def test_the_own_methods_of_a_class_stay():
@@ -133,19 +189,80 @@ def test_the_own_methods_of_a_class_stay():
     class Index:
         position: int
 
+        def __init__(self) -> None:
+            object.__setattr__(self, "position", 3)
+
         def __repr__(self) -> str:
             return f"#{self.position}"
 
-    assert repr(Index(3)) == "#3"
+        def __hash__(self) -> int:
+            return 7
+
+    assert repr(Index()) == "#3"
+    assert hash(Index()) == 7
+    assert Index() == Index()
+
+
+@pytest.mark.parametrize("decorator", [dataclass, dataclasses.dataclass])
+def test_with_an_equality_of_its_own_it_keeps_its_hash(decorator):
+    @decorator(frozen=True, slots=True)
+    class Name:  # noqa: PLW1641 which is what is tested
+        text: str
+
+        def __eq__(self, other: object) -> bool:
+            return isinstance(other, Name) and self.text.lower() == other.text.lower()
+
+    assert Name("a") == Name("A")
+    assert hash(Name("a")) == hash(("a",))
 
 
 def test_what_has_an_identity_is_equal_to_itself_only():
-    @dataclass(frozen=True, eq=False)
+    @dataclass(frozen=True, slots=True, eq=False)
     class Node:
         text: str
 
     node = Node("a")
+    assert is_quick(Node)
     assert {node, node, Node("a")} - {node} != set()
+
+
+def test_what_takes_more_than_a_look_is_the_standard_librarys():
+    @dataclass(frozen=True, slots=True)
+    class Scaled:
+        factor: dataclasses.InitVar[float]
+        value: float = dataclasses.field(init=False)
+        _: dataclasses.KW_ONLY
+        unit: str = "m"
+
+        def __post_init__(self, factor: float) -> None:
+            object.__setattr__(self, "value", 2 * factor)
+
+    assert repr(Scaled(1.5, unit="mm")).endswith("Scaled(value=3.0, unit='mm')")
+    assert [one.name for one in dataclasses.fields(Scaled)] == ["value", "unit"]
+
+
+FAULTS = {
+    "mutable default": {"__annotations__": {"name": "list"}, "name": []},
+    "non-default argument": {"__annotations__": {"name": "str", "text": "str"}, "name": ""},
+    "no type annotation": {"name": dataclasses.field(default=1)},
+    "Cannot overwrite attribute __setattr__": {"__setattr__": object.__setattr__},
+    "already specifies __slots__": {"__annotations__": {"name": "str"}, "__slots__": ("name",)},
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_is_refused(fault):
+    with pytest.raises((TypeError, ValueError), match=fault):
+        dataclass(frozen=True, slots=True)(type("Faulty", (), dict(FAULTS[fault])))
+
+
+def test_a_base_that_may_be_changed_is_refused():
+    @dataclasses.dataclass
+    class Base:
+        name: str
+
+    with pytest.raises(TypeError, match="cannot inherit frozen dataclass from a non-frozen one"):
+        dataclass(frozen=True, slots=True)(type("Faulty", (Base,), {}))
 
 
 def test_what_is_not_frozen_is_the_standard_librarys():

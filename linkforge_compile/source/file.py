@@ -10,8 +10,12 @@ from linkforge_compile.frozen import dataclass
 from linkforge_compile.source.span import Span
 
 
-@dataclass(frozen=True, eq=False)
-class SourceFile:
+class _Room:
+    """Where `cached_property` keeps a value: slots have none."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SourceFile(_Room):
     """A text and its name in messages; two are the same only if they are one object.
 
     `path` is None for text that is no file: standard input, a string, the command line.
