@@ -5,15 +5,26 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping
-from itertools import chain
+from itertools import chain, islice
 from pathlib import Path
 
+from linkforge_compile.diagnostics import Note
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.roots import as_walked
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(r"<name>\s*([^<]*?)\s*</name>")
 _MANIFEST_BYTES = 1024 * 1024
+
+_SOURCES = "src"
+"""The folder of a workspace of ROS in which its packages and repositories lie."""
+
+_LEVELS_UP = 6
+_TOP = 2
+"""So many parts has the path of `/home`."""
+
+_MOST_FOLDERS = 2_000
+"""In so many folders a package is looked for that is nowhere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +67,54 @@ def _in_ros_1(name: str) -> Iterator[Path]:
             yield root
         yield from (path.parent for path in (root / name / "package.xml",) if path.is_file())
         yield from (path.parent for path in sorted(root.glob(f"*/{name}/package.xml")))
+
+
+def notes_of_seen(name: str, start: Path | None) -> tuple[Note, ...]:
+    """Return where a package lies that was not found, with the option that says so; () where none is in sight.
+
+    A workspace that is not sourced is not searched for what a spec names: another version of the package may be the
+    one that is meant, and what lies beside a stranger's package is none of its business. To its user it is told.
+    """
+    folders = islice(_folders_around(as_walked(start)) if start else (), _MOST_FOLDERS)
+    seen = next((folder for folder in folders if _manifest_name(folder) == name), None)
+    return (Note(f"there is one; write --package {name}={_from_here(seen)}"),) if seen else ()
+
+
+def _folders_around(start: Path) -> Iterator[Path]:
+    """Yield the folders beside those above a folder, and what is in them, up to the sources of its workspace.
+
+    The top folders of a machine, where networks are mounted, and what lies in a home are not gone through.
+    """
+    for above in islice((start, *start.parents), _LEVELS_UP):
+        if len(above.parts) <= _TOP or above == Path.home():
+            return
+        beside = _folders_in(above)
+        yield from beside
+        for folder in beside:
+            yield from _folders_in(folder)
+        if above.name == _SOURCES:
+            return
+
+
+def _folders_in(folder: Path) -> list[Path]:
+    try:
+        with os.scandir(folder) as entries:
+            found = [
+                entry.name
+                for entry in islice(entries, _MOST_FOLDERS)
+                if entry.is_dir() and not entry.name.startswith(".")
+            ]
+    except OSError:
+        return []
+    return [folder / name for name in sorted(found)]
+
+
+def _from_here(folder: Path) -> str:
+    """Return the shorter of a folder's two paths: as it is, and from where the command runs."""
+    try:
+        return min(str(folder), os.path.relpath(folder), key=len)
+    except ValueError:  # on another drive of Windows
+        return str(folder)
 
 
 def _search_path(variable: str) -> Iterator[Path]:

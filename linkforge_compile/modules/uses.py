@@ -14,7 +14,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
-from linkforge_compile.modules.packages import Package, find_package
+from linkforge_compile.modules.packages import Package, find_package, notes_of_seen
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.source import Span
 
@@ -159,7 +159,8 @@ def _in_package(site: UseSite, path: str, loader: Loader, sink: Diagnostics) -> 
     declared = {**site.packages, **loader.packages}
     folder = find_package(name, declared, site.user.folder)
     if folder is None:
-        sink.report(UNKNOWN_PACKAGE.at(site.where, name=name, near=declared))
+        notes = notes_of_seen(name, site.user.folder)
+        sink.report(UNKNOWN_PACKAGE.at(site.where, name=name, near=declared, notes=notes))
         return None
     return Target(follow(folder, match[2]), Package(name, folder))
 

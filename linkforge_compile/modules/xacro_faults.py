@@ -17,6 +17,7 @@ from linkforge_compile.diagnostics.codes.importing import (
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PACKAGE, UNKNOWN_PARAMETER
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, Used
+from linkforge_compile.modules.packages import notes_of_seen
 from linkforge_compile.modules.paths import as_typed, names_in
 from linkforge_compile.source import SourceFile, Span
 
@@ -91,8 +92,10 @@ class Telling:
             self.loader.may_read(path, Used(str(as_typed(path)), writer), self.inside)
         elif asked.lost:
             near = {**(self.use.packages or {}), **self.loader.packages}
-            notes = [Note("it is looked for here", place)] if where and place else []
-            self.sink.report(UNKNOWN_PACKAGE.at(where or place, name=asked.lost[-1], near=near, notes=notes))
+            name = asked.lost[-1]
+            looked = [Note("it is looked for here", place)] if where and place else []
+            notes = (*looked, *notes_of_seen(name, self.use.path.parent))
+            self.sink.report(UNKNOWN_PACKAGE.at(where or place, name=name, near=near, notes=notes))
         elif failed.kind == "ArgException":
             self._unset(failed.reason, place, failed.arguments or {})
         else:

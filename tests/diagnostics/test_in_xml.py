@@ -7,7 +7,11 @@ from tests.urdf_case import expected_in_xml
 from tests.yaml_case import told
 
 CASE = ROOT / "tests" / "cases" / "urdf_in_its_words"
-TOLD_ELSEWHERE = {"LF5005": "tests/cases/bad_urdf", "LF7085": "tests/cli/test_compile.py"}
+TOLD_ELSEWHERE = {
+    "LF3005": "tests/modules/test_xacro_modules.py",
+    "LF5005": "tests/cases/bad_urdf",
+    "LF7085": "tests/cli/test_compile.py",
+}
 
 
 def test_what_has_words_of_its_own_for_xml_is_told_in_them_there():

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from linkforge_compile import compile_file
 from linkforge_compile.bounds import MAX_FILE_BYTES
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.modules import Instance, Loader, arguments_from_text, expand
@@ -174,3 +175,23 @@ def test_packages_are_looked_for_in_the_order_of_the_language(tmp_path, monkeypa
     robot.write_text(robot.read_text() + "\npackages: {arm: ../../../key}\n")
     assert found() == "key"
     assert found({"arm": tmp_path / "option"}) == "option"
+
+
+def test_a_package_beside_that_of_the_spec_is_not_read_and_its_user_told_where_it_is(tmp_path, monkeypatch):
+    """Where a workspace is not sourced: colcon finds packages below src, in repositories as well."""
+    use = "links: {base: }\nmodules: {a: {use: 'package://gripper/gripper.robot.yaml', parent: base}}"
+    files = {"src/arm/arm.robot.yaml": use, "src/hands/gripper/gripper.robot.yaml": "links: {palm: }"}
+    write(tmp_path, files)
+    (tmp_path / "src/hands/gripper/package.xml").write_text(MANIFEST.format("gripper"))
+    monkeypatch.chdir(tmp_path / "src" / "arm")
+    [fault] = compile_file("arm.robot.yaml").diagnostics
+    assert fault.code.id == "LF3005"
+    assert [note.message for note in fault.notes] == ["there is one; write --package gripper=../hands/gripper"]
+    assert compile_file("arm.robot.yaml", packages={"gripper": "../hands/gripper"}).robot
+
+
+def test_a_package_beyond_the_sources_of_the_workspace_is_none_of_it(tmp_path):
+    write(tmp_path, {"ws/src/arm/arm.robot.yaml": "modules: {a: {use: 'package://gripper/gripper.robot.yaml'}}"})
+    (tmp_path / "gripper").mkdir()
+    (tmp_path / "gripper" / "package.xml").write_text(MANIFEST.format("gripper"))
+    assert [one.notes for one in compile_file(tmp_path / "ws/src/arm/arm.robot.yaml").diagnostics] == [()]

@@ -138,6 +138,16 @@ def test_a_package_that_is_nowhere_is_told_at_the_use(vendor, tmp_path):
     assert "did you mean 'arm_part'" in message
 
 
+def test_a_package_that_is_not_sourced_is_told_in_the_xacro_with_where_it_is(vendor, tmp_path, monkeypatch):
+    (vendor / "package.xml").write_text("<package><name>arm</name></package>")
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "package.xml").write_text("<package><name>arm_parts</name></package>")
+    monkeypatch.chdir(tmp_path)
+    [fault] = compile_file("vendor/urdf/arm.urdf.xacro").diagnostics
+    assert fault.message == "no package named 'arm_parts'; say where it is with --package arm_parts=FOLDER"
+    assert [note.message for note in fault.notes] == ["there is one; write --package arm_parts=parts"]
+
+
 @pytest.mark.parametrize(
     ("change", "line", "message"),
     [

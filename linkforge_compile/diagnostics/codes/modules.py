@@ -14,6 +14,7 @@ UNKNOWN_PACKAGE = Code(
     _E,
     "no package named '{name}'; say where it is with 'packages' of this file or --package {name}=FOLDER",
     _WRITER,
+    in_xml="no package named '{name}'; say where it is with --package {name}=FOLDER",
 )
 USE_OF_NOWHERE = Code("LF3006", _E, "'{path}' leads nowhere: {reason}", _WRITER)
 NO_SPEC_BELOW = Code("LF3067", _E, "there is no spec, NAME.robot.yaml, in the folder '{path}' or below it")
