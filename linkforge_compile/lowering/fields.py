@@ -22,7 +22,7 @@ from linkforge_compile.diagnostics.codes.names import INVALID_NAME, NAME_TWICE
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.extra import extras_of
-from linkforge_compile.lowering.quantities import Bound, Measure, Refusal, doubt, found, list_meant, si_number
+from linkforge_compile.lowering.quantities import Bound, Measure, Refusal, doubt, found, list_meant, plain_number, si_number
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
@@ -75,7 +75,10 @@ class Fields:
     def number(self, key: str, *dimensions: Dimension, bound: Bound | None = None, required: str = "") -> float | None:
         """Read a number in SI units: bare, or a quantity of one of the dimensions."""
         node = self.said(key, required)
-        return None if node is None else self.number_at(node, key, Measure(dimensions, bound))
+        if node is None:
+            return None
+        plain = plain_number(node, bound)
+        return self.number_at(node, key, Measure(dimensions, bound)) if plain is None else plain
 
     def integer(self, key: str, *, bound: Bound | None = None, required: str = "") -> int | None:
         """Read a whole number without a unit; 3.0 is one."""
@@ -125,9 +128,10 @@ class Fields:
         node = self.node.get(key)
         if text is None or node is None:
             return None
-        words = [str(choice) for choice in choices]
-        if text in words:
+        try:
             return choices(text)
+        except ValueError:
+            words = [str(choice) for choice in choices]
         self.tell(UNKNOWN_CHOICE, node, near=words, field=key, choices=", ".join(words), name=text)
         return None
 
@@ -234,6 +238,10 @@ class Fields:
 
     def numbers_at(self, node: YamlNode, field: str, measure: Measure, *counts: int) -> tuple[float, ...] | None:
         """Read a list of as many numbers as one of `counts` says."""
+        if isinstance(node, YamlList) and len(node.items) in counts:
+            plain = [number for item in node.items if (number := plain_number(item, measure.bound)) is not None]
+            if len(plain) == len(node.items):
+                return tuple(plain)
         expected = f"{' or '.join(map(str, counts))} numbers"
         if not isinstance(node, YamlList):
             self.tell_kind(node, field, list_meant(node, counts) or f"a list of {expected}")

@@ -24,7 +24,7 @@ def lower_gazebo_elements(file: Fields) -> Iterator[GazeboElement]:
     for section, kind in (("links", "link"), ("joints", "joint")):
         entries = file.node.get(section)
         for entry in entries if isinstance(entries, YamlMap) else ():
-            if isinstance(entry.value, YamlMap):
+            if isinstance(entry.value, YamlMap) and "gazebo" in entry.value.entries:
                 owner = Fields(entry.value, f"{kind} '{entry.name}'", file.sink, file.trail, entry.key.span)
                 yield from lower_gazebo(owner, entry.name, {entry.name: entry.value})
     yield from lower_gazebo(file, None, joints_of(file.node))
@@ -74,9 +74,8 @@ def _element(block: Fields, reference: str | None, position: tuple[Dimension, ..
 
 def _known_properties(block: Fields, position: tuple[Dimension, ...]) -> Iterator[tuple[str, FreePart]]:
     """Yield the tags that have keys of their own, in the order written; `position` is what the joint goes by."""
-    readers = {**_READ, "springReference": _of(*position)}
     for entry in block.node:
-        read = readers.get(entry.name)
+        read = _of(*position) if entry.name == "springReference" else _READ.get(entry.name)
         text = read(block, entry.name) if read else None
         if text is not None:
             yield entry.name, text

@@ -19,7 +19,8 @@ _SIZE = Measure((Dimension.LENGTH,), ABOVE_ZERO)
 
 def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
     """Lower the one geometry of a visual or a collision; None where it was told why there is none."""
-    said = {key: node for key in _LOWER if (node := shape.node.get(key)) is not None}
+    keys = [key for key in _LOWER if key in shape.node.entries]
+    said = {key: node for key in keys if (node := shape.node.get(key)) is not None}
     if not said:
         shape.tell_lack(NO_GEOMETRY, owner=shape.title)
         return None

@@ -40,6 +40,8 @@ from linkforge_compile.units import Dimension
 _MOMENTS = ("ixx", "iyy", "izz")
 _PRODUCTS = ("ixy", "ixz", "iyz")
 
+_UNSAID_PHYSICS = LinkPhysics()
+
 Shapes = Sequence[Visual | None] | Sequence[Collision | None]
 
 
@@ -80,7 +82,7 @@ def _source(link: Fields) -> SourceRef:
 
 def _physics(link: Fields) -> LinkPhysics:
     """Lower how a simulator treats a link in contact; what is unsaid or faulty is as the simulator has it."""
-    unsaid, physics = LinkPhysics(), link.map("physics")
+    unsaid, physics = _UNSAID_PHYSICS, link.map("physics")
     if physics is None:
         return unsaid
     lowered = physics.build(

@@ -47,6 +47,8 @@ _WORDS = {
 """Each dimension as a person says it, and a value that shows how it is written."""
 
 _LONGEST_LENGTH = 100.0
+_SURE = min(WIDEST_ANGLE, _LONGEST_LENGTH)
+"""Numbers of less than this, either way, are doubted of no dimension."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +98,17 @@ class Refusal:
     code: Code
     facts: dict[str, str] = field(default_factory=dict)
     near: tuple[str, ...] = ()
+
+
+def plain_number(node: YamlNode, bound: Bound | None) -> float | None:
+    """Return the number that a node says, where it is one that no measure of this bound refuses or doubts.
+
+    That is nine of ten; None for one that has to be looked at.
+    """
+    value = node.value if isinstance(node, YamlScalar) else None
+    if (value.__class__ is float or value.__class__ is int) and -_SURE < value < _SURE:
+        return float(value) if bound is None or bound.holds(value) else None
+    return None
 
 
 def si_number(node: YamlNode, measure: Measure) -> float | Refusal:
