@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends.element import inside_of
@@ -76,8 +77,10 @@ def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], fo
 
 def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], found: list[Held]) -> None:
     kind: type = part.__class__
-    values = [(name, getattr(part, name)) for name in _names_of(kind)]
-    said = [(name, value) for name, value in values if value.__class__ not in _NUMBERS and value]
+    names, values_of = _fields_of(kind)
+    values = values_of(part)
+    # Asked of all at once, which most parts end with.
+    said = [] if _NUMBERS.issuperset(map(type, values)) else _said(names, values)
     inside = inside_of(part)
     if not (said or inside or part.extra_attributes or part.extra_elements):
         return
@@ -91,6 +94,11 @@ def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], 
             _gather(inner, where, around, found)
 
 
+def _said(names: Sequence[str], values: Sequence[object]) -> list[tuple[str, object]]:
+    pairs = zip(names, values, strict=True)
+    return [(name, value) for name, value in pairs if value.__class__ not in _NUMBERS and value]
+
+
 # Nine fields of ten; they hold neither parts nor text.
 _NUMBERS = frozenset({float, int, bool, Vector3, type(None)})
 
@@ -99,10 +107,11 @@ _PARTS = (Element, Link, Interface)
 
 
 @cache
-def _names_of(kind: type) -> tuple[str, ...]:
-    if not is_dataclass(kind):
-        return ("parameters",)
-    return tuple(field.name for field in fields(kind) if field.name not in _EVERYWHERE)
+def _fields_of(kind: type) -> tuple[tuple[str, ...], Callable[[Part], tuple[object, ...]]]:
+    """Return the names of the fields of a class that it has for itself, and what gets their values."""
+    own = (field.name for field in fields(kind)) if is_dataclass(kind) else ("parameters",)
+    names = tuple(name for name in own if name not in _EVERYWHERE)
+    return names, attrgetter(*names) if len(names) > 1 else lambda part: tuple([getattr(part, name) for name in names])
 
 
 _EVERYWHERE = frozenset(field.name for field in fields(Element))

@@ -10,6 +10,7 @@ from linkforge_compile.backends.marks import is_recording, mark, mark_of_line
 from linkforge_compile.backends.markup import (
     Xml,
     escaped,
+    is_writable,
     is_xml_name,
     require_writable,
     spelled,
@@ -103,10 +104,19 @@ def parameter_elements(parameters: Mapping[str, object], source: SourceRef | Non
     return Xml("\n".join(_lines(_nodes(parameters, source, path))))
 
 
+def is_plain(part: object) -> bool:
+    """Whether a free part is texts and maps of texts that XML can hold; a no is not certain: writing it will tell."""
+    if isinstance(part, str):
+        return is_writable(part)
+    if not isinstance(part, dict):
+        return False
+    return all(key[:1] != "_" and is_xml_name(key) and is_plain(inner) for key, inner in part.items())
+
+
 def _nodes(parameters: Mapping[str, object], source: SourceRef | None, path: Path) -> list[Content]:
     nodes: list[Content] = []
     for tag, value in parameters.items():
-        if isinstance(value, Sequence) and not isinstance(value, str):
+        if not isinstance(value, str) and isinstance(value, Sequence):
             nodes += [_node(tag, item, source, (*path, tag, number)) for number, item in enumerate(value)]
         else:
             nodes.append(_node(tag, value, source, (*path, tag)))
@@ -115,7 +125,7 @@ def _nodes(parameters: Mapping[str, object], source: SourceRef | None, path: Pat
 
 def _node(tag: str, value: object, source: SourceRef | None, path: Path) -> Node:
     _require_name(tag)
-    if not isinstance(value, Mapping):
+    if isinstance(value, str) or not isinstance(value, Mapping):
         return Node(tag, (), [text] if (text := _text(value)) else [], mark(source, *path))
     attributes = [(key[1:], _text(item)) for key, item in value.items() if key.startswith("_") and key != "_text"]
     for name, _ in attributes:

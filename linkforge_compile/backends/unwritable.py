@@ -46,12 +46,11 @@ def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> 
 
         yield from refused(lambda: raw_elements(value), where, name)
     elif isinstance(value, Mapping) and _keys_are_tags(part):
-        from linkforge_compile.backends.raw import parameter_elements
+        from linkforge_compile.backends.raw import is_plain, parameter_elements
 
-        # A plugin's raw XML stands in place of its parameters; key by key is only to find the one at fault.
-        if getattr(part, "raw_xml", None) is None and any(refused(partial(parameter_elements, value), where)):
-            for key, text in value.items():
-                yield from refused(partial(parameter_elements, {key: text}), where, name, key)
+        # A plugin's raw XML stands in place of its parameters.
+        for key, text in value.items() if getattr(part, "raw_xml", None) is None and not is_plain(value) else ():
+            yield from refused(partial(parameter_elements, {key: text}), where, name, key)
     else:
         yield from _in_value(value, where, name)
 

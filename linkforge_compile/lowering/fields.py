@@ -7,7 +7,7 @@ from enum import StrEnum
 from typing import TypeVar
 
 from linkforge_compile.core.exceptions import RobotModelError
-from linkforge_compile.core.models.geometry import Transform, Vector3
+from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.diagnostics import Code, Diagnostics, notes_of_changes
 from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT
@@ -22,8 +22,19 @@ from linkforge_compile.diagnostics.codes.names import INVALID_NAME, NAME_TWICE
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.extra import extras_of
-from linkforge_compile.lowering.quantities import Bound, Measure, Refusal, doubt, found, list_meant, plain_number, si_number
+from linkforge_compile.lowering.quantities import (
+    Bound,
+    Measure,
+    Refusal,
+    doubt,
+    found,
+    list_meant,
+    plain_number,
+    plain_numbers,
+    si_number,
+)
 from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.syntax import leaves_in
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.syntax.xacro import xacro_facts
@@ -120,7 +131,10 @@ class Fields:
     ) -> Vector3 | None:
         """Read a list of three numbers in SI units."""
         node = self.said(key, required)
-        return None if node is None else self.vector3_at(node, key, Measure(dimensions, bound))
+        if node is None:
+            return None
+        plain = plain_numbers(node, bound)
+        return Vector3(*plain) if len(plain) == 3 else self.vector3_at(node, key, Measure(dimensions, bound))
 
     def choice(self, key: str, choices: type[Choice], *, required: str = "") -> Choice | None:
         """Read one word of an enumeration."""
@@ -141,14 +155,15 @@ class Fields:
         if isinstance(node, YamlList):
             xyz = self.vector3_at(node, "origin", Measure((Dimension.LENGTH,)))
             ref = SourceRef(node, None, self.trail)
-            return Transform(xyz, is_stated=True, source=ref) if xyz else Transform.identity()
+            return Transform(xyz, is_stated=True, source=ref) if xyz else IDENTITY
         pose = self.map("origin")
         if pose is None:
-            return Transform.identity()
-        zero = Vector3(0.0, 0.0, 0.0)
+            return IDENTITY
         xyz, rpy = pose.vector3("xyz", Dimension.LENGTH), pose.vector3("rpy", Dimension.ANGLE)
-        is_stated = any(pose.node.get(key) is not None for key in ("xyz", "rpy"))
-        return Transform(xyz or zero, rpy or zero, is_stated=is_stated, source=pose.ref, **extras_of(pose))
+        is_stated = pose.node.get("xyz") is not None or pose.node.get("rpy") is not None
+        return Transform(
+            xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, source=pose.ref, **extras_of(pose)
+        )
 
     # Opening what is nested
 
@@ -238,10 +253,9 @@ class Fields:
 
     def numbers_at(self, node: YamlNode, field: str, measure: Measure, *counts: int) -> tuple[float, ...] | None:
         """Read a list of as many numbers as one of `counts` says."""
-        if isinstance(node, YamlList) and len(node.items) in counts:
-            plain = [number for item in node.items if (number := plain_number(item, measure.bound)) is not None]
-            if len(plain) == len(node.items):
-                return tuple(plain)
+        plain = plain_numbers(node, measure.bound)
+        if len(plain) in counts:
+            return plain
         expected = f"{' or '.join(map(str, counts))} numbers"
         if not isinstance(node, YamlList):
             self.tell_kind(node, field, list_meant(node, counts) or f"a list of {expected}")
@@ -313,9 +327,7 @@ class Fields:
     @property
     def _has_told_faults(self) -> bool:
         """Whether something in this object, however deep, is known to be wrong."""
-        return any(
-            isinstance(node, YamlFault) or self.sink.has_error_in(node.span) for node in _nodes_within(self.node)
-        )
+        return any(isinstance(node, YamlFault) or self.sink.has_error_in(node.span) for node in leaves_in(self.node))
 
     def said(self, key: str, required: str = "") -> YamlNode | None:
         """Return what is said under a key; with an example of what to write, nothing said is told."""
@@ -330,20 +342,6 @@ class Fields:
         """Report a node of another kind than its field takes; silent where that has been done."""
         if not isinstance(node, YamlFault):
             self.tell(WRONG_KIND, node, field=field, expected=expected, found=found(node))
-
-
-def _nodes_within(node: YamlNode) -> Iterator[YamlNode]:
-    """Yield all keys, scalars and empty nodes; not what holds others, for an arranged map spans nothing of its own."""
-    match node:
-        case YamlMap() if node.entries:
-            for entry in node:
-                yield entry.key
-                yield from _nodes_within(entry.value)
-        case YamlList() if node.items:
-            for item in node:
-                yield from _nodes_within(item)
-        case _:
-            yield node
 
 
 def or_default(said: T | None, default: T) -> T:

@@ -111,6 +111,14 @@ def plain_number(node: YamlNode, bound: Bound | None) -> float | None:
     return None
 
 
+def plain_numbers(node: YamlNode, bound: Bound | None) -> tuple[float, ...]:
+    """Return the numbers that a list says where each is one for `plain_number`; none for anything else."""
+    if not isinstance(node, YamlList):
+        return ()
+    numbers = [number for item in node.items if (number := plain_number(item, bound)) is not None]
+    return tuple(numbers) if len(numbers) == len(node.items) else ()
+
+
 def si_number(node: YamlNode, measure: Measure) -> float | Refusal:
     """Return the number that a node says, in SI units, or why it says none that the measure admits."""
     value = node.value if isinstance(node, YamlScalar) else None

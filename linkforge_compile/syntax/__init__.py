@@ -10,6 +10,7 @@ from linkforge_compile.syntax.nodes import (
     YamlNode,
     YamlScalar,
     is_null,
+    leaves_in,
 )
 from linkforge_compile.syntax.reader import Tags, read, read_data
 from linkforge_compile.syntax.scalars import has_expression, scalar_value, word_value
@@ -26,6 +27,7 @@ __all__ = [
     "has_expression",
     "ignore_comments",
     "is_null",
+    "leaves_in",
     "read",
     "read_data",
     "scalar_value",

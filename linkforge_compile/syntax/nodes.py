@@ -162,3 +162,17 @@ def _keys_in(node: YamlNode) -> Iterator[str]:
 def is_null(node: YamlNode) -> bool:
     """Whether a node is null, written as `null` or by writing nothing."""
     return isinstance(node, YamlScalar) and node.value is None
+
+
+def leaves_in(node: YamlNode) -> Iterator[YamlNode]:
+    """Yield all keys, scalars and empty nodes; not what holds others, for an arranged map spans nothing of its own."""
+    match node:
+        case YamlMap() if node.entries:
+            for entry in node:
+                yield entry.key
+                yield from leaves_in(entry.value)
+        case YamlList() if node.items:
+            for item in node:
+                yield from leaves_in(item)
+        case _:
+            yield node

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import field
 from enum import StrEnum
+from math import isfinite
 from typing import TypeAlias
 
 from linkforge_compile.core.constants import PI
@@ -40,8 +41,8 @@ class Vector3(Part):
     z: float
 
     def __post_init__(self) -> None:
-        if is_finite(self.x) and is_finite(self.y) and is_finite(self.z):
-            return
+        if self.x.__class__ is self.y.__class__ is self.z.__class__ is float and isfinite(self.x + self.y + self.z):
+            return  # nine of ten
         for position, (name, value) in enumerate(zip("xyz", self, strict=True)):
             if not is_finite(value):
                 raise not_finite(value, name, f"Vector3.{name}", (position,))
