@@ -11,6 +11,7 @@ PACKAGE = Path(__file__).parents[1] / "linkforge_compile"
 
 MAY_IMPORT = {
     "frozen": "",
+    "pattern": "",
     "banner": "",
     "bytecode": "",
     "source": "",
@@ -82,8 +83,8 @@ def test_a_room_imports_only_what_lies_below_it(path: Path):
     room = room_of(path)
     if room in FACES:
         return
-    # A way of writing classes, which every room has.
-    allowed = {room, "frozen", *MAY_IMPORT[room].split()}
+    # Ways of writing classes and patterns, which every room has.
+    allowed = {room, "frozen", "pattern", *MAY_IMPORT[room].split()}
     above = {
         other
         for other in rooms_imported_by(path)

@@ -8,16 +8,17 @@ have to hand it on otherwise, for the sake of the few documents that are rendere
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, NamedTuple
 
+from linkforge_compile.pattern import pattern
+
 if TYPE_CHECKING:
     from linkforge_compile.source import SourceRef, Span
 
-MARK = re.compile("\x1c([0-9]+)\x1d")
+MARK = pattern("\x1c([0-9]+)\x1d")
 
 
 class Place(NamedTuple):

@@ -13,10 +13,11 @@ from typing import TypeAlias
 
 from linkforge_compile.backends.marks import is_recording, mark
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.pattern import pattern
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import number_text
 
-_EMPTY = re.compile(r"<(([^\s<>/]+)[^<>]*)(?<!/)></\2>")
+_EMPTY = pattern(r"<(([^\s<>/]+)[^<>]*)(?<!/)></\2>")
 
 # No XML 1.0 document may hold these, not even as a reference.
 _FORBIDDEN = "\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff"

@@ -20,6 +20,7 @@ from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.resolver import IResourceResolver
 from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.pattern import pattern
 
 HEADER, TRIANGLE, SAMPLES = 84, 50, 128
 """How many bytes of a binary STL are before its triangles and in each, and how many of them are looked at."""
@@ -35,7 +36,7 @@ PIECES, PIECE = 8, 8192
 
 LFS_POINTER = b"version https://git-lfs"
 
-_CORNER = re.compile(rb"^[ \t]*v(?:ertex)?[ \t]+(\S{1,40})[ \t]+(\S{1,40})[ \t]+(\S{1,40})(?=\s)", re.MULTILINE)
+_CORNER = pattern(rb"^[ \t]*v(?:ertex)?[ \t]+(\S{1,40})[ \t]+(\S{1,40})[ \t]+(\S{1,40})(?=\s)", re.MULTILINE)
 """A corner in OBJ, or in an STL of text."""
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from linkforge_compile.checks.references import Use, unknown
@@ -15,11 +14,12 @@ from linkforge_compile.diagnostics.codes.names import (
     UNKNOWN_FRAME,
     UNKNOWN_LINK,
 )
+from linkforge_compile.pattern import pattern
 
-_STRANGE = re.compile(r"[^A-Za-z0-9_/~{}]")
-_SUBSTITUTION = re.compile(r"\{[A-Za-z_][A-Za-z0-9_]*\}")
-_BRACE = re.compile(r"[{}]")
-_NUMBERED = re.compile(r"(?:^|/)([0-9][^/]*)")
+_STRANGE = pattern(r"[^A-Za-z0-9_/~{}]")
+_SUBSTITUTION = pattern(r"\{[A-Za-z_][A-Za-z0-9_]*\}")
+_BRACE = pattern(r"[{}]")
+_NUMBERED = pattern(r"(?:^|/)([0-9][^/]*)")
 
 
 def check_sensor_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:

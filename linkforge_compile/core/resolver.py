@@ -9,9 +9,11 @@ from itertools import islice
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
+from linkforge_compile.pattern import pattern
+
 _PACKAGE_URI = re.compile(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
-_PACKAGE_NAME = re.compile(r"<name>\s*([^<]*?)\s*</name>")
-_WINDOWS_DRIVE = re.compile(r"^/(?=[A-Za-z]:)")
+_PACKAGE_NAME = pattern(r"<name>\s*([^<]*?)\s*</name>")
+_WINDOWS_DRIVE = pattern(r"^/(?=[A-Za-z]:)")
 _LEVELS_UP = 10
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import keyword
 import re
-from functools import cache
 
+from linkforge_compile.pattern import pattern
 from linkforge_compile.units import UNITS
 
-_STRING = re.compile(r"'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\"", re.DOTALL)
+_STRING = pattern(r"'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\"", re.DOTALL)
 _UNITS = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
 _KEYWORDS = "|".join(keyword.kwlist)
 
@@ -45,14 +45,9 @@ _HABITS = (
 def explain_syntax_error(text: str, error: SyntaxError) -> tuple[int, int, str]:
     """Return where in an expression the fault is, as offset and length, and what is wrong in plain words."""
     bare = _STRING.sub(lambda found: found[0][0] + " " * (len(found[0]) - 2) + found[0][0], text)
-    for pattern, problem in _HABITS:
-        if found := _compiled(pattern).search(bare):
+    for habit, problem in _HABITS:
+        if found := re.search(habit, bare):
             return found.start(), len(found[0]), problem.format(found[0], *found.groups())
     # Python counts from 1 and saw one parenthesis more; what it says differs from version to version.
     start = min(max((error.offset or 0) - 2, 0), len(text))
     return start, 1, "something is missing or too much here"
-
-
-@cache
-def _compiled(pattern: str) -> re.Pattern[str]:
-    return re.compile(pattern)

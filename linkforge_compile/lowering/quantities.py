@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable
 from dataclasses import field
 
@@ -19,6 +18,7 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_KIND,
 )
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.pattern import pattern
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import scalar_value
 from linkforge_compile.units import (
@@ -197,7 +197,7 @@ def _no_number(node: YamlNode, measure: Measure) -> Refusal:
     return Refusal(UNKNOWN_UNIT, {"expected": measure.words, "name": unit, "hint": ""}, known)
 
 
-_WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$])+")
+_WORD = pattern(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$])+")
 """One of the numbers of a row that was written as one text: what holds no space, or an expression."""
 
 

@@ -10,10 +10,11 @@ from pathlib import Path
 
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.pattern import pattern
 from linkforge_compile.roots import as_walked
 
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
-_NAME = re.compile(r"<name>\s*([^<]*?)\s*</name>")
+_COMMENT = pattern(r"<!--.*?-->", re.DOTALL)
+_NAME = pattern(r"<name>\s*([^<]*?)\s*</name>")
 _MANIFEST_BYTES = 1024 * 1024
 
 _SOURCES = "src"

@@ -16,6 +16,7 @@ from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.packages import Package, find_package, notes_of_seen
 from linkforge_compile.modules.paths import follow
+from linkforge_compile.pattern import pattern
 from linkforge_compile.source import Span
 
 SPEC_ENDINGS = (".yaml", ".yml")
@@ -23,8 +24,8 @@ SPEC_ENDINGS = (".yaml", ".yml")
 _URDF_ENDING = ".urdf"
 XACRO = ".xacro"
 """How the name of a xacro file ends."""
-_SCHEME = re.compile(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
-_PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
+_SCHEME = pattern(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
+_PACKAGE_PATH = pattern(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import re
+from linkforge_compile.pattern import pattern
 
-XACRO_EXPRESSION = re.compile(r"\$\{(?P<within>[^{}\r\n]*)\}")
+XACRO_EXPRESSION = pattern(r"\$\{(?P<within>[^{}\r\n]*)\}")
 
 
 def xacro_facts(text: str) -> tuple[dict[str, str], ...]:

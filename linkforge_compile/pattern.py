@@ -1,0 +1,31 @@
+"""`pattern`: `re.compile` that waits until its pattern is used: for those that a common spec without faults never needs.
+
+To compile one takes longer than to define a class.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, AnyStr, Generic
+
+__all__ = ["pattern"]
+
+
+class _Pattern(Generic[AnyStr]):
+    """What stands for a compiled pattern, and has its methods as soon as they are asked for."""
+
+    def __init__(self, text: AnyStr, flags: int = 0) -> None:
+        self._text: AnyStr = text
+        self._flags = flags
+
+    def __getattr__(self, name: str) -> object:
+        # `re` remembers what it compiled; what is found here is not asked for again.
+        value: object = getattr(re.compile(self._text, self._flags), name)
+        setattr(self, name, value)
+        return value
+
+
+if TYPE_CHECKING:
+    from re import compile as pattern
+else:
+    pattern = _Pattern
