@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.references import Use, own_positions, unknown
 from linkforge_compile.core.models.robot import Robot
@@ -16,6 +17,9 @@ from linkforge_compile.diagnostics.codes.model import (
     VIRTUAL_NAME_TAKEN,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP, UNKNOWN_JOINT, UNKNOWN_LINK
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.srdf import GroupState
 
 
 def check_semantic_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
@@ -41,7 +45,24 @@ def check_semantic_groups(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
 
     MoveIt drops a group with an unknown subgroup, and states and end effectors of unknown groups.
     """
-    yield from unknown(_groups(robot), UNKNOWN_GROUP, [group.name for group in robot.semantic.groups], gaps)
+    groups = _names_of_groups(robot)
+    for state in robot.semantic.group_states:
+        if state.group not in gaps and (meant := _turned_round(state, groups)):
+            use = _group_of(state)
+            names = [name.removeprefix(use.prefix) for name in meant]
+            hint = f"; the group comes first: write '{': {'.join(names)}: …{'}' * (len(names) - 1)}'"
+            yield use.told(UNKNOWN_GROUP, name=state.group.removeprefix(use.prefix), hint=hint)
+    yield from unknown(_groups(robot, groups), UNKNOWN_GROUP, groups, gaps, hint="")
+
+
+def _turned_round(state: GroupState, groups: Collection[str]) -> tuple[str, ...]:
+    """Return group, state and perhaps joint of a state that has them in another order; () for any other state."""
+    if state.group in groups:
+        return ()
+    if state.name in groups:
+        return state.name, state.group
+    group = next((joint for joint in state.joint_values if joint in groups), None)
+    return (group, state.name, state.group) if group else ()
 
 
 def check_virtual_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
@@ -147,12 +168,12 @@ def _links(robot: Robot) -> Iterator[Use]:
 
 
 def _joints(robot: Robot) -> Iterator[Use]:
-    semantic = robot.semantic
+    semantic, groups = robot.semantic, _names_of_groups(robot)
     for group in semantic.groups:
         for place, joint in enumerate(group.joints):
             yield Use(joint, f"planning group '{group.name}'", group.source, ("joints", place))
     for state in semantic.group_states:
-        for joint, key in own_positions(state).items():
+        for joint, key in own_positions(state).items() if not _turned_round(state, groups) else ():
             yield Use(joint, f"state '{state.name}' of group '{state.group}'", state.source, (key,))
     for passive in semantic.passive_joints:
         yield Use(passive.name, "passive_joints", passive.source)
@@ -160,13 +181,21 @@ def _joints(robot: Robot) -> Iterator[Use]:
         yield Use(remark.joint_name, f"joint property '{remark.property_name}'", remark.source, ("joint_name",))
 
 
-def _groups(robot: Robot) -> Iterator[Use]:
+def _names_of_groups(robot: Robot) -> Collection[str]:
+    return dict.fromkeys(group.name for group in robot.semantic.groups)
+
+
+def _group_of(state: GroupState) -> Use:
+    return Use(state.group, f"group state '{state.name}'", state.source, ("group",))
+
+
+def _groups(robot: Robot, known: Collection[str]) -> Iterator[Use]:
+    """Yield the uses of groups, but for states that have their names in another order."""
     semantic = robot.semantic
     for group in semantic.groups:
         for place, subgroup in enumerate(group.subgroups):
             yield Use(subgroup, f"planning group '{group.name}'", group.source, ("subgroups", place))
-    for state in semantic.group_states:
-        yield Use(state.group, f"group state '{state.name}'", state.source, ("group",))
+    yield from (_group_of(state) for state in semantic.group_states if not _turned_round(state, known))
     for effector in semantic.end_effectors:
         user = f"end effector '{effector.name}'"
         yield Use(effector.group, user, effector.source, ("group",))

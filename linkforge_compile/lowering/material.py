@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL, OUT_OF_RANGE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
@@ -10,7 +12,7 @@ from linkforge_compile.lowering.extra import NO_EXTRAS, extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import ZERO_TO_ONE, Measure
 from linkforge_compile.lowering.scope import FileScope
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 
 _BYTE = 255
@@ -43,13 +45,22 @@ def lower_visual_material(visual: Fields, scope: FileScope) -> Material | None:
 def _material(fields: Fields, name: str, scope: FileScope) -> Material | None:
     color, texture = fields.node.get("color"), fields.node.get("texture")
     if color is None and texture is None:
-        fields.tell_lack(EMPTY_MATERIAL, owner=fields.title)
+        fields.tell_lack(EMPTY_MATERIAL, owner=fields.title, hint=_color_in_comment(fields.node.key_span("color")))
         return None
     rgba, file = _color(fields), fields.text("texture")
     if rgba is None and file is None:
         return None
     image = scope.resource(file, texture) if file is not None and texture is not None else None
     return fields.build(lambda: Material(name, rgba, image, source=fields.ref, **extras_of(fields)))
+
+
+def _color_in_comment(key: Span | None) -> str:
+    """Say how a color is written that stands behind its key as in style sheets, which YAML takes for a comment."""
+    behind = key.file.line(key.line)[key.end_column - 1 :] if key else ""
+    written = re.match(r":[ \t]+(#((?:[0-9a-fA-F]{2}){3,4}))(?!\S)", behind)
+    if written is None:
+        return ""
+    return f"; '{written[1]}' begins a comment: write '[{', '.join(map(_of_byte, bytes.fromhex(written[2])))}]'"
 
 
 def _color(fields: Fields) -> Color | None:
@@ -61,11 +72,25 @@ def _color(fields: Fields) -> Color | None:
         seen = f"[{', '.join(item.text for item in numbers if isinstance(item, YamlScalar))}]; write '{meant}'"
         fields.tell(OUT_OF_RANGE, numbers, field="color", bound=ZERO_TO_ONE.words, found=seen)
         return None
+    if isinstance(numbers, YamlList) and _tell_bytes(fields, numbers):
+        return None
     rgba = None if numbers is None else fields.numbers_at(numbers, "color", Measure((), ZERO_TO_ONE), 3, 4)
     if node is None or rgba is None:
         return None
     extras = extras_of(long) if long else NO_EXTRAS
     return fields.build(lambda: Color(*rgba, source=SourceRef(node, None, fields.trail), **extras))
+
+
+def _tell_bytes(fields: Fields, numbers: YamlList) -> bool:
+    """Tell of single parts that are written from 0 to 255, where the others are right; return whether there are any."""
+    others = [item for item in numbers if not _is_part(item)]
+    large = [byte for item in others if (byte := _byte(item)) is not None and byte >= _LEAST_BYTE]
+    if len(large) < len(others):
+        return False
+    for item, byte in zip(others, large, strict=True):
+        seen = f"{byte}; write '{_of_byte(byte)}'"
+        fields.tell(OUT_OF_RANGE, item, field="color", bound=ZERO_TO_ONE.words, found=seen)
+    return bool(large)
 
 
 def _of_bytes(numbers: YamlList) -> str | None:
@@ -79,11 +104,16 @@ def _of_bytes(numbers: YamlList) -> str | None:
 
 def _opacity(node: YamlNode) -> str | None:
     """Return an opacity from 0 to 1: style sheets count it so beside colors in bytes, others in bytes as well."""
-    value = node.value if isinstance(node, YamlScalar) else None
-    if isinstance(node, YamlScalar) and isinstance(value, int | float) and 0 <= value <= 1:
-        return None if isinstance(value, bool) else node.text
+    if isinstance(node, YamlScalar) and _is_part(node):
+        return node.text
     byte = _byte(node)
     return None if byte is None else _of_byte(byte)
+
+
+def _is_part(node: YamlNode) -> bool:
+    """Whether a number from 0 to 1 is written."""
+    value = node.value if isinstance(node, YamlScalar) else None
+    return isinstance(value, int | float) and not isinstance(value, bool) and 0 <= value <= 1
 
 
 def _byte(node: YamlNode) -> int | None:

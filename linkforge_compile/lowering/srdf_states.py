@@ -149,8 +149,10 @@ def _tell_unknown_state(
     fields: Fields, entry: YamlEntry, used: StateKey, known: Sequence[StateKey], around: Surroundings
 ) -> None:
     group, name = used
-    if name not in around.lost:
-        states = [f"'{state}'" for owner, state in known if owner == group]
+    states = [f"'{state}'" for owner, state in known if owner == group]
+    # One with a fault in its `for` may be any that begins as its name does.
+    begun = tuple(state.partition("$(")[0] for owner, state in known if owner == group and "$(" in state)
+    if name not in around.lost and not (begun and name.startswith(begun)):
         fields.tell(UNKNOWN_STATE, entry.value, group=group, name=name, states=", ".join(states) or "none")
 
 
@@ -164,7 +166,7 @@ def _own_position(fields: Fields, entry: YamlEntry, around: Surroundings) -> Pos
         if entry.name in around.lost:
             return None
         if entry.name not in around.joints:
-            fields.tell(UNKNOWN_GROUP, entry.key, near=around.groups, name=entry.name)
+            fields.tell(UNKNOWN_GROUP, entry.key, near=around.groups, name=entry.name, hint="")
             return None
     number = fields.number_at(node, field, measure)
     return None if number is None else {entry.name: (number,)}

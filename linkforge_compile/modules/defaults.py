@@ -6,9 +6,10 @@ from collections.abc import Iterator, Mapping
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.repetition import REPEATED_DEFAULT
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.modules.normal_form import CHOICES, is_said, long_form, long_object
 from linkforge_compile.schema.shapes import Shape, shapes
-from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
 _SECTIONS: Mapping[str, str] = {"links": "link", "joints": "joint", "sensors": "sensor"}
 """The default for the entries of each section."""
@@ -38,7 +39,7 @@ def with_defaults(tree: YamlMap, defaults: YamlMap) -> YamlMap:
     """
     sections = dict(tree.entries)
     for name, kind in _SECTIONS.items():
-        section, default = tree.get(name), defaults.get(kind)
+        section, default = tree.get(name), defaults.get(kind) or _misspelt(kind, defaults)
         if isinstance(section, YamlMap) and isinstance(default, YamlMap):
             shape = shapes().under(name)
             sections[name] = YamlEntry(sections[name].key, _filled(section, default, shape))
@@ -46,6 +47,12 @@ def with_defaults(tree: YamlMap, defaults: YamlMap) -> YamlMap:
     if isinstance(links, YamlMap):
         sections["links"] = YamlEntry(sections["links"].key, _with_shapes_filled(links, defaults))
     return YamlMap(sections, tree.span)
+
+
+def _misspelt(kind: str, defaults: YamlMap) -> YamlMap | None:
+    """Return what is left of the defaults of a kind where its key is at fault: just that, for each entry to know."""
+    lost = {one.name: one for one in defaults if isinstance(one.value, YamlFault) and nearest(one.name, [kind])}
+    return YamlMap(lost, defaults.span) if lost else None
 
 
 def _filled(section: YamlMap, default: YamlMap, shape: Shape) -> YamlMap:
@@ -130,7 +137,17 @@ def over(default: YamlNode, said: YamlNode, shape: Shape) -> YamlNode:
             value = over(entry.value, own.value, shape.under(entry.name))
             is_merged = isinstance(value, YamlMap) and isinstance(entry.value, YamlMap)
             entries[entry.name] = YamlEntry(own.key, value, None if is_merged else entry)
-    return YamlMap(entries, above.span)
+    lost = {one.name: one.value for one in below if isinstance(one.value, YamlFault)}
+    return YamlMap({one.name: _knowing(lost, one) for one in entries.values()} if lost else entries, above.span)
+
+
+def _knowing(lost: Mapping[str, YamlFault], entry: YamlEntry) -> YamlEntry:
+    """Return an entry with the faulty defaults in its map that may have been for it: what it lacks is in those."""
+    if not isinstance(entry.value, YamlMap):
+        return entry
+    ours = {name: value for name, value in lost.items() if entry.name in value.keys or nearest(name, [entry.name])}
+    faults = {name: YamlEntry(YamlScalar(name, name, value.span), value) for name, value in ours.items()}
+    return YamlEntry(entry.key, YamlMap({**entry.value.entries, **faults}, entry.value.span), entry.replaced)
 
 
 def _keys_of_for(node: YamlNode, shape: Shape) -> Iterator[YamlScalar]:

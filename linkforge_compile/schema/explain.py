@@ -19,7 +19,8 @@ from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import mapping
 from linkforge_compile.schema.keys_meant import unknown_keys
-from linkforge_compile.schema.meant import Misfit, Path, is_row, way_out, word_meant
+from linkforge_compile.schema.meant import Misfit, Path, way_out, word_meant
+from linkforge_compile.schema.numbers_meant import is_row
 from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.schema.words import (
     branch_meant,

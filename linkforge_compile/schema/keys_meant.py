@@ -10,6 +10,7 @@ from typing import NamedTuple
 from linkforge_compile.diagnostics import MAX_TOLD
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
+from linkforge_compile.schema.numbers_meant import number_meant
 from linkforge_compile.schema.repetition import has_names
 from linkforge_compile.schema.words import COMMON_KEYS, alternatives, shown
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, is_null
@@ -164,11 +165,11 @@ def _is_other_number(name: str, known: Mapping[str, Json]) -> bool:
 
 
 def _decimal_comma(before: YamlNode, entry: YamlEntry) -> str:
-    """Say how `1,5` is written, which in braces is the value of one entry and the key `5` behind it."""
-    if not (entry.name.isdecimal() and is_null(entry.value)):
+    """Say how `1,5 mm` is written, which in braces is the value of one entry and the key `5 mm` behind it."""
+    if not (isinstance(before, YamlScalar) and isinstance(before.value, int) and is_null(entry.value)):
         return ""
-    is_whole = isinstance(before, YamlScalar) and re.fullmatch(r"[+-]?\d+", before.text)
-    return f"write '{shown(before)}.{entry.name}'" if is_whole else ""
+    meant = number_meant(f"{before.text},{entry.name}")
+    return f"write '{meant}'" if meant else ""
 
 
 def _keys_within(schema: Json) -> set[str]:

@@ -8,6 +8,7 @@ from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.expressions import forgotten_expression
 from linkforge_compile.schema.json_types import Schema, branches, mapping
+from linkforge_compile.schema.numbers_meant import is_row, number_meant, numbers_of_row, with_points
 from linkforge_compile.schema.words import expected, is_number, shown
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
@@ -50,11 +51,6 @@ def way_out(misfit: Misfit) -> str:
         case _:
             meant = ""
     return f"; write {meant}" if meant else ""
-
-
-def is_row(node: YamlNode) -> bool:
-    """Whether it is text of several numbers with spaces or commas between them, but no decimal comma."""
-    return isinstance(node, YamlScalar) and len(_numbers(node)) > 1
 
 
 def word_meant(misfit: Misfit, words: Sequence[str]) -> str:
@@ -126,7 +122,7 @@ def _expression(node: YamlScalar, misfit: Misfit) -> str:
 
 def _row(node: YamlScalar, misfit: Misfit) -> str:
     """The numbers of one attribute of URDF, '0 0 1'."""
-    numbers = _numbers(node)
+    numbers = numbers_of_row(node)
     if len(numbers) == 6 and misfit.field == "origin":
         return _pose(numbers)
     if len(numbers) < 2 or not (misfit.takes("array") or isinstance(misfit.field, int)):
@@ -135,33 +131,28 @@ def _row(node: YamlScalar, misfit: Misfit) -> str:
     return f"'[{listed}]'" if misfit.takes("array") else f"'{listed}'"
 
 
-def _numbers(node: YamlScalar) -> Sequence[str]:
-    if not isinstance(node.value, str) or _DECIMAL_COMMA.fullmatch(node.text):
-        return ()
-    words = re.split(r"[\s,]+", node.text.strip())
-    return words if all(map(is_number, words)) else ()
-
-
 def _number(node: YamlScalar, misfit: Misfit) -> str:
-    """A number with a decimal comma, with underscores among its digits, or in quotes."""
+    """A number with a decimal comma, with spaces or underscores among its digits, or in quotes."""
     if not misfit.takes("number") or not isinstance(node.value, str):
         return ""
     text = node.text.strip()
-    if comma := _DECIMAL_COMMA.fullmatch(text):
-        return f"'{comma[1]}.{comma[2]}{comma[3]}'"
     if is_number(text):
         return f"{text} without quotes"
-    joined = _UNDERSCORES.sub("", text)
-    return f"'{joined}'" if is_number(joined) else ""
-
-
-_DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+)(\s*[^\d\s,]\S*|)")
-_UNDERSCORES = re.compile(r"(?<=[0-9a-fA-F])_+(?=[0-9a-fA-F])")
-"""What YAML 1.1 and Python read over between digits, and YAML 1.2 does not."""
+    meant = number_meant(text)
+    return f"'{meant}'" if meant else ""
 
 
 def _leader(node: YamlScalar, misfit: Misfit) -> str:
     return f"'{{joint: {node.text}}}'" if misfit.field == "mimic" and isinstance(node.value, str) else ""
+
+
+def _state(node: YamlScalar, misfit: Misfit) -> str:
+    """A joint, a group and a value of it, where a group has states."""
+    groups = (misfit.file.child("semantic") or misfit.file).child("groups")
+    if misfit.path[:2] != ("semantic", "group_states") or len(misfit.path) != 4 or not isinstance(groups, YamlMap):
+        return ""
+    joint, group = misfit.path[2:]
+    return f"'{group}: {{NAME: {{{joint}: {node.text}}}}}'" if group in groups.entries else ""
 
 
 def _use(node: YamlScalar, misfit: Misfit) -> str:
@@ -184,6 +175,13 @@ def _item(node: YamlScalar, misfit: Misfit) -> str:
 
 
 # Lists
+
+
+def _decimal_commas(node: YamlList, misfit: Misfit) -> str:
+    """A list that is too long, since the commas in its numbers part it as well."""
+    counts = {branch["maxItems"] for branch in branches(misfit.schema) if "maxItems" in branch}
+    meant = with_points(node)
+    return f"'[{', '.join(meant)}]'" if len(meant) < len(node) and len(meant) in counts else ""
 
 
 def _object_in_order(node: YamlList, misfit: Misfit) -> str:
@@ -241,7 +239,7 @@ def _attribute(node: YamlMap, misfit: Misfit) -> str:
     if only is None or only.name not in _ATTRIBUTES:
         return ""
     if isinstance(only.value, YamlScalar):
-        numbers = _numbers(only.value) if misfit.takes("array") else ()
+        numbers = numbers_of_row(only.value) if misfit.takes("array") else ()
         return _of_field(misfit, numbers if len(numbers) > 1 else only.value.text)
     if isinstance(only.value, YamlList) and misfit.takes("array"):
         return _of_field(misfit, [shown(item) for item in only.value])
@@ -261,10 +259,17 @@ _OF_SCALARS: tuple[Callable[[YamlScalar, Misfit], str], ...] = (
     _row,
     _number,
     _leader,
+    _state,
     _use,
     _item,
 )
-_OF_LISTS: tuple[Callable[[YamlList, Misfit], str], ...] = (_example, _object_in_order, _six_of_a_pose, _by_name)
+_OF_LISTS: tuple[Callable[[YamlList, Misfit], str], ...] = (
+    _example,
+    _decimal_commas,
+    _object_in_order,
+    _six_of_a_pose,
+    _by_name,
+)
 _OF_MAPS: tuple[Callable[[YamlMap, Misfit], str], ...] = (_interfaces, _parts, _attribute)
 
 _EXAMPLES = {"for": "'{side: [left, right]}'"}
