@@ -114,7 +114,9 @@ def _begin(said: Sequence[YamlEntry], around: Shape, name: str, section: Shape) 
         at += 1
     tail = said[at:]
     is_whole = any(not is_null(entry.value) and not _lacks_its_essence(entry, section) for entry in tail)
-    return at if is_whole else 0
+    # A joint that says little may be a link as well.
+    is_plain = section.things in _ESSENTIAL or not all(_is_shaped_as(around, entry) for entry in tail)
+    return at if is_whole and is_plain else 0
 
 
 def _belongs(entry: YamlEntry, around: Shape, name: str, section: Shape) -> bool:
@@ -132,11 +134,14 @@ def _belongs(entry: YamlEntry, around: Shape, name: str, section: Shape) -> bool
 
 
 def _takes(section: Shape, entry: YamlEntry) -> bool:
-    """Whether an entry is shaped as those of a section, and says what they must say."""
+    """Whether an entry may be one of a section: it is shaped as they are, and says what they must say."""
     if is_null(entry.value):
         return section.things in _MAY_BE_EMPTY
-    is_taken = fit_of(section.schema).takes(YamlMap({entry.name: entry}, entry.key.span))
-    return is_taken and not _lacks_its_essence(entry, section)
+    return _is_shaped_as(section, entry) and not _lacks_its_essence(entry, section)
+
+
+def _is_shaped_as(section: Shape, entry: YamlEntry) -> bool:
+    return fit_of(section.schema).takes(YamlMap({entry.name: entry}, entry.key.span))
 
 
 def _lacks_its_essence(entry: YamlEntry, section: Shape) -> bool:
@@ -164,6 +169,7 @@ _ESSENTIAL = {
     "frames": "parent",
     "modules": "use",
     "sensors": "link",
+    "transmissions": "joints",
     "ros2_control blocks": "hardware_plugin",
     "virtual joints": "child_link",
     "end effectors": "parent_link",

@@ -1,0 +1,47 @@
+"""Sections whose line may be lost: what is none of them stays where it stands."""
+
+import pytest
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.schema import validate
+from linkforge_compile.source import SourceFile
+from linkforge_compile.syntax import read
+
+HEADER = "linkforge: 1\nname: arm\n"
+
+
+def told(body: str) -> list[str]:
+    sink = Diagnostics()
+    tree = read(SourceFile("arm.robot.yaml", HEADER + body), sink)
+    assert tree is not None
+    validate(tree, sink)
+    return [diagnostic.code.id for diagnostic in sink]
+
+
+RIGHT = {
+    "joints get what they lack from defaults": "defaults: {joint: {type: fixed}}\njoints: {a: {child: b}, c: {child: d}}",
+    "a joint says only its type": "joints: {a: {type: fixed, child: b}, b: {type: revolute}}",
+    "a joint says only what a link may say": "joints: {a: {child: b}, b: {gazebo: {mu1: 1}}}",
+    "links have the names of sections": "links: {base: , sensors: , joints: , arm: {visual: {sphere: 0.1}}}",
+    "variables hold what links do": "variables: {a: 1, wheel: {visual: {sphere: 0.1}}, steel: {color: [1, 1, 1]}}",
+    "parameters have the names of sections": "parameters: {links: 3, joints: {type: integer, default: 2}}",
+    "one of several sections says nothing": "materials: \nlinks: {base: }\njoints:",
+}
+
+
+@pytest.mark.parametrize("body", RIGHT.values(), ids=RIGHT)
+def test_nothing_is_told_where(body: str):
+    assert told(body) == []
+
+
+MEANT_OTHERWISE = {
+    "the section is there already": "frames: {a: {parent: b}}\nlinks: {b: , c: {parent: b}}",
+    "an entry has keys of its own section besides": "links: {b: , c: {parent: b, visual: {sphere: 0.1}}}",
+    "all of a section are of another": "links: {c: {parent: b, child: d, type: fixed}, e: {parent: b, child: c}}",
+    "it is not the end of a section": "links: {b: , c: {type: fixed, parent: b, child: d}, d: {visual: {sphere: 0.1}}}",
+}
+
+
+@pytest.mark.parametrize("body", MEANT_OTHERWISE.values(), ids=MEANT_OTHERWISE)
+def test_keys_are_told_one_by_one_where(body: str):
+    assert set(told(body)) == {"LF2101"}
