@@ -1,4 +1,4 @@
-"""`pattern`: `re.compile` that waits until its pattern is used: for those that a common spec without faults never needs.
+"""`pattern`: `re.compile` that waits until its pattern is used, for those that a common spec never needs.
 
 To compile one takes longer than to define a class.
 """
