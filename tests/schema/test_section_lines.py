@@ -19,7 +19,7 @@ def told(body: str) -> list[str]:
 
 
 RIGHT = {
-    "joints get what they lack from defaults": "defaults: {joint: {type: fixed}}\njoints: {a: {child: b}, c: {child: d}}",
+    "a joint lacks what defaults give": "defaults: {joint: {type: fixed}}\njoints: {a: {child: b}, c: {child: d}}",
     "a joint says only its type": "joints: {a: {type: fixed, child: b}, b: {type: revolute}}",
     "a joint says only what a link may say": "joints: {a: {child: b}, b: {gazebo: {mu1: 1}}}",
     "links have the names of sections": "links: {base: , sensors: , joints: , arm: {visual: {sphere: 0.1}}}",
