@@ -15,7 +15,7 @@ import yaml
 
 from linkforge_compile.bounds import MAX_FILE_BYTES, Limit
 from linkforge_compile.core.meshes.read import MAX_TRIANGLES
-from linkforge_compile.diagnostics.render import MOST_SHOWN
+from linkforge_compile.diagnostics.render.text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_TOLD
 from linkforge_compile.expressions import grammar, operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES

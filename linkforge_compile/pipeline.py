@@ -5,7 +5,7 @@ Values flow down, faults flow sideways into the sink, and no stage stops the lin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -13,7 +13,6 @@ from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.checks import check
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
-from linkforge_compile.diagnostics.ignores import Ignore, heed
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
@@ -32,12 +31,13 @@ from linkforge_compile.modules import (
 )
 from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.stack import with_room
-from linkforge_compile.syntax import ignore_comments
+from linkforge_compile.syntax.ignore_words import IGNORE_WORDS
 
 if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
     from linkforge_compile.core.resolver import FileSystemResolver
+    from linkforge_compile.diagnostics.ignores import Ignore
 
     # Types that whoever lists the parameters of a spec asks this room for.
     from linkforge_compile.modules.listing import ListedParameter as ListedParameter  # noqa: PLC0414
@@ -294,14 +294,26 @@ def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilatio
     try:
         spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them
         robot = robot_of(spec, settings, loader, meshes, sink) if spec else None
-        ignores = tuple(one for file in loader.sources for one in ignore_comments(file, loader.budget))
+        ignores = tuple(_ignores(loader))
     except BeyondLimitError as beyond:
         sink.end(beyond)
     is_whole = not any(diagnostic.code is NOT_JUDGED for diagnostic in sink)
     if sink.has_errors or not is_whole:
         robot = None
-    report = heed(sink.sorted(), ignores, is_whole=robot is not None)
+    report = sink.sorted()
+    if ignores:
+        from linkforge_compile.diagnostics.ignores import heed
+
+        report = heed(report, ignores, is_whole=robot is not None)
     return Compilation(robot, report, (*loader.files, *meshes.files), (*loader.unread, *meshes.unread))
+
+
+def _ignores(loader: Loader) -> Iterator[Ignore]:
+    for file in loader.sources:
+        if IGNORE_WORDS.search(file.text):
+            from linkforge_compile.syntax.ignore_comments import ignore_comments
+
+            yield from ignore_comments(file, loader.budget)
 
 
 def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:

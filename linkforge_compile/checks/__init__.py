@@ -8,7 +8,6 @@ from typing import TypeAlias
 from linkforge_compile.checks import (
     gazebo,
     geometry,
-    groups,
     hardware,
     inertia,
     interfaces,
@@ -18,8 +17,6 @@ from linkforge_compile.checks import (
     names,
     plugins,
     sensors,
-    srdf,
-    states,
     tree,
 )
 from linkforge_compile.checks.mesh_files import RobotMeshes
@@ -89,36 +86,20 @@ MESH_CHECKS: tuple[MeshCheck, ...] = (
     meshes.check_fine_collisions,
 )
 
-SEMANTIC_CHECKS: tuple[Check, ...] = (
-    names.check_semantic_duplicates,
-    srdf.check_semantic_links,
-    srdf.check_semantic_joints,
-    srdf.check_semantic_groups,
-    srdf.check_virtual_joints,
-    srdf.check_virtual_joint_names,
-    srdf.check_collision_pairs,
-    srdf.check_enabled_pairs,
-    srdf.check_passive_joints,
-    groups.check_group_circles,
-    groups.check_chains,
-    groups.check_empty_groups,
-    groups.check_end_effectors,
-    groups.check_arms_of_end_effectors,
-    states.check_group_states,
-    states.check_states_taken_over,
-    states.check_states_of_mimics,
-    states.check_states_are_whole,
-)
-
 
 def check(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """Yield all that is wrong with the robot, each fault once, in the order of the checks.
 
     `gaps` are the names that the author wrote and the robot lacks, which has been told.
     """
-    # To ask a robot for its semantic part makes one, and costs the import of its classes.
-    for one in (*ROBOT_CHECKS, *SEMANTIC_CHECKS) if robot.says_semantic else ROBOT_CHECKS:
+    for one in ROBOT_CHECKS:
         yield from one(robot, gaps)
+    # To ask a robot for its semantic part makes one, and costs the import of its classes.
+    if robot.says_semantic:
+        from linkforge_compile.checks.semantic import SEMANTIC_CHECKS
+
+        for one in SEMANTIC_CHECKS:
+            yield from one(robot, gaps)
     files = RobotMeshes(robot, gaps)
     for looking in MESH_CHECKS:
         yield from looking(robot, files)

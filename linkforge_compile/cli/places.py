@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkforge_compile.diagnostics.render import snippet
+from linkforge_compile.diagnostics.render.text import snippet
 from linkforge_compile.source import Span
 
 

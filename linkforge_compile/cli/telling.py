@@ -46,6 +46,9 @@ def add_telling_options(parser: argparse.ArgumentParser, *, is_product: bool = F
 
 def selected(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> tuple[Diagnostic, ...]:
     """Return what the options leave of a report, weighed as they say."""
+    diagnostics = tuple(diagnostics)
+    if not diagnostics:
+        return ()
     from linkforge_compile.diagnostics.selection import Selection
 
     selection = Selection(tuple(arguments.select), tuple(arguments.ignore), arguments.werror, arguments.quiet)
@@ -103,10 +106,12 @@ def written(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) 
 
 
 def _text(diagnostics: tuple[Diagnostic, ...], color: str) -> str:
-    from linkforge_compile.diagnostics.render import render_first
+    if not diagnostics:
+        return ""
+    from linkforge_compile.diagnostics.render.text import render_first
 
-    text = render_first(tuple(diagnostics), colour=is_coloured(sys.stderr, color))
-    if not diagnostics or sys.stderr is None or not sys.stderr.isatty():
+    text = render_first(diagnostics, colour=is_coloured(sys.stderr, color))
+    if sys.stderr is None or not sys.stderr.isatty():
         return text
     worst = next((one for one in diagnostics if one.severity is Severity.ERROR), diagnostics[0])
     return f"{text}{worst.code.help} for more\n"

@@ -35,8 +35,6 @@ def heed(diagnostics: tuple[Diagnostic, ...], ignores: tuple[Ignore, ...], *, is
 
     Errors stay. `is_whole` says that nothing kept a stage from looking: only then is it known what is not told.
     """
-    if not ignores:
-        return diagnostics
     # By the file's name, as one that is included twice is two files with the same comments.
     asked = {
         (ignore.span.file.name, ignore.line, code)

@@ -11,7 +11,7 @@ from linkforge_compile.lowering.joint import joints_of, position_measure
 from linkforge_compile.lowering.quantities import Refusal, si_number
 from linkforge_compile.syntax.nodes import YamlMap, YamlNode, YamlScalar
 
-SAY_POSITIONS = frozenset({"transmissions", "gazebo"})
+_SAY_POSITIONS = frozenset({"transmissions", "gazebo"})
 """The sections of a file that say positions of joints beside the joints themselves; states are read apart."""
 
 
@@ -28,6 +28,8 @@ def judge_positions_elsewhere(file: Fields, joints: Mapping[str, Joint | None]) 
 
     They were read as of any joint: an angle or a length. `joints` are those of the whole robot.
     """
+    if _SAY_POSITIONS.isdisjoint(file.node.entries):
+        return
     own = joints_of(file.node)
     for position in (*_in_transmissions(file), *_in_gazebo_blocks(file)):
         said, joint = position.fields.node.get(position.key), joints.get(position.joint)

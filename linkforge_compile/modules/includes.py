@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from types import MappingProxyType
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
@@ -19,6 +18,7 @@ from linkforge_compile.diagnostics.codes.files import (
     TOO_MANY_INCLUDES,
 )
 from linkforge_compile.modules.paths import follow
+from linkforge_compile.modules.whole import Whole
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import (
     YamlEntry,
@@ -43,35 +43,11 @@ ReadIncluded = Callable[[Path, YamlScalar], tuple[SourceFile, YamlMap] | None]
 """Reads the file at a path for an item of `include`; None where it cannot be had, which it reports."""
 
 
-class Whole(NamedTuple):
-    """A file with all that it includes laid into it.
-
-    `ways` are the included files, each with the paths that lead to it: as the file itself writes the first, as
-    the file at that path writes the second, and so on. Where one could not be had, `include` of the tree is a
-    YamlFault: anything may stand in it.
-    """
-
-    file: SourceFile
-    tree: YamlMap
-    ways: Mapping[SourceFile, tuple[str, ...]] = MappingProxyType({})
-
-
 def lay_together(file: SourceFile, tree: YamlMap, folder: Path | None, read: ReadIncluded, sink: Diagnostics) -> Whole:
     """Lay what a file includes, and what that includes, into its tree; `folder` is where its paths start."""
-    if tree.get("include") is None:
-        return Whole(file, tree)
     laying = _Laying(file, tree, read, sink)
     laying.add_includes(tree, _Chain((file,), folder))
     return Whole(file, laying.whole(), laying.ways)
-
-
-def reached(folder: Path, way: tuple[str, ...]) -> Path:
-    """Return where a way of includes leads that begins in a folder."""
-    path = folder
-    for step in way:
-        path = follow(folder, step)
-        folder = path.parent
-    return path
 
 
 class _Chain(NamedTuple):

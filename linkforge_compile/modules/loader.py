@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import field
 from pathlib import Path
-from typing import Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from linkforge_compile.bounds import MAX_FILE_BYTES, Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
@@ -15,16 +15,18 @@ from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE
 from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.file_text import UnreadableError, file_bytes, file_text, utf8_text
-from linkforge_compile.modules.includes import Whole, lay_together, reached
 from linkforge_compile.modules.noted import NotedSink, used_from
-from linkforge_compile.modules.packages import Package
 from linkforge_compile.modules.path_starts import looked_for
 from linkforge_compile.modules.paths import as_typed, names_in
 from linkforge_compile.modules.trees import known_source, tree_of
+from linkforge_compile.modules.whole import Whole, reached
 from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
+
+if TYPE_CHECKING:
+    from linkforge_compile.modules.packages import Package
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -211,6 +213,11 @@ class Loader:
     def _whole(self, source: SourceFile, folder: Path | None, sink: Diagnostics) -> Whole | None:
         """Read a spec with all that it includes; None where its own text is no spec."""
         tree = tree_of(source, sink, self.budget)
+        if tree is None:
+            return None
+        if tree.get("include") is None:
+            return Whole(source, tree)
+        from linkforge_compile.modules.includes import lay_together
 
         def read_included(path: Path, item: YamlScalar) -> tuple[SourceFile, YamlMap] | None:
             text = self._text(path, Used(item.text, item.span), sink)
@@ -220,7 +227,7 @@ class Loader:
             part = tree_of(included, sink, self.budget)
             return None if part is None else (included, part)
 
-        return None if tree is None else lay_together(source, tree, folder, read_included, sink)
+        return lay_together(source, tree, folder, read_included, sink)
 
     def _source(
         self, name: str, text: str, path: Path | None, asked: Span | None, included: Span | None = None

@@ -8,16 +8,18 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
-from linkforge_compile.modules.packages import Package, find_package, notes_of_seen
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.pattern import pattern
 from linkforge_compile.source import Span
+
+if TYPE_CHECKING:
+    from linkforge_compile.modules.packages import Package
 
 SPEC_ENDINGS = (".yaml", ".yml")
 """How the names of spec files end."""
@@ -156,6 +158,8 @@ def _in_package(site: UseSite, path: str, loader: Loader, sink: Diagnostics) -> 
     match = _PACKAGE_PATH.fullmatch(path)
     if match is None:
         return _nowhere(site, "it takes the form package://NAME/PATH", sink)
+    from linkforge_compile.modules.packages import Package, find_package, notes_of_seen
+
     name = match[1]
     declared = {**site.packages, **loader.packages}
     folder = find_package(name, declared, site.user.folder)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.schema.fit import fit_of
 from linkforge_compile.schema.registry import linked
-from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.units import Quantity
 
@@ -59,14 +58,22 @@ def _may_lack_a_line(tree: YamlMap) -> bool:
 
     A line that is indented is an entry without a value, and a frame in the place of a joint has no child.
     """
-    for node, shape in ((tree, shapes()), (tree.get("semantic"), shapes().under("semantic"))):
-        for section in node if isinstance(node, YamlMap) else ():
-            inside = section.value.entries if isinstance(section.value, YamlMap) else {}
-            if any(is_null(inside[name].value) for name in inside.keys() & shape.keys):
-                return True
+    at_top, semantic = _unsaid_in_sections(tree), _unsaid_in_sections(tree.get("semantic"))
+    if at_top or semantic:
+        from linkforge_compile.schema.shapes import shapes
+
+        if not (at_top.isdisjoint(shapes().keys) and semantic.isdisjoint(shapes().under("semantic").keys)):
+            return True
     joints = tree.get("joints")
     last = [entry.value for entry in joints][-1:] if isinstance(joints, YamlMap) else []
     return any(isinstance(said, YamlMap) and "child" not in said.entries for said in last)
+
+
+def _unsaid_in_sections(node: YamlNode | None) -> set[str]:
+    """Return the names of the entries without a value in the sections of an object."""
+    sections = [section.value for section in node] if isinstance(node, YamlMap) else []
+    inside = (section.entries.items() for section in sections if isinstance(section, YamlMap))
+    return {name for entries in inside for name, entry in entries if is_null(entry.value)}
 
 
 def _with_units(node: YamlNode) -> YamlNode:

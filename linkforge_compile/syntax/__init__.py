@@ -1,6 +1,5 @@
 """Text to positioned tree: YAML as the language reads it, every key and value with its place; `writer` leads back."""
 
-from linkforge_compile.syntax.ignore_comments import ignore_comments
 from linkforge_compile.syntax.nodes import (
     ScalarValue,
     YamlEntry,
@@ -25,7 +24,6 @@ __all__ = [
     "YamlNode",
     "YamlScalar",
     "has_expression",
-    "ignore_comments",
     "is_null",
     "leaves_in",
     "read",

@@ -11,28 +11,24 @@ from yaml.events import ScalarEvent
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics.ignores import Ignore
-from linkforge_compile.pattern import pattern
 from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax.ignore_words import IGNORE_WORDS
 from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.reader import MAX_READ_TWICE, PARSER
 
-# A search for plain text is a hundred times as fast as one for the pattern, and most files end here.
-_WORDS = re.compile(r"linkforge[: \t]+(?:ignore|disable|suppress|skip|noqa|nolint)\b")
-_COMMENT = pattern(r"(?<!\S)#[ \t]*linkforge:[ \t]*ignore(?!\w)(?P<codes>(?:[ \t,]+(?i:LF)\w+)*)")
-_MEANT_AS_ONE = pattern(rf"(?<!\S)#[^#\r\n]*?(?<!\w){_WORDS.pattern}(?:[ \t,:=]+(?i:LF)\w+)*")
-_CODE = pattern(r"LF\w+", re.IGNORECASE)
-_NOTHING_BUT_COMMENT = pattern(r"\s*(#.*)?")
+_COMMENT = re.compile(r"(?<!\S)#[ \t]*linkforge:[ \t]*ignore(?!\w)(?P<codes>(?:[ \t,]+(?i:LF)\w+)*)")
+_MEANT_AS_ONE = re.compile(rf"(?<!\S)#[^#\r\n]*?(?<!\w){IGNORE_WORDS.pattern}(?:[ \t,:=]+(?i:LF)\w+)*")
+_CODE = re.compile(r"LF\w+", re.IGNORECASE)
+_NOTHING_BUT_COMMENT = re.compile(r"\s*(#.*)?")
 
 
 def ignore_comments(file: SourceFile, budget: Budget | None = None) -> Iterator[Ignore]:
     """Yield the comments that name codes to ignore: those of their line, or of the next where they stand alone.
 
     What follows the codes is the author's reason. One that is meant so and written otherwise, such as
-    `# linkforge: disable LF6003`, comes as well, not understood. A file without the words costs one search. They are
-    counted in the budget, without one in their own.
+    `# linkforge: disable LF6003`, comes as well, not understood. They are counted in the budget, without one in their
+    own.
     """
-    if not _WORDS.search(file.text):
-        return
     marks = Marks(file, file.text.removeprefix("\ufeff"))
     if not _MEANT_AS_ONE.search(marks.text) or (texts := _texts(marks)) is None:
         return

@@ -15,34 +15,47 @@ HEAVY = {"jinja2", "jsonschema", "networkx", "lxml", "yaml", "difflib", "numpy"}
 PLAIN = """
 linkforge: 1
 name: plain
-links: {base: , tip: {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}}
+links: {base: {}, tip: {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}}
 joints:
   turn: {type: revolute, parent: base, child: tip, axis: z, limits: {lower: -1, upper: 1, effort: 1, velocity: 1}}
 """
 
 UNSAID = {
     "backends.srdf_view",
+    "checks.groups",
+    "checks.semantic",
+    "checks.srdf",
+    "checks.states",
     "core.models.gazebo",
     "core.models.merging",
     "core.models.ros2_control",
     "core.models.sensor",
     "core.models.srdf",
     "core.models.transmission",
+    "diagnostics.ignores",
+    "diagnostics.render.text",
+    "diagnostics.selection",
     "expressions",
     "importers",
+    "lowering.joining",
+    "lowering.module_joint",
+    "lowering.mount",
+    "lowering.positions",
     "modules.evaluate_tree",
     "modules.expansion",
+    "modules.includes",
     "modules.listing",
     "modules.names",
     "modules.overrides",
+    "modules.packages",
     "modules.places",
     "modules.variants",
     "modules.xacro",
     "schema.explain",
     "schema.faults",
     "schema.meant",
-    "schema.patches",
     "schema.shapes",
+    "syntax.ignore_comments",
 }
 """Rooms and modules that serve something which PLAIN does not say, or a fault that it does not have."""
 

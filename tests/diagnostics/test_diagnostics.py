@@ -5,7 +5,7 @@ from textwrap import dedent
 import pytest
 
 from linkforge_compile.diagnostics import Code, Diagnostics, Gaps, Note, Severity
-from linkforge_compile.diagnostics.render import render_text, summary
+from linkforge_compile.diagnostics.render.text import render_text, summary
 from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar

@@ -51,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.diagnostics.render import summary
+    from linkforge_compile.diagnostics.render.text import summary
 
     words, assignments = split_assignments(arguments.words)
     meant = {word: _specs(word) for word in words or ["."]}
