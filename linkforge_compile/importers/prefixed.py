@@ -17,6 +17,8 @@ _PREFIX = "$(prefix)"
 _NAMES: Mapping[str, tuple[str, ...]] = {
     **dict.fromkeys(("link", "joint", "visual", "collision", "material", "transmission", "actuator"), ("name",)),
     **dict.fromkeys(("ros2_control", "sensor", "gpio", "plugin", "group", "passive_joint"), ("name",)),
+    # Only raw XML has one, for HPP; of two uses each has its own, as of a group.
+    "gripper": ("name",),
     "gazebo": ("reference",),
     "parent": ("link",),
     "child": ("link",),

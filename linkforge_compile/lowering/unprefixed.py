@@ -15,6 +15,8 @@ from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
 _RAW_NAME = pattern(r"[\w:.-]+")
+# An attribute may hold a `>`. What is read is not given back: an unclosed quote would be tried from each place in it.
+_REST_OF_TAG = pattern(r"""(?:[^>"']|"[^"]*"|'[^']*')*+>""")
 # It begins with the first character of a name only: tried from each, a long name would take quadratic time.
 _RAW_VALUE = pattern(r"""(?<![\w:.-])([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 _NAMED_FOR_ITSELF = ("visual", "collision", "material")
@@ -33,7 +35,8 @@ _MOST_SHOWN = 5
 _AROUND_A_LIST = " \t\r\n[](){}'\""
 """What stands around the names of a list, and around each."""
 
-_WRITTEN_WHOLE = frozenset(("parameters", "properties", "extra"))
+_WRITTEN_WHOLE = frozenset(("parameters", "properties"))
+"""Free parts: a list in one can only be written anew as a whole."""
 
 
 class Text(NamedTuple):
@@ -123,10 +126,7 @@ def _override(path: tuple[str, ...]) -> str:
 
 
 def _paths(node: YamlNode, *path: str) -> Iterator[tuple[Span, tuple[str, ...]]]:
-    """Yield the place of each scalar with the keys and positions by which an override reaches it.
-
-    A list in a free part, and raw XML, can only be written anew as a whole.
-    """
+    """Yield the place of each scalar with the keys and positions by which an override reaches it."""
     if isinstance(node, YamlScalar):
         yield node.span, path
     elif isinstance(node, YamlMap):
@@ -204,11 +204,11 @@ def _raw_texts(node: YamlNode) -> Iterator[Text]:
 def _said_in(raw: str) -> Iterator[tuple[str, str]]:
     """Yield the texts and attributes of raw XML by their names, in time that grows with its length, whatever it is."""
     for piece in raw.split("<")[1:]:
-        start, end, behind = piece.partition(">")
-        tag = _RAW_NAME.match(start)
-        if not (tag and end):
+        tag = _RAW_NAME.match(piece)
+        rest = _REST_OF_TAG.match(piece, tag.end()) if tag else None
+        if not (tag and rest):
             continue
-        yield tag[0], behind.partition(">")[0].strip()
-        for name, double, single in _RAW_VALUE.findall(start, tag.end()):
+        yield tag[0], piece[rest.end() :].partition(">")[0].strip()
+        for name, double, single in _RAW_VALUE.findall(piece, tag.end(), rest.end()):
             if name != "name" or tag[0] not in _NAMED_FOR_ITSELF:
                 yield name, double or single

@@ -54,7 +54,7 @@ from linkforge_compile.importers.prefixed import Shapes, raw_with_prefix
         (
             "robot",
             '<gripper name="g"><position>1</position><link name="tool0"/></gripper>',
-            '<gripper name="g"><position>1</position><link name="$(prefix)tool0"/></gripper>',
+            '<gripper name="$(prefix)g"><position>1</position><link name="$(prefix)tool0"/></gripper>',
         ),
         ("robot", '<mimic joint="x"/>', '<mimic joint="x"/>'),
         ("robot", '<parent link="x"/>', '<parent link="x"/>'),

@@ -72,7 +72,7 @@ def test_names_of_the_files_around_are_no_names_of_the_file():
 def test_names_in_raw_xml_are_told_wherever_they_stand():
     unnamed = "name: lamp\nlinks: {bulb: , stand: }\njoints: {j: {type: fixed, parent: stand, child: bulb}}\nextra: "
     said = "  # W[LF5704]:8 'bulb' is a link of this file and takes the prefix, but not here; write '$(link('bulb'))'"
-    for raw in ("<a b = 'bulb'/>", '<a x="1"y="bulb"/>', "<a> bulb </a>", "<a.b:c-d>bulb"):
+    for raw in ("<a b = 'bulb'/>", '<a x="1"y="bulb"/>', "<a> bulb </a>", "<a.b:c-d>bulb", '<a x=">" b="bulb"/>'):
         robot_of(used(Spec(f"{unnamed}{raw}{said}\n")))
     for raw in ("bulb>", "a b='bulb'>", '<visual name="bulb"/>', "<!-- bulb -->", "<a b='bulb'", "</bulb>"):
         robot_of(used(Spec(f"{unnamed}{raw}\n")))
@@ -97,7 +97,16 @@ def test_names_in_prose_are_none(text: str):
     robot_of(used(Spec(f"{unnamed}<a>{text}</a>\n")))
 
 
-@pytest.mark.parametrize("raw", ["<" + "a" * 100_000, "<a " + "b" * 100_000 + ">", "<a b" + " " * 100_000 + ">"])
+@pytest.mark.parametrize(
+    "raw",
+    [
+        "<" + "a" * 100_000,
+        "<a " + "b" * 100_000 + ">",
+        "<a b" + " " * 100_000 + ">",
+        "<a " + "'" * 99_999,
+        "<a ' " * 20_000,
+    ],
+)
 def test_what_is_no_xml_is_read_in_time_that_grows_with_its_length(raw: str):
     spec = used(Spec(f'name: lamp\nlinks: {{bulb: }}\nextra: "{raw}"\n'))
     started = time.process_time()

@@ -249,6 +249,17 @@ def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_told_once(tmp_path)
     assert Path(diagnostic.span.file.name).name == "gripper.urdf"
 
 
+def test_of_several_raw_elements_the_override_says_the_one_again(tmp_path):
+    gripper = GRIPPER.replace("</robot>", '<sensing range="1"/><sensing link="finger"/></robot>')
+    [one] = told(compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper))
+    assert "change it to 'g_finger' by 'override: {extra: {1: ...}}' where" in one
+    (tmp_path / "again").mkdir()
+    override = """override: {extra: {1: '<sensing link="g_finger"/>'}}"""
+    again = compiled(tmp_path / "again", f"g: {{use: vendor/gripper.urdf, parent: table, {override}}}", gripper)
+    assert not again.diagnostics
+    assert render_urdf(again.result()).count('<sensing range="1"/>') == 1
+
+
 def test_nothing_is_told_of_raw_names_that_stay(tmp_path):
     gripper = GRIPPER.replace("</robot>", '<sensing link="finger"/></robot>')
     compilation = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table, prefix: ''}", gripper)
