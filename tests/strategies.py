@@ -100,7 +100,7 @@ geometries = primitives | meshes
 
 shares = st.floats(0, 1)
 colors = st.builds(Color, shares, shares, shares, shares)
-materials = st.builds(Material, names, colors, maybe(texts))
+materials = st.builds(Material, names, colors, maybe(texts), after_links=st.booleans())
 
 tensors = st.builds(InertiaTensor, numbers, numbers, numbers, numbers, numbers, numbers, **extras)
 inertials = st.builds(Inertial, not_negative, poses, tensors)

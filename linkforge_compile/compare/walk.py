@@ -7,6 +7,7 @@ from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.measures import BARE, Measure, change_told, is_near, measure_of, position_measure
+from linkforge_compile.compare.orders import order_differences
 from linkforge_compile.compare.pairing import key_of, paired
 from linkforge_compile.compare.poses import pose_differences, tensor_differences
 from linkforge_compile.compare.raw_parts import RawElement, by_tag
@@ -29,7 +30,7 @@ from linkforge_compile.core.models.ros2_control import (
     Ros2ControlSensor,
 )
 from linkforge_compile.core.models.sensor import SensorNoise
-from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
+from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
 
 TOLERANCE = 1e-6
 """Below which a difference is not told, unless said: of poses in metres and radians, of other numbers as a share."""
@@ -201,12 +202,11 @@ def _part(path: Path, before: object, after: object, how: How) -> Iterator[Diffe
         case (RawElement(), RawElement()):
             yield from _elements(path, before, after, how)
             return
-        case (Transmission(), Transmission()):
-            yield from _order(path, before, after)
         case (GroupState(), GroupState()):
             yield from _positions(path, before, after, how)
             yield from _fields(path, before, after, how, ("joint_values",))
             return
+    yield from order_differences(path, before, after)
     yield from _fields(path, before, after, how)
 
 
@@ -320,15 +320,3 @@ def _positions(path: Path, before: GroupState, after: GroupState, how: How) -> I
         else:
             for place, positions in enumerate(zip(one, other, strict=True)):
                 yield from walk((*path, joint, *([str(place)] if len(one) > 1 else [])), *positions, here)
-
-
-def _order(path: Path, before: Transmission, after: Transmission) -> Iterator[Difference]:
-    """Yield where the ends of a transmission changed places, which have different parts in it."""
-    for what, one, other in (
-        ("joints", before.joints, after.joints),
-        ("actuators", before.actuators, after.actuators),
-    ):
-        were, are = [end.name for end in one], [end.name for end in other]
-        if were != are and sorted(were) == sorted(are):
-            text = f"in the order {', '.join(were)} → {', '.join(are)}"
-            yield Difference(Kind.CHANGED, (*path, what), plain(were), plain(are), text)

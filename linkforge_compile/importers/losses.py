@@ -11,13 +11,12 @@ from linkforge_compile.diagnostics.codes.importing import (
     BECOMES_OTHER,
     COMES_IN_ADDITION,
     DOES_NOT_COME_OUT,
-    SHAPES_REORDERED,
     VERSION_FOR_CAPSULE,
 )
 from linkforge_compile.importers.draft import same
+from linkforge_compile.importers.orders import reordered
 from linkforge_compile.importers.said import Said, said
 from linkforge_compile.importers.xml import XmlDocument, XmlElement
-from linkforge_compile.shape_order import KINDS
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
@@ -27,7 +26,7 @@ _Key: TypeAlias = tuple[str | None, ...]
 def losses(document: XmlDocument, again: XmlDocument) -> Iterator[Diagnostic]:
     """Yield what two documents do not both say, told at the place in the first."""
     yield from _differences(said(document.root), said(again.root))
-    yield from _reordered(document.root, again.root)
+    yield from reordered(document.root, again.root)
 
 
 def unread(tree: YamlNode, again: YamlNode | None, name: str = "robot") -> Iterator[Diagnostic]:
@@ -78,22 +77,6 @@ def _capsule(one: Said) -> XmlElement:
             return element
         waiting += reversed(tuple(element.children))
     return one.element
-
-
-def _reordered(robot: XmlElement, again: XmlElement) -> Iterator[Diagnostic]:
-    """Yield the links whose shapes are all there, but not in their order: one that is kept raw comes out last."""
-    ours = {link.get("name"): link for link in again.children if link.tag == "link"}
-    for link in robot.children:
-        other = ours.get(link.get("name")) if link.tag == "link" else None
-        was, now = _shapes(link), _shapes(other) if other else []
-        pairs = zip(was, now, strict=False)
-        first = next((one for one, another in pairs if one.tag != another.tag), None)
-        if first and len(was) == len(now):
-            yield SHAPES_REORDERED.at(first.span, link=link.get("name"))
-
-
-def _shapes(link: XmlElement) -> list[XmlElement]:
-    return [child for child in link.children if child.tag in KINDS]
 
 
 def _other(what: str, was: str, now: str, where: Span) -> Diagnostic:

@@ -51,7 +51,10 @@ def _material(fields: Fields, name: str, scope: FileScope) -> Material | None:
     if rgba is None and file is None:
         return None
     image = scope.resource(file, texture) if file is not None and texture is not None else None
-    return fields.build(lambda: Material(name, rgba, image, source=fields.ref, **extras_of(fields)))
+    after_links = fields.flag("after_links") or False
+    return fields.build(
+        lambda: Material(name, rgba, image, after_links=after_links, source=fields.ref, **extras_of(fields))
+    )
 
 
 def _color_in_comment(key: Span | None) -> str:

@@ -11,7 +11,12 @@ from linkforge_compile.writers.pen import Pen
 
 def written_material(pen: Pen, material: Material) -> YamlMap:
     """Return a material that stands under its name."""
-    return pen.element(material, color=_color(pen, material.color), texture=pen.text(material.texture))
+    return pen.element(
+        material,
+        color=_color(pen, material.color),
+        texture=pen.text(material.texture),
+        after_links=pen.flag(material.after_links, default=False),
+    )
 
 
 def written_visual_material(pen: Pen, material: Material | None, materials: Mapping[str, Material]) -> YamlNode | None:

@@ -52,6 +52,14 @@ def test_a_banner_of_several_lines_is_one_comment():
     )
 
 
+def test_a_material_stands_before_the_links_or_behind_them():
+    red, blue = Material("red", Color(1, 0, 0), after_links=True), Material("blue", Color(0, 0, 1))
+    document = etree.fromstring(
+        render_urdf(Robot("r", materials={"red": red, "blue": blue}, links=[Link("a")])).encode()
+    )
+    assert [child.get("name") for child in document] == ["blue", "a", "red"]
+
+
 @pytest.mark.parametrize("banner", ["a --> <evil/>", "---", "ends-", "\x07\ufffe\ud800", "<!--"])
 def test_a_banner_cannot_end_its_comment(banner: str):
     document = etree.fromstring(render_urdf(Robot("r"), banner=banner).encode())

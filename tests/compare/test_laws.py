@@ -21,7 +21,7 @@ from tests.strategies import robots
 from tests.test_coverage import CLASSES
 from tests.writers.test_every_field import full, parts
 
-UNTOLD = {"source", "resource_resolver", "axis_as_written", "shape_order"}
+UNTOLD = {"source", "resource_resolver", "axis_as_written", "shape_order", "after_links"}
 """Fields that say where and how it was written."""
 
 

@@ -337,6 +337,35 @@ def test_what_is_new_and_what_is_gone_are_told_in_few_words():
     ]
 
 
+RED = "{sphere: 1, material: red}"
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "told"),
+    [
+        (f"visual: [{RED}, {RED}], collision: visual", f"visual: [{RED}, {RED}], collision: visual, shape_order: pairs",
+         ["in the order visual, visual, collision, collision → visual, collision, visual, collision"]),
+        (f"visual: {RED}, collision: visual", f"collision: visual, visual: {RED}",
+         ["in the order visual, collision → collision, visual"]),
+        ("visual: {sphere: 1}, collision: visual", "collision: visual, visual: {sphere: 1}", []),
+        (f"visual: [{RED}, {{sphere: 2}}], collision: {{sphere: 3}}",
+         f"visual: [{RED}, {{sphere: 2}}], collision: {{sphere: 3}}, shape_order: [visual, collision, visual]", []),
+    ],
+)  # fmt: skip
+def test_an_order_of_shapes_is_told_where_mujoco_gives_a_collision_another_color(before: str, after: str, told):
+    head = "linkforge: 1\nname: r\nmaterials: {red: {color: [1, 0, 0]}}\nlinks: {a: "
+    one, other = (robot_of(f"{head}{{{link}}}}}") for link in (before, after))
+    assert [(each.path, each.text) for each in compare(one, other)] == [
+        (("links", "a", "shape_order"), text) for text in told
+    ]
+
+
+def test_a_material_that_comes_out_behind_the_links_is_told():
+    after = SPEC.replace("red: {color: [1, 0, 0, 1]}", "red: {color: [1, 0, 0, 1], after_links: true}")
+    (told,) = compare(robot_of(SPEC), robot_of(after))
+    assert (told.path, told.text) == (("materials", "red", "after_links"), "before the links → behind the links")
+
+
 def test_float_noise_is_not_told_and_the_tolerance_says_what_is_noise():
     before, after = (
         robot_of(SPEC),

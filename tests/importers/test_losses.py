@@ -81,6 +81,31 @@ def test_a_difference_is_told_at_its_place(before: str, after: str, loss: str):
     assert f"r.urdf:{loss}" in told(before, after)
 
 
+BALL = '<geometry><sphere radius="1"/></geometry>'
+PAINT = '<material name="red"><color rgba="{} 0 0 1"/></material>'
+OWN, OTHER = PAINT.format(1), PAINT.format(0.5)
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "loss"),
+    [
+        (
+            f'<link name="a"><visual>{BALL}</visual><collision>{BALL}</collision></link>',
+            f'<link name="a"><collision>{BALL}</collision><visual>{BALL}</visual></link>',
+            "r.urdf:1:32: warning: visuals and collisions of link 'a' come out of the spec in another order",
+        ),
+        (
+            f'<link name="a"><visual>{BALL}{OTHER}</visual></link>{OWN}',
+            f'{OWN}<link name="a"><visual>{BALL}{OTHER}</visual></link>',
+            "r.urdf:1:81: warning: of the colors named 'red' another one comes first",
+        ),
+    ],
+)
+def test_an_order_that_means_something_is_a_loss(was: str, now: str, loss: str):
+    one, other = (document(f'<robot name="r">{text}</robot>') for text in (was, now))
+    assert [str(found).startswith(loss) for found in losses(one, other)] == [True]
+
+
 def test_a_turn_of_zero_beside_a_quaternion_is_a_loss():
     """urdfdom refuses an origin that says both."""
     origin = '<origin xyz="0 0 0.5"/>'

@@ -179,6 +179,24 @@ def test_shapes_that_are_mixed_stay_so(read, tags: str, said: str):
     assert re.findall(r"<(visual|collision)>", compiled(f"linkforge: 1\nname: r\n{text}\n")) == tags.split()
 
 
+@pytest.mark.parametrize(
+    ("painted", "said"),
+    [
+        ("1 0 0 1", "red: {color: [0, 0, 1], after_links: true}"),
+        ("0 0 1.0 1", "red: {color: [0, 0, 1]}"),
+    ],
+)
+def test_a_material_behind_another_color_of_its_name_stays_there(read, painted: str, said: str):
+    """MuJoCo takes the first color of a name, and urdfdom the robot's own, so neither may become the other."""
+    seen = shown(f'<material name="red"><color rgba="{painted}"/></material>') + shown('<material name="red"/>')
+    text = read(f'<link name="a">{seen}</link><material name="red"><color rgba="0 0 1 1"/></material>')
+    assert said in text
+    urdf = compiled(f"linkforge: 1\nname: r\n{text}\n")
+    first = re.search(r'<material name="red">\s*<color rgba="([^"]*)"', urdf)
+    assert first
+    assert list(map(float, first[1].split())) == list(map(float, painted.split()))
+
+
 def test_a_named_collision_is_not_the_visual(read):
     shape = "<geometry><sphere radius='1'/></geometry>"
     text = read(f"<link name='a'><visual>{shape}</visual><collision name='c'>{shape}</collision></link>")

@@ -125,7 +125,7 @@ def said_fields(part: object) -> Iterator[str]:
 def full() -> Robot:
     noise = replace(NOISE, **raw("mean"))
     plugin = GazeboPlugin("control", "control.so", {"frame": "tool", "gains": {"p": "1.10"}}, **EXTRAS)
-    shared = Material("shared", Color(0.1, 0.2, 0.3, 0.4, **EXTRAS), "shared.png", **raw("texture"))
+    shared = Material("shared", Color(0.1, 0.2, 0.3, 0.4, **EXTRAS), "shared.png", after_links=True, **raw("texture"))
     body = core.Link(
         "body",
         Inertial(2, replace(POSE, **EXTRAS), InertiaTensor(1, 2, 3, 0.1, 0.2, 0.3, **EXTRAS), **raw("mass")),

@@ -143,6 +143,7 @@ OF_NO_SPEC = {
     (core.Color, "a"): "one of the numbers of a list, which are all written",
     (core.SemanticRobotDescription, "robot_name"): "the name of the robot",
     (Link, "physics"): "a part, whose fields are here",
+    (core.Material, "after_links"): "where it stands, not what it says",
 }
 
 

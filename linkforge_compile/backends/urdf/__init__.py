@@ -32,6 +32,7 @@ class RobotView(NamedTuple):
     attributes: Xml
     materials: tuple[MaterialView, ...]
     links: tuple[LinkView, ...]
+    materials_after_links: tuple[MaterialView, ...]
     joints: tuple[JointView, ...]
     transmissions: tuple[TransmissionView, ...]
     ros2_controls: tuple[Ros2ControlView, ...]
@@ -90,8 +91,9 @@ def _robot_view(robot: Robot, gazebo: Gazebo) -> RobotView:
     version = stated_version(robot)
     return RobotView(
         attributes(robot, name=robot.name, version=version),
-        tuple(map(material_view, materials.values())),
+        tuple([material_view(one) for one in materials.values() if not one.after_links]),
         link_views(robot.links, materials, version),
+        tuple([material_view(one) for one in materials.values() if one.after_links]),
         joint_views(robot.joints, version),
         _transmissions(robot),
         _ros2_controls(robot),

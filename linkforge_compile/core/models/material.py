@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import field
+
 from linkforge_compile.core.constants import DEFAULT_MATERIAL_RGBA
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.part import Element, freeze
@@ -61,7 +63,9 @@ class Color(Element):
 class Material(Element):
     """A color, a texture or both, under a name that may be empty: `<material name>`.
 
-    `texture` is the file of the image, as a URI or a path: `<texture filename>`; None for none.
+    `texture` is the file of the image, as a URI or a path: `<texture filename>`; None for none. `after_links` says that
+    the robot's document has it behind the links: of two colors of one name, MuJoCo takes the first in the document for
+    all who only name it. It is not compared.
 
     Raises:
         RobotValidationError: VALUE_EMPTY if it has neither color nor texture.
@@ -73,6 +77,7 @@ class Material(Element):
     name: str
     color: Color | None = None
     texture: str | None = None
+    after_links: bool = field(default=False, compare=False, repr=False, kw_only=True)
 
     def __post_init__(self) -> None:
         freeze(self)

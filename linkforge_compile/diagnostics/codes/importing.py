@@ -91,6 +91,12 @@ SHAPES_REORDERED = Code(
     "visuals and collisions of link '{link}' come out of the spec in another order, and MuJoCo gives a collision the "
     "color of the visual before it",
 )
+COLORS_REORDERED = Code(
+    "LF8141",
+    _W,
+    "of the colors named '{name}' another one comes first in what comes out of the spec, and MuJoCo takes the first "
+    "for all that only name it",
+)
 COMES_IN_ADDITION = Code("LF8192", _W, "{what} comes out of the spec, and does not stand here")
 
 LOSSES = frozenset(
@@ -102,6 +108,7 @@ LOSSES = frozenset(
         BECOMES_OTHER,
         COMES_IN_ADDITION,
         SHAPES_REORDERED,
+        COLORS_REORDERED,
     }
 )
 """What `--strict` makes a failure of."""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from linkforge_compile.importers.draft import DeclinedError, Draft, same
+from linkforge_compile.importers.orders import named_colors
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
-from linkforge_compile.syntax import YamlMap, YamlNode
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
 Named = dict[str, tuple[XmlAttribute, YamlNode]]
 
@@ -17,15 +18,21 @@ class Palette:
     before, means that one. `declared` takes the robot's own, `found` the first of each name in a visual.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, robot: XmlElement) -> None:
         self.materials: Named = {}
+        self._said: dict[str, YamlMap] = {}
+        self._painted_before = _painted_before(robot)
 
     def declare(self, material: Reading) -> YamlNode:
         """Read a material of the robot itself."""
         name = material.attribute("name")
         if name.value in self.materials:
             raise DeclinedError(f"there is a material '{name.value}' already", name.span)
-        node = _definition(material)
+        said = node = _definition(material)
+        if material.element in self._painted_before:
+            true = YamlScalar("true", True, material.span)
+            node = material.draft.map_of({**_entries(said), "after_links": true}, material.span)
+        self._said[name.value] = said
         self.materials[name.value] = name, node
         return node
 
@@ -37,20 +44,21 @@ class Palette:
                 reading = Reading(draft, material)
                 reading.attribute("name")
                 try:
-                    self.materials[name.value] = name, _definition(reading)
+                    node = self._said[name.value] = _definition(reading)
                 except DeclinedError:
                     continue  # told where the visual is read
+                self.materials[name.value] = name, node
 
     def used(self, material: Reading) -> YamlNode:
         """Read the material of a visual: a name, or the whole of one that is another than the robot's of this name."""
         name = material.attribute("name")
-        known = self.materials.get(name.value)
+        known = self._said.get(name.value)
         if material.is_spent():
             if known is None:
                 raise DeclinedError(f"no material named '{name.value}' has a color or a texture", name.span)
             return material.draft.text(name.value, name.span)
         node = _definition(material)
-        if known and same(known[1], node):
+        if known and same(known, node):
             return material.draft.text(name.value, name.span)
         said = material.draft.text(name.value, name.span) if name.value else None
         return material.draft.map_of({"name": said, **_entries(node)}, material.span)
@@ -87,3 +95,11 @@ def _entries(node: YamlMap) -> dict[str, YamlNode]:
 def _materials_of_visuals(root: XmlElement) -> list[XmlElement]:
     visuals = [visual for link in root.children if link.tag == "link" for visual in link.children]
     return [one for visual in visuals if visual.tag == "visual" for one in visual.children if one.tag == "material"]
+
+
+def _painted_before(robot: XmlElement) -> set[XmlElement]:
+    """Return the robot's materials whose name a visual that stands before them gives to another color."""
+    own = {child for child in robot.children if child.tag == "material"}
+    first: dict[str, object] = {}
+    colors = ((material, first.setdefault(name, color) != color) for material, name, color in named_colors(robot))
+    return {material for material, is_another in colors if is_another and material in own}

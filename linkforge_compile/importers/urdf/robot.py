@@ -82,7 +82,7 @@ def _inside(root: XmlElement, *path: tuple[str, ...]) -> list[XmlElement]:
 
 
 def _robot(robot: Reading) -> YamlMap:
-    draft, palette = robot.draft, Palette()
+    draft, palette = robot.draft, Palette(robot.element)
     name, version = robot.name(), robot.word("version")
     robot.each("material", palette.declare)
     palette.find(draft, robot.element)
