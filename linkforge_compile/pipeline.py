@@ -250,7 +250,7 @@ class Settings(NamedTuple):
         """Return the parameters; the loader may read the files that they name."""
         if isinstance(self.parameters, Mapping):
             told = {name: value for name, value in self.parameters.items() if isinstance(value, Told)}
-            if len(told) == len(self.parameters):
+            if told and len(told) == len(self.parameters):
                 arguments = arguments_from_told(told)
             else:
                 arguments = arguments_from_values(self.parameters)

@@ -44,13 +44,14 @@ class Arguments:
 
     `folder` is where their relative paths start, None for nowhere. Typed on a command line (`as_text`), a list or
     map is still text: what it means is known only with the parameter's type. `is_partial` where some could not be
-    had, which was reported: then nobody asks for those that are missing.
+    had, which was reported: then nobody asks for those that are missing. `from_python` says how others are set.
     """
 
     entries: Mapping[str, YamlEntry] = field(default_factory=dict)
     folder: Path | None = None
     as_text: bool = False
     is_partial: bool = False
+    from_python: bool = False
 
     def without(self, names: Collection[str]) -> Arguments:
         """Return the others."""
@@ -96,7 +97,7 @@ def arguments_from_told(values: Mapping[str, Told]) -> Arguments:
 def arguments_from_values(values: Mapping[str, object]) -> Arguments:
     """Take Python values: text is read as on the command line, None sets nothing; TypeError for what no spec says."""
     if not values:
-        return Arguments(folder=Path(), as_text=True)
+        return Arguments(folder=Path(), as_text=True, from_python=True)
     from linkforge_compile.modules.values import node_of
 
     entries: dict[str, YamlEntry] = {}
@@ -109,7 +110,7 @@ def arguments_from_values(values: Mapping[str, object]) -> Arguments:
         key = YamlScalar(name, name, _span(file, 0, len(name)))
         span = _span(file, len(name) + 1, len(shown))
         entries[name] = YamlEntry(key, _typed(value, span) if isinstance(value, str) else node_of(value, span))
-    return Arguments(entries, Path(), as_text=True)
+    return Arguments(entries, Path(), as_text=True, from_python=True)
 
 
 def _typed(text: str, span: Span) -> YamlNode:

@@ -141,9 +141,13 @@ def tell_unset(declared: Sequence[Declaration], given: Given, variants: Variants
         remedy = f"'with: {{{', '.join(settings)}}}'"
         given.sink.report(PARAMETER_NOT_SET.at(given.use, what=what, remedy=remedy, notes=notes))
         return
+    in_python = given.arguments.from_python
     for one in declared:
-        setting = [f"'--variant {name}'" for name, said in variants.by_name.items() if said.get(one.name) is not None]
-        remedy = alternatives([f"'-p {one.name}={_placeholder(one)}'", *setting[:_SHOWN]])
+        itself = f"parameters={{'{one.name}': …}}" if in_python else f"'-p {one.name}={_placeholder(one)}'"
+        names = [name for name, said in variants.by_name.items() if said.get(one.name) is not None][:_SHOWN]
+        remedy = alternatives(
+            [itself, *(f"variant='{name}'" if in_python else f"'--variant {name}'" for name in names)]
+        )
         given.sink.report(PARAMETER_NOT_SET.at(one.key.span, what=f"parameter '{one.name}' has", remedy=remedy))
 
 

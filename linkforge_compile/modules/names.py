@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
@@ -15,6 +16,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     INVALID_VARIABLE_NAME,
     NAME_OF_TWO_KINDS,
     NOT_JUDGED,
+    PACKAGE_NOWHERE,
     RESERVED_NAME,
 )
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Lazy, PathText, Scope, Value
@@ -115,7 +117,14 @@ class FileNames:
                 folder, target = self._spec.writer(entry.value.span).folder, entry.value.text
                 if folder is not None or Path(target).is_absolute():
                     folders[entry.name] = follow(folder or Path(), target)
+                    self._judge_package(entry.name, folders[entry.name], entry.value)
         return folders
+
+    def _judge_package(self, name: str, folder: Path, said: YamlScalar) -> None:
+        """Tell of a folder within the roots that is not there; where its user says where the package is, nothing."""
+        may_look = name not in self._loader.packages and self._loader.roots.hold(folder)
+        if may_look and not os.path.isdir(folder):  # noqa: PTH112 - answers for names that no file can have as well
+            self._sink.report(PACKAGE_NOWHERE.at(said.span, path=said.text, name=name))
 
     def judge_parameters(self) -> None:
         """Report what is wrong with the parameters and with what sets them, used or not."""

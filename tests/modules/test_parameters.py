@@ -2,6 +2,7 @@
 
 import pytest
 
+from linkforge_compile import compile_text
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.modules import Loader, arguments_from_text, arguments_from_values, expand
 from linkforge_compile.units import Dimension, Quantity
@@ -62,6 +63,19 @@ def test_python_values_set_parameters(declared: str, given: object, value: objec
 def test_a_python_value_that_no_spec_can_say_is_a_type_error():
     with pytest.raises(TypeError, match="'p' cannot be object"):
         arguments_from_values({"p": object()})
+
+
+@pytest.mark.parametrize(
+    ("given", "remedy"),
+    [
+        ({"size": 2}, "parameters={'reach': …} or variant='long'"),
+        (["size=2"], "'-p reach=LENGTH' or '--variant long'"),
+    ],
+)
+def test_who_lacks_a_parameter_is_told_how_it_is_set_there(given: object, remedy: str):
+    spec = "linkforge: 1\nname: a\nparameters: {reach: {type: length}, size: 1}\nvariants: {long: {reach: 2 m}}\n"
+    told = [one.message for one in compile_text(f"{spec}links: {{a: }}\n", parameters=given).diagnostics]
+    assert told == [f"parameter 'reach' has no default and must be set; write {remedy}"]
 
 
 def test_a_default_may_name_other_parameters_in_any_order():

@@ -18,6 +18,11 @@ UNKNOWN_PACKAGE = Code(
 )
 USE_OF_NOWHERE = Code("LF3006", _E, "'{path}' leads nowhere: {reason}", _WRITER)
 NO_SPEC_BELOW = Code("LF3067", _E, "there is no spec, NAME.robot.yaml, in the folder '{path}' or below it")
+PACKAGE_NOWHERE = Code(
+    "LF3055",
+    Severity.WARNING,
+    "there is no folder '{path}', in which package '{name}' is said to be; relative paths start at this file's folder",
+)
 
 # LF301x: modules
 MODULE_WITHOUT_FILE = Code("LF3010", _E, "module '{name}' has no 'use'; write 'use: FILE.robot.yaml'")
