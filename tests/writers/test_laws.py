@@ -50,7 +50,10 @@ def _with_an_axis_once_written(joint: Joint) -> Joint:
     if written is None or joint.axis is None:
         return joint
     length = math.hypot(*written)
-    is_its_own = length and Vector3(*(component / length for component in written)) == joint.axis
+    # A unit vector was not written otherwise: reading one leaves no other spelling.
+    is_its_own = (
+        length and written != joint.axis and Vector3(*(component / length for component in written)) == joint.axis
+    )
     return joint if is_its_own else replace(joint, axis_as_written=None)
 
 
