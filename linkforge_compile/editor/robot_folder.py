@@ -62,7 +62,7 @@ class RobotFolder:
         return {
             homes[path] / path.format(name=name): text
             for path, text in texts.items()
-            if homes[path] == self.folder or (path in _AT_THE_TOP and not (homes[path] / path).exists())
+            if text and (homes[path] == self.folder or (path in _AT_THE_TOP and not (homes[path] / path).exists()))
         }
 
     def _texts(self, name: str) -> dict[str, str]:
@@ -80,7 +80,19 @@ class RobotFolder:
             "folder": _prefix(self.repository, self.folder),
             "yaml_schemas": self._yaml_schemas(),
         }
-        return {path: environment.get_template(f"{template}.j2").render(words) for path, template in _TEMPLATES.items()}
+        texts = {
+            path: environment.get_template(f"{template}.j2").render(words) for path, template in _TEMPLATES.items()
+        }
+        ignored = self._ignored_above()
+        lines = [line for line in texts[_GITIGNORE].splitlines(keepends=True) if line.strip().strip("/") not in ignored]
+        return {**texts, _GITIGNORE: "".join(lines)}
+
+    def _ignored_above(self) -> set[str]:
+        """Return the names that a .gitignore above the workspace ignores in every folder below it."""
+        files = (above / _GITIGNORE for above in _up_to(self.workspace, ".git"))
+        texts = (path.read_text("utf-8", "replace") for path in files if path.is_file())
+        lines = (line.strip() for text in texts for line in text.splitlines())
+        return {line.removeprefix("**/").rstrip("/") for line in lines if not line.startswith("/")}
 
     def _home(self, path: str) -> Path:
         homes = {_SPEC: self.folder, _CMAKE: self.package, _GITIGNORE: self.workspace}

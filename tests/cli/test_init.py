@@ -113,6 +113,16 @@ def test_what_tools_read_at_the_top_of_a_repository_is_written_there(tmp_path: P
     assert missed.startswith("CMakeLists.txt:")
 
 
+def test_what_git_ignores_everywhere_is_not_ignored_again(tmp_path: Path):
+    (tmp_path / ".git").mkdir()
+    (tmp_path / ".gitignore").write_text("build/\n**/install\n/log/\n")
+    linkforge("init", "arm", cwd=tmp_path)
+    assert (tmp_path / "arm/.gitignore").read_text() == "/log/\n"
+    (tmp_path / ".gitignore").write_text("build/\n**/install\nlog\n")
+    linkforge("init", "hand", cwd=tmp_path)
+    assert not (tmp_path / "hand/.gitignore").exists()
+
+
 def test_what_kept_files_lack_is_told_as_one_would_put_it_in(tmp_path: Path):
     (tmp_path / ".git").mkdir()
     mine = {
