@@ -384,6 +384,7 @@ def test_hardware_comes_in_by_its_names(read):
         <hardware><plugin>m/S</plugin><param name="id">007</param></hardware>
         <gpio name="g"><state_interface name="in"><param name="initial_value">1.0</param></state_interface></gpio>
         <gpio name="o"><command_interface name="out"/></gpio>
+        <gpio name="idle"><param name="pin">4</param></gpio>
         <transmission name="inner"/>
       </ros2_control>""")
     assert text == spec("""
@@ -397,6 +398,7 @@ def test_hardware_comes_in_by_its_names(read):
             gpios:
               g: {state_interfaces: {in: {initial_value: 1.0}}}
               o: {command_interfaces: [out]}
+              idle: {parameters: {pin: 4}}
             extra: <transmission name="$(prefix)inner"/>
             extra_attributes: {rw_rate: 50}""")
 

@@ -22,7 +22,7 @@ def read_ros2_control(control: Reading) -> YamlMap:
     if kind.text not in _TYPES:
         raise DeclinedError(f"there is no type named '{kind.text}'", kind.span)
     hardware = control.needed("hardware", _hardware)
-    joints = _named(control, "joint", _commanded)
+    joints = _named(control, "joint", _joint)
     sensors, gpios = _named(control, "sensor", _sensor), _named(control, "gpio", _commanded)
     if kind.text == "actuator" and len(joints) != 1:
         raise control.declined(f"an actuator has one joint, found {len(joints)}")
@@ -51,10 +51,15 @@ def _hardware(hardware: Reading) -> YamlMap:
     return node
 
 
+def _joint(joint: Reading) -> YamlMap:
+    node = _commanded(joint)
+    if node.get("command_interfaces") is None and node.get("state_interfaces") is None:
+        raise joint.declined("it has neither a <command_interface> nor a <state_interface>")
+    return node
+
+
 def _commanded(component: Reading) -> YamlMap:
     commands, states = _interfaces(component, "command_interface"), _interfaces(component, "state_interface")
-    if commands is None and states is None:
-        raise component.declined("it has neither a <command_interface> nor a <state_interface>")
     return component.map(command_interfaces=commands, state_interfaces=states, parameters=_parameters(component))
 
 
