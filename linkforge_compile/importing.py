@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from linkforge_compile.backends import render_srdf, render_urdf
 from linkforge_compile.bounds import Budget
@@ -16,6 +16,7 @@ from linkforge_compile.frozen import dataclass
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
 from linkforge_compile.modules import XACRO, Arguments, Loader, SpecFile, Used
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.pipeline import Judged, Packages, Parameters, Settings, judged
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.stack import with_room

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.checks import check
@@ -29,6 +29,7 @@ from linkforge_compile.modules import (
     arguments_from_values,
     expand,
 )
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.stack import with_room
 from linkforge_compile.syntax.ignore_words import IGNORE_WORDS

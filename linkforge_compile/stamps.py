@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple
+
+from linkforge_compile.named_tuple import NamedTuple
 
 
 class _Stamp(NamedTuple):

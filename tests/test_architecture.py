@@ -11,6 +11,7 @@ PACKAGE = Path(__file__).parents[1] / "linkforge_compile"
 
 MAY_IMPORT = {
     "frozen": "",
+    "named_tuple": "",
     "pattern": "",
     "banner": "",
     "bytecode": "",
@@ -83,8 +84,8 @@ def test_a_room_imports_only_what_lies_below_it(path: Path):
     room = room_of(path)
     if room in FACES:
         return
-    # Ways of writing classes and patterns, which every room has.
-    allowed = {room, "frozen", "pattern", *MAY_IMPORT[room].split()}
+    # Ways of defining classes and patterns, which every room has.
+    allowed = {room, "frozen", "named_tuple", "pattern", *MAY_IMPORT[room].split()}
     above = {
         other
         for other in rooms_imported_by(path)

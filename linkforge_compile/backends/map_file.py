@@ -7,9 +7,10 @@ import os
 from collections.abc import Iterator, Mapping
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from linkforge_compile.backends.marks import Place

@@ -11,8 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.pattern import pattern
 
 if TYPE_CHECKING:

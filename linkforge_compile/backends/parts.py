@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.backends.element import inside_of
 from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.part import Element
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from linkforge_compile.backends.marks import is_recording, mark, mark_of_line
 from linkforge_compile.backends.markup import (
@@ -19,6 +19,7 @@ from linkforge_compile.backends.markup import (
 )
 from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
 
 _MOST_SHOWN = 80

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.element import attributes, elements, leaf
 from linkforge_compile.backends.marks import mark
 from linkforge_compile.backends.markup import Xml, placed, spelled
+from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -12,7 +12,7 @@ import re
 import struct
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import BinaryIO, NamedTuple
+from typing import BinaryIO
 
 from linkforge_compile.checks.extents import Extent, Room, room_of
 from linkforge_compile.core.models.geometry import Mesh
@@ -20,6 +20,7 @@ from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.resolver import IResourceResolver
 from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.pattern import pattern
 
 HEADER, TRIANGLE, SAMPLES = 84, 50, 128

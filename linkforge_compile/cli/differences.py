@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
+
+from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from linkforge_compile.compare import Difference, Vanished

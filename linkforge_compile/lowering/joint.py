@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
 
 from linkforge_compile.core.constants import EPSILON, UNKNOWN
 from linkforge_compile.core.models.geometry import Transform, Vector3
@@ -28,6 +27,7 @@ from linkforge_compile.diagnostics.codes.model import (
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import NOT_NEGATIVE, Measure, found
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension

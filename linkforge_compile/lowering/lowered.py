@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Gaps
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from enum import StrEnum
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 from linkforge_compile.core import constants as default
 from linkforge_compile.core.models.sensor import (
@@ -23,6 +23,7 @@ from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.gazebo import lower_plugin
 from linkforge_compile.lowering.quantities import ABOVE_ZERO, UP_TO_HALF_A_TURN, Measure
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.units import Dimension
 
 T = TypeVar("T")

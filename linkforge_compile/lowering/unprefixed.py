@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import NamedTuple
 
 from linkforge_compile.core.frozen_map import FreePart
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.model import ABSOLUTE_TOPIC, UNPREFIXED_NAME, UNPREFIXED_TOPICS
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.pattern import pattern
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar

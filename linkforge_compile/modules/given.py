@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
@@ -28,6 +27,7 @@ from linkforge_compile.modules.parameters import Declaration, Parameter, paramet
 from linkforge_compile.modules.uses import rebased
 from linkforge_compile.modules.values import plain_value
 from linkforge_compile.modules.variants import Variants
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.files import (
@@ -19,6 +18,7 @@ from linkforge_compile.diagnostics.codes.files import (
 )
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.modules.whole import Whole
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import (
     YamlEntry,

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.expressions import SEEN_IN_THE_TEXT
@@ -34,6 +33,7 @@ from linkforge_compile.modules.paths import follow
 from linkforge_compile.modules.uses import from_base, mesh_base, rebased
 from linkforge_compile.modules.values import plain_value
 from linkforge_compile.modules.variants import Variants, variants_of
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar

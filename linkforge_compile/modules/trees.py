@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from pathlib import Path
 from threading import Lock
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, read

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
-from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.files import UNKNOWN_VARIANT
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.modules.arguments import COMMAND_LINE
 from linkforge_compile.modules.loader import SpecFile
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode

@@ -6,7 +6,7 @@ import os
 from collections.abc import Collection, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import (
@@ -23,6 +23,7 @@ from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
 from linkforge_compile.modules.values import plain_value
 from linkforge_compile.modules.xacro_faults import Telling, Written
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, number_text

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from linkforge_compile.expressions import forgotten_expression
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.json_types import Schema, branches, mapping
 from linkforge_compile.schema.numbers_meant import is_row, number_meant, numbers_of_row, with_points
 from linkforge_compile.schema.words import expected, is_number, shown

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.element import attributes, elements
 from linkforge_compile.backends.environment import render
@@ -10,6 +10,7 @@ from linkforge_compile.backends.markup import Xml
 from linkforge_compile.backends.urdf.joint import JointView, joint_views
 from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS, LinkView, MaterialView, link_views, material_view
 from linkforge_compile.core.models.geometry import Capsule
+from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
 from linkforge_compile.backends.element import attributes, attributes_at, elements
 from linkforge_compile.backends.marks import is_recording
@@ -12,6 +11,7 @@ from linkforge_compile.backends.raw import parameter_elements, raw_elements
 from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.link import PHYSICS_TAGS, Link, LinkPhysics
+from linkforge_compile.named_tuple import NamedTuple
 
 
 class PluginView(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import fields
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from linkforge_compile.backends.element import attributes, elements, whole
 from linkforge_compile.backends.markup import NOTHING, Xml, placed, spelled
@@ -13,6 +13,7 @@ from linkforge_compile.backends.urdf.gazebo import PluginView, plugin_view
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.sensor import Sensor, SensorNoise, SensorType
 from linkforge_compile.core.part import Element
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.units import number_text
 
 if TYPE_CHECKING:

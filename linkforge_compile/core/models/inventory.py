@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from dataclasses import KW_ONLY, dataclass, field
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Final
 
 from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.exceptions import RobotModelError, RobotValidationError, ValidationErrorCode
@@ -19,6 +19,7 @@ from linkforge_compile.core.models.robot_fields import SemanticField, VersionSta
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
+from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement

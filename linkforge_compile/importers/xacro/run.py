@@ -8,9 +8,10 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 from threading import Timer
-from typing import IO, NamedTuple, Protocol, TypedDict
+from typing import IO, Protocol, TypedDict
 
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.named_tuple import NamedTuple
 
 MOST_SECONDS = 60
 _MOST_CHARACTERS = 64 * 1024**2
