@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import Field, fields, replace
 from functools import lru_cache
 from typing import Any, TypeVar
@@ -27,12 +27,44 @@ def prefixed_copy(part: P, prefix: str) -> P:
     return copy
 
 
+def prefixed_copies(parts: Iterable[P], prefix: str) -> list[P]:
+    """Return parts as `with_prefix` of each gives them, asked only where its class has a way of its own."""
+    if not _is_harmless(prefix):
+        return [_ask(part, prefix) for part in parts]
+    return [_DIRECT.get(part.__class__, _ask)(part, prefix) for part in parts]
+
+
 def _copier_of(kind: type[Any]) -> _Copier:
     copier = _written_copier(kind) if kind.__module__.startswith(_OURS) else _constructed_copy
+    if kind.SHARED:
+        copier = _keeping_the_last(kind, copier)
     _COPIERS[kind] = copier
     if kind.with_prefix.__module__ == _HOME_OF_WITH_PREFIX:
         _DIRECT[kind] = copier
     return copier
+
+
+_LAST: dict[type, tuple[Any, str, Any]] = {}
+"""Of each class whose parts are SHARED the last one that was copied, under which prefix, and its copy."""
+
+
+def _keeping_the_last(kind: type, copier: _Copier) -> _Copier:
+    def copy(part: Any, prefix: str) -> Any:
+        copied, under, made = _LAST.get(kind, _NOTHING)
+        if copied is not part or under != prefix:
+            made = copier(part, prefix)
+            _LAST[kind] = part, prefix, made
+        return made
+
+    return copy
+
+
+_NOTHING = None, "", None
+
+
+def forget_copies() -> None:
+    """Let go of the copies that are kept for parts that share them: each knows the file that it was written in."""
+    _LAST.clear()
 
 
 @lru_cache
@@ -77,8 +109,10 @@ def _written_copier(kind: type[Any]) -> _Copier:
     scope |= {"direct": _DIRECT.get, "ask": _ask}
     for field in fields(kind):
         scope[f"set_{field.name}"] = getattr(kind, field.name).__set__
-        lines.append(f"    value = part.{field.name}")
-        lines.append(f"    set_{field.name}(copy, {_prefixed(field) if field.name in kind.PREFIXED else 'value'})")
+        if field.name in kind.PREFIXED:
+            lines += [f"    value = part.{field.name}", f"    set_{field.name}(copy, {_prefixed(field)})"]
+        else:
+            lines.append(f"    set_{field.name}(copy, part.{field.name})")
     exec("\n".join([*lines, "    return copy"]), scope)
     copier: _Copier = scope["copy"]
     return copier

@@ -103,8 +103,8 @@ class _Shelf(Generic[T]):
         start = len(self.items)
         self.items.extend(items)
         if self._first is not None:
-            for place, item in enumerate(items, start):
-                self._first.setdefault(self._name(item), place)
+            for place, name in enumerate(map(self._name, items), start):
+                self._first.setdefault(name, place)
         for key in self._places:
             self._file(key, items, start)
 
@@ -171,10 +171,11 @@ class Index(Sequence[T]):
     def _without_repeats(self, items: Sequence[T]) -> Sequence[T]:
         if not items or self._filing.repeats is Repeats.KEPT:
             return items
-        taken = self._shelf.first()
+        taken, keys = self._shelf.first(), [self._filing.key(item) for item in items]
+        if taken.keys().isdisjoint(keys) and len(set(keys)) == len(keys):
+            return items
         added: dict[Hashable, T] = {}
-        for item in items:
-            key = self._filing.key(item)
+        for key, item in zip(keys, items, strict=True):
             if key not in added and taken.get(key, self._length) >= self._length:
                 added[key] = item
             elif self._filing.repeats is Repeats.REFUSED:

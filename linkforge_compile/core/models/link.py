@@ -21,6 +21,7 @@ from linkforge_compile.core.models.index import Renamable
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.naming import prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
+from linkforge_compile.core.prefixing import prefixed_copies
 from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
@@ -229,8 +230,8 @@ class Link(Renamable):
         vars(link).update(
             vars(self),
             name=name,
-            visuals=tuple([visual.with_prefix(prefix) for visual in self.visuals]),
-            collisions=tuple([collision.with_prefix(prefix) for collision in self.collisions]),
+            visuals=tuple(prefixed_copies(self.visuals, prefix)),
+            collisions=tuple(prefixed_copies(self.collisions, prefix)),
         )
         return link
 

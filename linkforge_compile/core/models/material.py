@@ -73,6 +73,7 @@ class Material(Element):
     """
 
     PREFIXED = ("name",)
+    SHARED = True
 
     name: str
     color: Color | None = None

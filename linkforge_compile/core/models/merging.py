@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.part import attribute_pairs
+from linkforge_compile.core.prefixing import forget_copies, prefixed_copies
 from linkforge_compile.frozen import dataclass
 
 if TYPE_CHECKING:
@@ -45,19 +46,21 @@ class PrefixedParts:
             RobotModelError: INVALID_NAME where the prefix makes a name that no part may have.
 
         """
-        return cls(
+        parts = cls(
             materials={prefix + name: material.with_prefix(prefix) for name, material in robot.materials.items()},
             # Links may be changed in place: two robots never share one, and `with_prefix` makes a new one always.
             links=[link.with_prefix(prefix) for link in robot.links],
-            joints=[joint.with_prefix(prefix) for joint in robot.joints],
-            sensors=[sensor.with_prefix(prefix) for sensor in robot.sensors],
-            transmissions=[transmission.with_prefix(prefix) for transmission in robot.transmissions],
-            ros2_controls=[control.with_prefix(prefix) for control in robot.ros2_controls],
-            gazebo_elements=[element.with_prefix(prefix) for element in robot.gazebo_elements],
+            joints=prefixed_copies(robot.joints, prefix),
+            sensors=prefixed_copies(robot.sensors, prefix),
+            transmissions=prefixed_copies(robot.transmissions, prefix),
+            ros2_controls=prefixed_copies(robot.ros2_controls, prefix),
+            gazebo_elements=prefixed_copies(robot.gazebo_elements, prefix),
             semantic=robot.semantic.with_prefix(prefix) if robot.says_semantic else None,
             extra_elements=robot.extra_elements,
             extra_attributes=attribute_pairs(robot.extra_attributes),
         )
+        forget_copies()
+        return parts
 
 
 def new_materials(own: Mapping[str, Material], added: Mapping[str, Material]) -> dict[str, Material]:
