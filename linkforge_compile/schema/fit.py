@@ -75,12 +75,20 @@ class Fit:
         language does.
         """
         if isinstance(node, YamlScalar):
-            return self._takes_value(node.value)
+            return node.value.__class__ in self._certain or self._takes_value(node.value)
         if isinstance(node, YamlMap):
             return self._takes_map and self._takes_union(node, heeds_null) and self._takes_entries(node, heeds_null)
         if isinstance(node, YamlList):
             return self._takes_list and self._takes_union(node, heeds_null) and self._takes_items(node, heeds_null)
         return False
+
+    @cached_property
+    def _certain(self) -> frozenset[type]:
+        """The classes of scalars all of which are taken, such as that of numbers: nobody need look at their values."""
+        if self._words is not None or self._is_constant:
+            return frozenset()
+        taken = self._scalars if self._pattern is None else self._scalars - {str}
+        return taken if self._union is None else taken & frozenset().union(*(branch._certain for branch in self._union))
 
     def _takes_value(self, value: ScalarValue) -> bool:
         if type(value) not in self._scalars:
@@ -119,7 +127,10 @@ class Fit:
             judge = self._keys.get(name) or self._other_key(name)
             if judge is None:
                 return False
-            if not judge.takes(entry.value, heeds_null=heeds_null) and (heeds_null or not is_null(entry.value)):
+            value = entry.value
+            if isinstance(value, YamlScalar) and value.value.__class__ in judge._certain:
+                continue
+            if not judge.takes(value, heeds_null=heeds_null) and (heeds_null or not is_null(value)):
                 return False
         return True
 
@@ -142,8 +153,11 @@ class Fit:
         shortest, longest = self._bounds
         if not shortest <= len(node.items) <= longest or self._items is None:
             return False
-        takes = self._items.takes
-        return all(takes(item, heeds_null=heeds_null) for item in node.items)
+        takes, certain = self._items.takes, self._items._certain
+        return all(
+            (isinstance(item, YamlScalar) and item.value.__class__ in certain) or takes(item, heeds_null=heeds_null)
+            for item in node.items
+        )
 
     @cached_property
     def _bounds(self) -> tuple[float, float]:
