@@ -26,12 +26,14 @@ def entries_of(
 
 def _entry(key: YamlNode, value: YamlNode, sink: Diagnostics, *, flow: bool) -> YamlEntry | None:
     """Return the entry; None where its key is at fault, which is reported."""
+    if isinstance(key, YamlScalar) and not (flow and is_null(value)):
+        return YamlEntry(key, value)  # all but a few
     if isinstance(key, YamlFault):
         return None
     if not isinstance(key, YamlScalar):
         sink.report(codes.KEY_NOT_SCALAR.at(key.span, found=kind_of(key)))
         return None
-    is_bare = flow and is_null(value) and value.span.start == value.span.end == key.span.end
+    is_bare = value.span.start == value.span.end == key.span.end
     if is_bare and STUCK.fullmatch(key.span.text or ""):
         sink.report(codes.SPACE_AFTER_COLON.at(key.span, text=key.text))
         name = key.text.partition(":")[0]

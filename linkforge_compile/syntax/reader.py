@@ -219,24 +219,22 @@ class _Reader:
         self._deepest = max(self._deepest, depth)
 
     def _scalar(self, event: events.ScalarEvent, flow: bool) -> YamlScalar | YamlFault:
+        text = event.value
         # Raw XML takes as much as so many nodes.
-        self._count(1 + event.value.count("<"), event)
-        node = self._text(event, flow)
-        if event.style or isinstance(node, YamlFault):
-            return node
-        text, span = node.text, node.span
+        self._count(1 + text.count("<"), event)
+        if event.style:
+            return self._text(event, text, flow)
         if text not in self._values:
             self._values[text] = scalar_value(text)
         value = self._values[text]
-        if value is text:
-            return node
+        node = self._text(event, value, flow)
         if value.__class__ is float and is_overflow(text, value):
-            self._sink.report(codes.NUMBER_TOO_LARGE.at(span))
-            return YamlFault(span)
-        return YamlScalar(text, value, span)
+            self._sink.report(codes.NUMBER_TOO_LARGE.at(node.span))
+            return YamlFault(node.span)
+        return node
 
-    def _text(self, event: events.ScalarEvent, flow: bool) -> YamlScalar | YamlFault:
-        """Read a scalar as what quotes make of any, and keys are: text."""
+    def _text(self, event: events.ScalarEvent, value: ScalarValue, flow: bool) -> YamlScalar | YamlFault:
+        """Read a scalar whose text means a value; itself in quotes, and of keys."""
         self.last_scalar = event
         text, span = event.value, self._marks.scalar(event)
         self._latest = span
@@ -250,7 +248,7 @@ class _Reader:
             self._sink.report(explain_cut(event, self._marks))
             self._is_any_cut = True
             return _CutExpression(span)
-        return YamlScalar(text, text, span)
+        return YamlScalar(text, value, span)
 
     def _list(self, start: events.SequenceStartEvent, depth: int) -> YamlNode:
         begin, flow = self._marks.event(start), bool(start.flow_style)
@@ -280,7 +278,7 @@ class _Reader:
     def _key(self, event: events.Event, depth: int, flow: bool) -> YamlNode:
         if isinstance(event, events.ScalarEvent) and event.anchor is None and event.tag is None:
             self._count(1, event)
-            return self._text(event, flow)
+            return self._text(event, event.value, flow)
         return self._node(event, depth, flow)
 
     def _until(self, end: events.Event, begin: Span, flow: bool) -> Span:
