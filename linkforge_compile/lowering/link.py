@@ -32,7 +32,6 @@ from linkforge_compile.lowering.geometry import lower_geometry
 from linkforge_compile.lowering.material import lower_visual_material
 from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_NEGATIVE, found
 from linkforge_compile.lowering.scope import FileScope
-from linkforge_compile.lowering.shape_order import lower_shape_order
 from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
@@ -56,6 +55,7 @@ def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
     visuals = [_visual(shape, scope) for shape in _shapes(fields, "visual")]
     collisions = _collisions(fields, visuals, scope)
     inertial, physics = _inertial(fields, collisions or visuals, scope), _physics(fields)
+    shape_order = _shape_order(fields, visuals, collisions)
     if not valid:
         return None
     return fields.build(
@@ -65,7 +65,7 @@ def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
             physics,
             [visual for visual in visuals if visual],
             [collision for collision in collisions if collision],
-            shape_order=lower_shape_order(fields, visuals, collisions),
+            shape_order=shape_order,
             source=_source(fields),
             **outer_extras_of(fields),
         )
@@ -78,6 +78,19 @@ def _source(link: Fields) -> SourceRef:
     if lost is None:
         return link.ref
     return replace(link.ref, node=YamlMap({"visual": lost, "collision": lost, **link.node.entries}, link.node.span))
+
+
+def _shape_order(link: Fields, visuals: Shapes, collisions: Shapes) -> Sequence[str]:
+    said = [entry.name for entry in link.node if entry.name in _OF_ORDER]
+    if "shape_order" not in said and said != ["collision", "visual"]:
+        return ()
+    # Few links have an order of their own: a command's first line of work does not wait for what reads it.
+    from linkforge_compile.lowering.shape_order import lower_shape_order
+
+    return lower_shape_order(link, visuals, collisions)
+
+
+_OF_ORDER = ("visual", "collision", "shape_order")
 
 
 def _physics(link: Fields) -> LinkPhysics:
