@@ -27,6 +27,7 @@ from linkforge_compile.lowering.quantities import (
     Measure,
     Refusal,
     doubt,
+    doubted,
     found,
     list_meant,
     plain_number,
@@ -38,7 +39,7 @@ from linkforge_compile.syntax import leaves_in
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.syntax.xacro import xacro_facts
-from linkforge_compile.units import Dimension, number_text
+from linkforge_compile.units import Dimension
 
 _NEEDED_IN_XML = {
     "axis": """an <axis>; write '<axis xyz="0 0 1"/>'""",
@@ -248,7 +249,7 @@ class Fields:
             self.tell(number.code, node, near=number.near, field=field, **number.facts)
             return None
         if code := doubt(node, number, measure):
-            self.tell(code, node, field=field, found=number_text(number), thousandth=number_text(number / 1000))
+            self.tell(code, node, field=field, **doubted(number))
         return number
 
     def numbers_at(self, node: YamlNode, field: str, measure: Measure, *counts: int) -> tuple[float, ...] | None:

@@ -25,6 +25,7 @@ from linkforge_compile.units import (
     WIDEST_ANGLE,
     Dimension,
     Quantity,
+    number_text,
     parse_quantity,
     unit_meant,
     unit_text,
@@ -47,6 +48,9 @@ _WORDS = {
 """Each dimension as a person says it, and a value that shows how it is written."""
 
 _LONGEST_LENGTH = 100.0
+
+_MOST_TURNED, _UNBOUNDED = 8 * math.pi, 1e4
+"""A URDF has no unit to say that an angle is meant so [rad]: vendors write limits of 10, and of 1e16 for none."""
 _SURE = min(WIDEST_ANGLE, _LONGEST_LENGTH)
 """Numbers of less than this, either way, are doubted of no dimension."""
 
@@ -141,10 +145,22 @@ def as_float(value: float) -> float:
         return math.inf if value > 0 else -math.inf
 
 
+def doubted(number: float) -> dict[str, str]:
+    """Return the facts of what `doubt` returns; those but `found` are for a file that can say no unit."""
+    return {
+        "found": number_text(number),
+        "thousandth": number_text(number / 1000),
+        "turns": f"{abs(number) / math.tau:.3g}",
+        "of_degrees": f"{math.radians(number):.6g}",
+    }
+
+
 def doubt(node: YamlNode, number: float, measure: Measure) -> Code | None:
     """Return the warning for a number that is likely meant in degrees or millimetres, None for every other."""
     size = abs(number)
     if size > WIDEST_ANGLE and measure.dimensions == (Dimension.ANGLE,):
+        if node.span.file.is_xml:
+            return WIDE_ANGLE if _MOST_TURNED < size < _UNBOUNDED else None
         return WIDE_ANGLE if isinstance(node, YamlScalar) and isinstance(node.value, int | float) else None
     if size > _LONGEST_LENGTH and measure.dimensions == (Dimension.LENGTH,) and not measure.may_be_far:
         return LONG_LENGTH

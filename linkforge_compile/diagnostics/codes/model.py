@@ -21,6 +21,7 @@ WIDE_ANGLE = Code(
     _W,
     "{field} is {found} radians, more than a whole turn; write '{found} deg' if degrees are meant",
     _WRITER,
+    in_xml="{field} is {found} radians, {turns} turns; write '{of_degrees}' if degrees are meant",
 )
 LONG_LENGTH = Code(
     "LF5010",
