@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from linkforge_compile.lowering.srdf_states import WrittenState
     from linkforge_compile.lowering.unprefixed import PassedOn
 
+_SAY_POSITIONS = frozenset({"transmissions", "gazebo"})
+"""The sections of a file that say positions of joints beside the joints themselves; states are read apart."""
+
 
 def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = None) -> Lowered:
     """Make one robot of a file and of all its modules, in the order written: its own parts, then each module's.
@@ -93,7 +96,7 @@ def _judge_references(instance: Instance, lowered: Lowered, sink: Diagnostics) -
     """Report what a file says of parts of its modules, where they are none or other ones."""
     if instance.tree is None or lowered.robot is None:
         return
-    if instance.modules:
+    if instance.modules and not _SAY_POSITIONS.isdisjoint(instance.tree.entries):
         from linkforge_compile.lowering.positions import judge_positions_elsewhere
 
         joints: dict[str, Joint | None] = {joint.name: joint for joint in lowered.robot.joints}

@@ -11,9 +11,6 @@ from linkforge_compile.lowering.quantities import Refusal, si_number
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.syntax.nodes import YamlMap, YamlNode, YamlScalar
 
-_SAY_POSITIONS = frozenset({"transmissions", "gazebo"})
-"""The sections of a file that say positions of joints beside the joints themselves; states are read apart."""
-
 
 class _Position(NamedTuple):
     """A position of a joint, said by an object that is not the joint: which joint, and the object with the field."""
@@ -28,8 +25,6 @@ def judge_positions_elsewhere(file: Fields, joints: Mapping[str, Joint | None]) 
 
     They were read as of any joint: an angle or a length. `joints` are those of the whole robot.
     """
-    if _SAY_POSITIONS.isdisjoint(file.node.entries):
-        return
     own = joints_of(file.node)
     for position in (*_in_transmissions(file), *_in_gazebo_blocks(file)):
         said, joint = position.fields.node.get(position.key), joints.get(position.joint)

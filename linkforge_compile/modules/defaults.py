@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.repetition import REPEATED_DEFAULT
+from linkforge_compile.diagnostics.codes.schema import WRONG_KIND
 from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.modules.module_entry import found
 from linkforge_compile.modules.normal_form import CHOICES, is_said, long_form, long_object
 from linkforge_compile.schema.shapes import Shape, shapes
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
+
+if TYPE_CHECKING:
+    from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 
 _SECTIONS: Mapping[str, str] = {"links": "link", "joints": "joint", "sensors": "sensor"}
 """The default for the entries of each section."""
@@ -24,7 +30,19 @@ _NOT_FOR: Mapping[str, tuple[str, ...]] = {
 """What a joint of a type does not get: it may not have it, or has no one motion that its units could be of."""
 
 
-def without_repetition(defaults: YamlNode, sink: Diagnostics) -> YamlNode:
+def defaults_of(file: YamlMap, tree: TreeEvaluator) -> YamlMap | None:
+    """Return the defaults of a file that has some, computed; None where they are no map."""
+    written = file.get("defaults")
+    assert written is not None, "the file has some"
+    filling = tree.part(_without_repetition(written, tree.sink), shapes().under("defaults"), "defaults")
+    if filling is None or isinstance(filling, YamlMap):
+        return filling
+    if not (isinstance(filling, YamlFault) or is_null(filling)):
+        tree.sink.report(WRONG_KIND.at(filling.span, field="'defaults'", expected="a map", found=found(filling)))
+    return None
+
+
+def _without_repetition(defaults: YamlNode, sink: Diagnostics) -> YamlNode:
     """Return `defaults` as written without any `for`, each of which is reported."""
     shape = shapes().under("defaults")
     for key in _keys_of_for(defaults, shape):

@@ -13,28 +13,24 @@ from linkforge_compile.diagnostics.codes.modules import (
     USE_CIRCLE,
     USE_TOO_DEEP,
 )
-from linkforge_compile.diagnostics.codes.schema import WRONG_KIND
 from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Arguments, Unset
 from linkforge_compile.modules.assembly import Instance
-from linkforge_compile.modules.defaults import with_defaults, without_repetition
 from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
 from linkforge_compile.modules.given import Given
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.mesh_files import MakeSite, mesh_finder
 from linkforge_compile.modules.module_entry import ModuleEntry, found, read_entry
-from linkforge_compile.modules.module_overrides import Body
 from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.own_names import asked_in
 from linkforge_compile.modules.plain import count_entries, own_name, robot_part
-from linkforge_compile.modules.semantic import open_semantic, with_semantic
 from linkforge_compile.modules.uses import SPEC_ENDINGS, XACRO, UseSite, locate, mesh_base, name_from, open_use
 from linkforge_compile.modules.variants import tell_unknown_variant, variants_of
 from linkforge_compile.schema.shapes import FREE, shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.syntax import YamlFault, YamlMap, YamlScalar, is_null
+from linkforge_compile.syntax import YamlFault, YamlMap, YamlScalar
 
 if TYPE_CHECKING:
     from linkforge_compile.modules.xacro import XacroUse
@@ -100,17 +96,22 @@ class _Expansion:
         file = UseOfFile(use.spec, use.given, use.prefix, use.trail)
         names = FileNames(file, self._shared, used_from(self._sink, use.trail))
         names.judge_parameters()
-        tree, defaults = _tree(use, names.tree), _defaults(use, names.tree)
-        tree = with_defaults(tree, defaults) if defaults else tree
-        body = Body(tree, tuple(_entries(use, names.tree)), names.tree.disabled.removed)
-        for override in use.entry.overrides if use.entry else ():
-            body = body.under(override)
+        tree, defaults = _tree(use, names.tree), None
+        if use.spec.tree.get("defaults") is not None:
+            from linkforge_compile.modules.defaults import defaults_of, with_defaults
+
+            defaults = defaults_of(use.spec.tree, names.tree)
+            tree = with_defaults(tree, defaults) if defaults else tree
+        entries, removed = tuple(_entries(use, names.tree)), names.tree.disabled.removed
         asked = names.own.asked
-        if body.tree is not tree and asked:
-            asked = asked_in(asked, tree, body.tree)
-        tree = body.tree
+        if use.entry and use.entry.overrides:
+            from linkforge_compile.modules.module_overrides import Body
+
+            body = Body(tree, entries, removed).under(*use.entry.overrides)
+            asked = asked_in(asked, tree, body.tree) if asked else asked
+            tree, entries, removed = body.tree, body.entries, body.removed
         count_entries(tree, len(use.chain), self._shared.loader.budget, use.given.use)
-        modules = tuple(self._module(entry, use, names) for entry in body.entries)
+        modules = tuple(self._module(entry, use, names) for entry in entries)
         names.judge_unused_variables()
         if use.entry is None:
             instance = Instance(own_name(tree), tree)
@@ -122,7 +123,7 @@ class _Expansion:
             find_mesh=mesh_finder(_sites(use, names), self._shared.loader),
             modules=modules,
             references=asked,
-            removed=body.removed,
+            removed=removed,
             packages=names.packages,
             defaults=defaults,
         )
@@ -136,8 +137,7 @@ class _Expansion:
         if entry.use is None:
             return _unread(entry)
         sink = names.tree.sink
-        srdf = entry.ref.node.child("srdf")
-        spec, arguments = self._robot(entry, entry.use, srdf if isinstance(srdf, YamlScalar) else None, names)
+        spec, arguments = self._robot(entry, names.own.site(entry.use.text, entry.use.span), names)
         if spec is None:
             return _unread(entry)
         given = Given(arguments, sink, entry.tree, entry.use.span)
@@ -145,33 +145,42 @@ class _Expansion:
         instance = self.instance(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
 
-    def _robot(
-        self, entry: ModuleEntry, use: YamlScalar, srdf: YamlScalar | None, names: FileNames
-    ) -> tuple[SpecFile | None, Arguments]:
+    def _robot(self, entry: ModuleEntry, site: UseSite, names: FileNames) -> tuple[SpecFile | None, Arguments]:
         """Return the file that an entry uses, and the arguments that are left for it.
 
         Those of a xacro are spent on it, and on that of its SRDF: both take what they have of them.
         """
         loader, sink = self._shared.loader, names.tree.sink
-        site, arguments = names.own.site(use.text, use.span), entry.arguments
-        beside = None
-        if srdf is not None:
-            if site.text.lower().endswith(SPEC_ENDINGS):
-                sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
-                return None, arguments
-            beside = self._to_expand(names.own.site(srdf.text, srdf.span), entry, sink)
-        semantic = open_semantic(beside, loader, sink) if beside else None
-        taken = semantic.arguments if semantic else None if beside else frozenset()
-        if site.text.lower().endswith(XACRO):
-            from linkforge_compile.modules.xacro import open_xacro
+        srdf = entry.ref.node.child("srdf")
+        if not isinstance(srdf, YamlScalar):
+            return self._opened(entry, site, frozenset(), sink)
+        if site.text.lower().endswith(SPEC_ENDINGS):
+            sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
+            return None, entry.arguments
+        from linkforge_compile.modules.semantic import open_semantic, with_semantic
 
-            xacro = self._to_expand(site, entry, sink)
-            spec, arguments = open_xacro(replace(xacro, taken=taken), loader, sink) if xacro else None, Arguments()
-        else:
-            spec, arguments = open_use(site, loader, sink), arguments.without(taken or ())
-        if spec is not None and srdf is not None:
-            spec = with_semantic(spec, semantic, beside, loader, sink) if semantic and beside else None
-        return spec, arguments
+        beside = self._to_expand(names.own.site(srdf.text, srdf.span), entry, sink)
+        semantic = open_semantic(beside, loader, sink) if beside else None
+        taken = semantic.arguments if semantic else None if beside else frozenset[str]()
+        spec, arguments = self._opened(entry, site, taken, sink)
+        if spec is None or semantic is None or beside is None:
+            return None, arguments
+        return with_semantic(spec, semantic, beside, loader, sink), arguments
+
+    def _opened(
+        self, entry: ModuleEntry, site: UseSite, taken: frozenset[str] | None, sink: Diagnostics
+    ) -> tuple[SpecFile | None, Arguments]:
+        """Return the file at a site, and the arguments that are left for it of those that its SRDF has not `taken`.
+
+        None for an SRDF that could not be read: it may have taken any.
+        """
+        loader = self._shared.loader
+        if not site.text.lower().endswith(XACRO):
+            return open_use(site, loader, sink), entry.arguments.without(taken or ())
+        from linkforge_compile.modules.xacro import open_xacro
+
+        xacro = self._to_expand(site, entry, sink)
+        return open_xacro(replace(xacro, taken=taken), loader, sink) if xacro else None, Arguments()
 
     def _to_expand(self, site: UseSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
         """Return the use of a file with the arguments of an entry."""
@@ -206,19 +215,6 @@ def _tree(use: _Use, tree: TreeEvaluator) -> YamlMap:
     computed = tree.node(robot_part(use.spec.tree), shapes())
     assert isinstance(computed, YamlMap), "a map that is computed is a map"
     return computed
-
-
-def _defaults(use: _Use, tree: TreeEvaluator) -> YamlMap | None:
-    """Return the defaults of a file, computed; None where it has none, or no map."""
-    defaults = use.spec.tree.get("defaults")
-    if defaults is None:
-        return None
-    filling = tree.part(without_repetition(defaults, tree.sink), shapes().under("defaults"), "defaults")
-    if filling is None or isinstance(filling, YamlMap):
-        return filling
-    if not (isinstance(filling, YamlFault) or is_null(filling)):
-        tree.sink.report(WRONG_KIND.at(filling.span, field="'defaults'", expected="a map", found=found(filling)))
-    return None
 
 
 def _entries(use: _Use, tree: TreeEvaluator) -> Iterator[ModuleEntry]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import MODULE_FIELD, MODULE_WITHOUT_FILE, NOT_A_MODULE, SAME_KEY
@@ -11,10 +12,12 @@ from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
-from linkforge_compile.modules.overrides import Override, refuse_empty
 from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+
+if TYPE_CHECKING:
+    from linkforge_compile.modules.overrides import Override
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +67,7 @@ def read_entry(entry: YamlEntry, tree: TreeEvaluator, folder: Path | None, trail
         is_named=not isinstance(override, YamlFault),
         arguments=arguments,
         tree=None if is_computed or body is not written else tree,
-        overrides=(override,) if isinstance(override, Override) else (),
+        overrides=() if override is None or isinstance(override, YamlFault) else (override,),
     )
     return with_fields(read, fields, tree.sink)
 
@@ -99,6 +102,8 @@ def _is_misspelt(fields: YamlMap) -> bool:
 def _override(written: YamlNode | None, name: str, tree: TreeEvaluator) -> Override | YamlFault | None:
     if written is None:
         return None
+    from linkforge_compile.modules.overrides import Override, refuse_empty
+
     shape = module_shape().under("override")
     refuse_empty(written, shape, tree.sink)
     patch = tree.part(written, shape, "override")

@@ -21,8 +21,14 @@ class Body:
     entries: tuple[ModuleEntry, ...]
     removed: Removed
 
-    def under(self, override: Override) -> Body:
-        """Return the same with an override applied; what it says of nested modules goes to their entries."""
+    def under(self, *overrides: Override) -> Body:
+        """Return the same with overrides applied one by one; what they say of nested modules goes to their entries."""
+        body = self
+        for override in overrides:
+            body = body._under(override)
+        return body
+
+    def _under(self, override: Override) -> Body:
         patch, nested = _without_nested(override)
         modules = YamlMap({entry.name: _as_written(entry) for entry in self.entries}, self.tree.span)
         whole = _with_section(self.tree, "modules", modules)

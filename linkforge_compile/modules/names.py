@@ -21,7 +21,6 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Lazy, PathText, Scope, Value
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Unset
-from linkforge_compile.modules.data import data_of
 from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
 from linkforge_compile.modules.given import Given, parameter_value, tell_unset
 from linkforge_compile.modules.kinds import KINDS
@@ -193,6 +192,8 @@ class FileNames:
         return self.tree.value(entry.value)
 
     def _data_value(self, entry: YamlEntry) -> Value | Fault:
+        from linkforge_compile.modules.data import data_of
+
         path = self.tree.value(entry.value)
         place = self.tree.place(entry.value)
         node = data_of(entry, path, lambda text: self.own.site(text, place), self._loader, self._sink)

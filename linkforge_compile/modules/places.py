@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.files import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
 from linkforge_compile.expressions import Expression, parse_template
+from linkforge_compile.modules.telltale import TELLTALE
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.schema.words import field
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.xacro import xacro_facts
-
-_TELLTALE = re.compile(r"\bprefix\b(?!['\"]?\s*:)|\b(?:path|link|joint)[\s)]*\(|\$\{")
-"""Is in every text that has something to judge; hardly a spec needs the walk through its tree."""
 
 _NAMES = frozenset({"a name", "a joint's name", "a material's name", "a joint value or a state's name"})
 """The titles of schemas whose text is a name, which takes the prefix by itself."""
@@ -43,8 +40,6 @@ _COMPUTED_WITHIN = frozenset({"with", "for", "when"})
 
 def judge_places(tree: YamlMap, sink: Diagnostics) -> YamlMap:
     """Report what stands where it means nothing; return the tree with a YamlFault in its place."""
-    if not _TELLTALE.search(tree.span.file.text):
-        return tree
     judged = _Judge(sink).node(tree, _Place((), shapes()))
     assert isinstance(judged, YamlMap), "what is judged is scalars"
     return judged
@@ -117,7 +112,7 @@ class _Judge:
 
     def _is_sound(self, scalar: YamlScalar, place: _Place) -> bool:
         """Whether all that a scalar says may stand there; reports what may not."""
-        if not _TELLTALE.search(scalar.text):
+        if not TELLTALE.search(scalar.text):
             return True
         template = parse_template(scalar.text, scalar.span, Diagnostics()) if has_expression(scalar.text) else None
         parts = template.parts if template else (scalar.text,)

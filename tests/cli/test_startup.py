@@ -59,6 +59,40 @@ UNSAID = {
 }
 """Rooms and modules that serve something which PLAIN does not say, or a fault that it does not have."""
 
+TWO = """
+linkforge: 1
+name: two
+parameters: {gap: {type: length, default: 1 m}}
+links: {stand: {}}
+modules:
+  left: {use: plain.robot.yaml, parent: stand, origin: [0, $(gap), 0]}
+  right: {use: plain.robot.yaml, parent: stand, origin: [0, $(-gap), 0]}
+"""
+
+UNSAID_BY_TWO = {
+    "core.models.gazebo",
+    "core.models.srdf",
+    "importers",
+    "lowering.positions",
+    "modules.data",
+    "modules.defaults",
+    "modules.includes",
+    "modules.listing",
+    "modules.module_overrides",
+    "modules.overrides",
+    "modules.packages",
+    "modules.places",
+    "modules.semantic",
+    "modules.xacro",
+    "schema.explain",
+    "schema.faults",
+    "schema.meant",
+    "syntax.ignore_comments",
+}
+
+NEEDLESS = {"networkx", "lxml", "difflib", "jsonschema", "fractions", "decimal"}
+"""Packages that no robot without faults needs."""
+
 
 def modules_after(*words: str) -> set[str]:
     code = (
@@ -81,14 +115,26 @@ def test_the_version_is_answered_before_argparse():
     assert not modules_after("--version") & {"argparse", "dataclasses", "importlib.metadata"}
 
 
+def modules_after_compiling(spec: Path) -> set[str]:
+    """Return the names of the imported modules, of ours behind that of the package."""
+    imported = modules_after("compile", str(spec), "-o", f"{spec.parent}/")
+    assert spec.with_name(f"{spec.name.partition('.')[0]}.urdf").is_file()
+    return {module.removeprefix("linkforge_compile.") for module in imported}
+
+
+def within(modules: set[str], rooms: set[str]) -> set[str]:
+    return {module for module in modules if any(f"{module}.".startswith(f"{room}.") for room in rooms)}
+
+
 def test_a_robot_is_compiled_without_what_it_does_not_say(tmp_path: Path):
-    spec = tmp_path / "plain.robot.yaml"
-    spec.write_text(PLAIN, "utf-8")
-    imported = modules_after("compile", str(spec), "-o", f"{tmp_path}/")
-    assert (tmp_path / "plain.urdf").is_file()
-    assert not imported & {"networkx", "lxml", "difflib", "jsonschema", "fractions", "decimal"}
-    ours = {module.removeprefix("linkforge_compile.") for module in imported}
-    assert not {module for module in ours if any(f"{module}.".startswith(f"{room}.") for room in UNSAID)}
+    (tmp_path / "plain.robot.yaml").write_text(PLAIN, "utf-8")
+    assert not within(modules_after_compiling(tmp_path / "plain.robot.yaml"), UNSAID | NEEDLESS)
+
+
+def test_modules_and_expressions_bring_only_what_they_need(tmp_path: Path):
+    (tmp_path / "plain.robot.yaml").write_text(PLAIN, "utf-8")
+    (tmp_path / "two.robot.yaml").write_text(TWO, "utf-8")
+    assert not within(modules_after_compiling(tmp_path / "two.robot.yaml"), UNSAID_BY_TWO | NEEDLESS)
 
 
 def test_the_version_is_printed():

@@ -1,0 +1,8 @@
+"""What a text has in it that is judged by its place."""
+
+from __future__ import annotations
+
+from linkforge_compile.pattern import pattern
+
+TELLTALE = pattern(r"\bprefix\b(?!['\"]?\s*:)|\b(?:path|link|joint)[\s)]*\(|\$\{")
+"""Is in every text that has something to judge; hardly a spec needs the walk through its tree."""
