@@ -198,14 +198,14 @@ class Link(Renamable):
         self.collisions = (*self.collisions, collision)
 
     @property
-    def shapes(self) -> Iterator[Visual | Collision]:
+    def shapes(self) -> tuple[Visual | Collision, ...]:
         """The visuals and collisions as they are written; those that `shape_order` does not list come last."""
+        if not self.shape_order:
+            return (*self.visuals, *self.collisions)
         visuals, collisions = iter(self.visuals), iter(self.collisions)
         of_kind: Mapping[str, Iterator[Visual | Collision]] = {VISUAL: visuals, COLLISION: collisions}
-        for kind in self.shape_order:
-            yield from islice(of_kind[kind], 1)
-        yield from visuals
-        yield from collisions
+        listed = [shape for kind in self.shape_order for shape in islice(of_kind[kind], 1)]
+        return (*listed, *visuals, *collisions)
 
     @property
     def mass(self) -> float:
