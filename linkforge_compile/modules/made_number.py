@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Container
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import TEXT_NOT_NUMBER
 from linkforge_compile.expressions import (
     Expression,
+    Fault,
     Template,
     Value,
     as_one_expression,
@@ -16,10 +18,10 @@ from linkforge_compile.expressions import (
 )
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlNode, YamlScalar, has_expression, scalar_value
-from linkforge_compile.units import UNITS, parse_quantity
+from linkforge_compile.units import UNITS, Quantity, parse_quantity
 
 if TYPE_CHECKING:
-    from linkforge_compile.modules.evaluate_tree import Expressions
+    from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
 
 
 def tell_made_number(
@@ -38,6 +40,21 @@ def tell_made_number(
     if template is None or len(template.parts) == 1:
         return False
     sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=_remedy(node, template, names)))
+    return True
+
+
+def tell_made_quantity(node: YamlNode, value: Value | Fault, tree: TreeEvaluator) -> bool:
+    """Report text that is a quantity if the whole of it is one expression, `$(reach) / 2`; True where it is.
+
+    It may be meant as text wherever it goes, but nobody computes with a length in one.
+    """
+    if not isinstance(value, str) or not isinstance(node, YamlScalar) or not has_expression(node.text):
+        return False
+    meant = as_one_expression(node.text, node.span, tree.scope_of(node))
+    whole = YamlScalar(meant, meant, node.span) if meant else None
+    if whole is None or not isinstance(replace(tree, sink=Diagnostics()).value(whole), Quantity):
+        return False
+    tree.sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=f"write '{meant}'"))
     return True
 
 

@@ -25,6 +25,7 @@ from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
 from linkforge_compile.modules.given import Given, parameter_value, tell_unset
 from linkforge_compile.modules.kinds import KINDS
 from linkforge_compile.modules.loader import Loader, SpecFile
+from linkforge_compile.modules.made_number import tell_made_quantity
 from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.own_names import OwnNames
 from linkforge_compile.modules.parameters import Declaration, declarations
@@ -189,7 +190,8 @@ class FileNames:
 
     def _variable(self, entry: YamlEntry) -> Value | Fault:
         self.tree.settings[entry.name] = Setting("the variable", entry.value, self.tree)
-        return self.tree.value(entry.value)
+        value = self.tree.value(entry.value)
+        return FAULT if tell_made_quantity(entry.value, value, self.tree) else value
 
     def _data_value(self, entry: YamlEntry) -> Value | Fault:
         from linkforge_compile.modules.data import data_of

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.files import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
-from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
+from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
 from linkforge_compile.expressions import Expression, parse_template
 from linkforge_compile.modules.telltale import TELLTALE
 from linkforge_compile.named_tuple import NamedTuple
@@ -29,6 +29,9 @@ _WITHOUT_PREFIX = frozenset({"interfaces by name", "folders by package name"})
 """The titles of maps whose keys take no prefix."""
 
 _READ_BY_PLUGINS = frozenset({"extra", "extra_attributes", "extra_inside"})
+
+_PLUGINS = frozenset({"filename", "hardware_plugin"})
+"""Keys whose text a simulator or a controller manager looks for."""
 
 _FOR_PEOPLE = frozenset({"description", "metadata"})
 """Keys whose text no reader takes for anything but text."""
@@ -128,6 +131,9 @@ class _Judge:
         code = XACRO_IN_FREE_TEXT if place.is_free else XACRO_EXPRESSION
         for each in facts:
             self._sink.report(code.at(scalar.span, text=each["text"], ours=each["ours"]))
+        goes_on = place.is_free or place.path[-1] in _PLUGINS
+        if goes_on and not _FOR_PEOPLE.intersection(place.path) and _is_in_curly_quotes(scalar):
+            self._sink.report(CURLY_QUOTES.at(scalar.span, text=scalar.text, ours=scalar.text[1:-1]))
         return place.is_free or not facts
 
     def _may_stand(self, name: ast.Name, expression: Expression, place: _Place) -> bool:
@@ -142,6 +148,12 @@ class _Judge:
             case "path" if not (place.is_computed or place.path[-1:] == ("use",)):
                 self._sink.report(PATH_OF_THIS_MACHINE.at(span))
         return True
+
+
+def _is_in_curly_quotes(scalar: YamlScalar) -> bool:
+    """Whether a text has the quotes of word processors around it; in YAML's own quotes they are meant as letters."""
+    begins = (scalar.span.text or "").startswith(("“", "„", "‘"))
+    return begins and scalar.text.endswith(("”", "“", "’"))
 
 
 def _used(expression: Expression) -> Iterator[ast.Name]:

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
-from linkforge_compile.modules.telltale import TELLTALE
+from linkforge_compile.modules.telltale import SIGNS, TELLTALE
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile
@@ -103,8 +103,8 @@ def tree_of(source: SourceFile, sink: Diagnostics, budget: Budget) -> YamlMap | 
     if tree is None:
         return None
     whole = validate(tree, watched, is_included=source.included is not None)
-    # What is judged has a dollar sign, written as such or escaped; the pattern is slow on a long text.
-    if ("$" in source.text or "\\" in source.text) and TELLTALE.search(source.text):
+    # What is judged has one of these signs; the pattern is slow on a long text.
+    if any(sign in source.text for sign in SIGNS) and TELLTALE.search(source.text):
         from linkforge_compile.modules.places import judge_places
 
         whole = judge_places(whole, watched)

@@ -59,7 +59,9 @@ def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | Non
     """Read the file that a `use` names; None where there is none, which is reported there."""
     lowered = site.text.lower()
     if not lowered.endswith((*SPEC_ENDINGS, _URDF_ENDING)):
-        sink.report(NOT_A_SPEC.at(site.where, path=site.text))
+        is_bare = "." not in lowered.rpartition("/")[2]
+        hint = f"; write '{site.text}.robot.yaml'" if is_bare else ""
+        sink.report(NOT_A_SPEC.at(site.where, path=site.text, hint=hint))
         return None
     target = locate(site, loader, sink)
     spec = loader.open(target.path, sink, package=target.package, used=site.used) if target else None

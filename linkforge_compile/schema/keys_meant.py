@@ -79,6 +79,9 @@ def _whole(entry: YamlEntry, schema: Schema) -> str | None:
 
 def _in_its_home(home: str, entries: Sequence[YamlEntry], node: YamlMap) -> str:
     """Say how keys are written under the one where they belong; that of which is there already, where it is."""
+    if home == "mesh" and isinstance(file := node.get(home), YamlScalar):
+        written = ", ".join(f"{entry.name}: {shown(entry.value)}" for entry in entries)
+        return f"write 'mesh: {{file: {shown(file)}, {written}}}'"
     if node.get(home) is not None:
         others = alternatives([f"'{entry.name}'" for entry in entries[1:]], "and") if len(entries) > 1 else ""
         return f"it belongs under '{home}'" + (f", as {others}" if others else "")

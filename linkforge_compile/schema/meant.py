@@ -126,7 +126,8 @@ def _row(node: YamlScalar, misfit: Misfit) -> str:
     numbers = numbers_of_row(node)
     if len(numbers) == 6 and misfit.field == "origin":
         return _pose(numbers)
-    if len(numbers) < 2 or not (misfit.takes("array") or isinstance(misfit.field, int)):
+    is_item = isinstance(misfit.field, int) and not number_meant(node.text)
+    if len(numbers) < 2 or not (misfit.takes("array") or is_item):
         return ""
     listed = ", ".join(numbers)
     return f"'[{listed}]'" if misfit.takes("array") else f"'{listed}'"

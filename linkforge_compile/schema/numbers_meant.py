@@ -14,11 +14,16 @@ _UNDERSCORES = re.compile(r"(?<=[0-9a-fA-F])_+(?=[0-9a-fA-F])")
 """What YAML 1.1 and Python read over between digits, and YAML 1.2 does not."""
 _GROUPED = re.compile(r"([+-]?\d{1,3}(?:\s\d{3})+)(?!\d)(.*)")
 """A number whose thousands are parted by spaces, and what stands behind it."""
+_MINUS_SIGNS = ("\u2212", "\u2013", "\u2014")
+"""What word processors make of a hyphen before a number."""
 _ZEROS_FIRST = re.compile(r"0\d+")
 
 
 def number_meant(text: str) -> str | None:
     """Return a number, with its unit if it has one, as it is written here; None for any other text."""
+    if text[:1] in _MINUS_SIGNS:
+        text = f"-{text[1:]}"
+        return text if is_number(text) or parse_quantity(text) else number_meant(text)
     if comma := _DECIMAL_COMMA.fullmatch(text):
         return f"{comma[1]}.{comma[2]}{comma[3]}"
     joined = _UNDERSCORES.sub("", text)
@@ -31,8 +36,15 @@ def numbers_of_row(node: YamlScalar) -> Sequence[str]:
     """Return the numbers of a text that has several, with spaces or commas between them; () for any other text."""
     if not isinstance(node.value, str) or _DECIMAL_COMMA.fullmatch(node.text):
         return ()
-    words = re.split(r"[\s,]+", node.text.strip())
-    return words if all(map(is_number, words)) and not any(map(_ZEROS_FIRST.fullmatch, words)) else ()
+    numbers: list[str] = []
+    for word in re.split(r"[\s,]+", node.text.strip()):
+        if (is_number(word) and not _ZEROS_FIRST.fullmatch(word)) or parse_quantity(word):
+            numbers.append(word)
+        elif numbers and is_number(numbers[-1]) and parse_quantity(f"{numbers[-1]} {word}"):
+            numbers[-1] += f" {word}"
+        else:
+            return ()
+    return numbers
 
 
 def is_row(node: YamlNode) -> bool:

@@ -13,6 +13,7 @@ from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Span
+from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.scalars import IN_QUOTES, is_cut_expression
 from linkforge_compile.syntax.xacro import XACRO_EXPRESSION, xacro_facts
@@ -23,9 +24,12 @@ _COMMENT = re.compile(r"(?:^|\s)#.*")
 _COMMENT_AS_VALUE = re.compile(r"[:,\[][ \t]{1,9}(#[^\s#,\]}]+)[^\r\n]*")
 _KEY_STUCK_TO_VALUE = re.compile(r"\s*(?:-\s+)?([^\s:'\"]+:(?!//)[^\s:]\S*)")
 _WORD = re.compile(r"\w[\w$().-]*")
+_FIRST_WORD = re.compile(r"([A-Za-z]\w*) +\S")
 _ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
 _IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
 _LONGEST_EXPRESSION = 2_000
+_LIKE_SPACES = re.compile(r"[ \t]*([\u00a0\u2000-\u200b\u202f\u3000])")
+_MERGE_CONFLICT = re.compile(r"^(?:<{7} .*|={7}$|>{7} .*)", re.MULTILINE)
 _LINE_OF_ENTRY = re.compile(r"\s*(?:-[ \t]+)?[\w$().-]+:(?!\S)")
 
 
@@ -92,9 +96,9 @@ class _Trouble:
         is_just_before = span.end_line == self.here.line and not self.before[span.end_column - 1 :].strip()
         return span if is_just_before and span.line < span.end_line else None
 
-    def line_above(self) -> int:
-        """Return the number of the last line above that says something, 0 for none."""
-        line = self.here.line - 1
+    def line_above(self, line: int | None = None) -> int:
+        """Return the number of the last line above one, unless said this one, that says something; 0 for none."""
+        line = (self.here.line if line is None else line) - 1
         while line and not _said(self.marks.file.line(line)):
             line -= 1
         return line
@@ -108,6 +112,9 @@ def explain(error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent | Non
     trouble = _Trouble(error.problem or "", error.context or "", at, began, marks, last_scalar)
     if quoted := trouble.quoted_before():
         return _text_in_quotes_ended(trouble, quoted)
+    for line in (trouble.line_above(), trouble.here.line):
+        if (like_space := trouble.found(_LIKE_SPACES, line)) and (character := like_space.text):
+            return codes.TAB_INDENTATION.at(like_space, found=f"{code_point(character)}, which looks like one")
     for pattern, tell in _SENTENCES:
         if re.search(pattern, trouble.problem):
             return tell(trouble)
@@ -119,6 +126,9 @@ def explain_every(error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent
 
     Reading ends at the first, and whoever carries a file over has a hundred of them.
     """
+    if conflict := _MERGE_CONFLICT.search(marks.text):
+        yield codes.MERGE_CONFLICT.at(marks.part(conflict.start(), len(conflict[0])))
+        return
     first = explain(error, marks, last_scalar)
     yield first
     if first.code is codes.XACRO_EXPRESSION:
@@ -141,7 +151,7 @@ def _said(line: str) -> str:
 
 
 def _tab(trouble: _Trouble) -> Diagnostic:
-    return codes.TAB_INDENTATION.at(trouble.here)
+    return codes.TAB_INDENTATION.at(trouble.here, found="a tab")
 
 
 def _reserved_character(trouble: _Trouble) -> Diagnostic:
@@ -170,13 +180,19 @@ def _faulty_key_above(trouble: _Trouble) -> Diagnostic | None:
     if stuck := trouble.found(_KEY_STUCK_TO_VALUE, above):
         return codes.SPACE_AFTER_COLON.at(stuck, text=stuck.text)
     said = _said(trouble.marks.file.line(above))
-    return _missing_colon(trouble, above) if _WORD.fullmatch(said) else None
+    begins = _said(trouble.marks.file.line(trouble.line_above(above))).endswith(":")
+    is_first = begins and _FIRST_WORD.match(said) and ": " not in said
+    return _missing_colon(trouble, above) if is_first or _WORD.fullmatch(said) else None
 
 
 def _missing_colon(trouble: _Trouble, line: int) -> Diagnostic:
+    """Tell of a key without a colon: of a line that has nothing below it, the first word."""
     written = trouble.marks.file.line(line)
     said = _said(written)
     begin = written.find(said) + 1
+    first = _FIRST_WORD.match(said)
+    if first and len(written) - len(written.lstrip()) >= len(trouble.before) - len(trouble.before.lstrip()):
+        said = first[1]
     return codes.MISSING_COLON.at(Span(trouble.marks.file, line, begin, line, begin + len(said)), text=said)
 
 

@@ -217,7 +217,7 @@ def test_a_code_is_explained_by_its_page_of_the_manual(tmp_path: Path):
 
 def test_a_page_is_styled_where_colours_are_asked_for(tmp_path: Path):
     run = linkforge("explain", "LF1002", cwd=tmp_path, FORCE_COLOR="1", NO_COLOR="")
-    assert run.stdout.startswith("\033[1mLF1002: YAML is indented with spaces, found a tab\033[0m\n")
+    assert run.stdout.startswith("\033[1mLF1002: YAML is indented with spaces, found …\033[0m\n")
     assert "```" not in run.stdout
     assert "    \033[36mlinks:\033[0m" in run.stdout.splitlines()
 

@@ -8,7 +8,7 @@ _KIND, _WRITER = Blame.KIND, Blame.WRITER
 # LF300x: finding and reading files
 NO_SUCH_FILE = Code("LF3001", _E, "there is no file '{path}'", _WRITER)
 UNREADABLE_FILE = Code("LF3002", _E, "'{path}' cannot be read: {reason}")
-NOT_A_SPEC = Code("LF3003", _E, "a module is a .robot.yaml, .urdf or .xacro file, found '{path}'", _WRITER)
+NOT_A_SPEC = Code("LF3003", _E, "a module is a .robot.yaml, .urdf or .xacro file, found '{path}'{hint}", _WRITER)
 UNKNOWN_PACKAGE = Code(
     "LF3005",
     _E,

@@ -3,7 +3,7 @@
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
 
 MALFORMED_YAML = Code("LF1001", Severity.ERROR, "this is not YAML: {problem}")
-TAB_INDENTATION = Code("LF1002", Severity.ERROR, "YAML is indented with spaces, found a tab")
+TAB_INDENTATION = Code("LF1002", Severity.ERROR, "YAML is indented with spaces, found {found}")
 RESERVED_START = Code("LF1003", Severity.ERROR, "text cannot begin with '{character}'; put it in quotes")
 SPACE_AFTER_COLON = Code("LF1004", Severity.ERROR, "a space is missing after the colon in '{text}'")
 SPACE_AFTER_DASH = Code("LF1005", Severity.ERROR, "a space is missing after the dash in '{text}'")
@@ -33,6 +33,12 @@ XACRO_IN_FREE_TEXT = Code(
 )
 COMMENT_TAKES_BRACKET = Code(
     "LF1047", Severity.ERROR, "'{text}' begins a comment, which takes the '{closing}' with it; put it in quotes"
+)
+CURLY_QUOTES = Code(
+    "LF1056", Severity.WARNING, "the quotes of '{text}' are letters to YAML and go on with it; write '\"{ours}\"'"
+)
+MERGE_CONFLICT = Code(
+    "LF1055", Severity.ERROR, "git left a merge conflict here; keep one of its two sides, and none of its three lines"
 )
 BRACKET_TOO_MANY = Code("LF1076", Severity.ERROR, "one '{bracket}' too many: what it could close is closed already")
 
