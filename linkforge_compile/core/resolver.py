@@ -12,7 +12,7 @@ from typing import Protocol, runtime_checkable
 from linkforge_compile.pattern import pattern
 
 _PACKAGE_URI = re.compile(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
-_PACKAGE_NAME = pattern(r"<name>\s*([^<]*?)\s*</name>")
+_PACKAGE_NAME = pattern(r"<name>([^<]*)</name>")
 _WINDOWS_DRIVE = pattern(r"^/(?=[A-Za-z]:)")
 _LEVELS_UP = 10
 
@@ -98,4 +98,4 @@ def _declared_package(folder: Path) -> str | None:
     except OSError:
         return None
     name = _PACKAGE_NAME.search(text)
-    return name[1] if name else None
+    return name[1].strip() if name else None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator, Mapping
 from itertools import chain, islice
 from pathlib import Path
@@ -13,8 +12,8 @@ from linkforge_compile.frozen import dataclass
 from linkforge_compile.pattern import pattern
 from linkforge_compile.roots import as_walked
 
-_COMMENT = pattern(r"<!--.*?-->", re.DOTALL)
-_NAME = pattern(r"<name>\s*([^<]*?)\s*</name>")
+# A stranger wrote what it is searched in: no character is tried twice.
+_NAME = pattern(r"<name>([^<]*)</name>")
 _MANIFEST_BYTES = 1024 * 1024
 
 _SOURCES = "src"
@@ -24,7 +23,7 @@ _LEVELS_UP = 6
 _TOP = 2
 """So many parts has the path of `/home`."""
 
-_MOST_FOLDERS = 2_000
+_MOST_FOLDERS = 500
 """In so many folders a package is looked for that is nowhere."""
 
 
@@ -87,7 +86,7 @@ def _folders_around(start: Path) -> Iterator[Path]:
     The top folders of a machine, where networks are mounted, and what lies in a home are not gone through.
     """
     for above in islice((start, *start.parents), _LEVELS_UP):
-        if len(above.parts) <= _TOP or above == Path.home():
+        if len(above.parts) <= _TOP or str(above) == os.path.expanduser("~"):  # noqa: PTH111 - Path.home() may raise
             return
         beside = _folders_in(above)
         yield from beside
@@ -135,5 +134,6 @@ def _manifest_name(folder: Path) -> str | None:
             text = stream.read(_MANIFEST_BYTES).decode("utf-8", errors="replace")
     except OSError:
         return None
-    match = _NAME.search(_COMMENT.sub("", text))
-    return match[1] if match else None
+    first, *behind = text.split("<!--")
+    match = _NAME.search("".join((first, *(piece.partition("-->")[2] for piece in behind))))
+    return match[1].strip() if match else None

@@ -1,6 +1,7 @@
 """Files: how they are named, found and read, and what is told of those that cannot be."""
 
 import os
+import time
 from pathlib import Path
 
 import pytest
@@ -195,3 +196,13 @@ def test_a_package_beyond_the_sources_of_the_workspace_is_none_of_it(tmp_path):
     (tmp_path / "gripper").mkdir()
     (tmp_path / "gripper" / "package.xml").write_text(MANIFEST.format("gripper"))
     assert [one.notes for one in compile_file(tmp_path / "ws/src/arm/arm.robot.yaml").diagnostics] == [()]
+
+
+@pytest.mark.parametrize("manifest", ["<name>" + " " * 200_000, "<!--" * 100_000])
+def test_a_manifest_that_strangers_wrote_is_read_in_time_that_grows_with_its_length(tmp_path, manifest: str):
+    mesh = "links: {base: {visual: {mesh: package://parts/base.stl}}}"
+    write(tmp_path, {"robot.robot.yaml": f"{mesh}\nmodules: {{a: {{use: 'package://gripper/gripper.robot.yaml'}}}}"})
+    (tmp_path / "package.xml").write_text(manifest)
+    started = time.process_time()
+    assert [one.code.id for one in compile_file(tmp_path / "robot.robot.yaml").diagnostics] == ["LF3005"]
+    assert time.process_time() - started < 2
