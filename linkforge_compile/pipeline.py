@@ -5,7 +5,7 @@ Values flow down, faults flow sideways into the sink, and no stage stops the lin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -25,14 +25,12 @@ from linkforge_compile.modules import (
     Unset,
     Used,
     arguments_from_text,
-    arguments_from_told,
     arguments_from_values,
     expand,
 )
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.stack import with_room
-from linkforge_compile.syntax.ignore_words import IGNORE_WORDS
 
 if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
@@ -250,11 +248,7 @@ class Settings(NamedTuple):
     def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:
         """Return the parameters; the loader may read the files that they name."""
         if isinstance(self.parameters, Mapping):
-            told = {name: value for name, value in self.parameters.items() if isinstance(value, Told)}
-            if told and len(told) == len(self.parameters):
-                arguments = arguments_from_told(told)
-            else:
-                arguments = arguments_from_values(self.parameters)
+            arguments = arguments_from_values(self.parameters)
         else:
             arguments = arguments_from_text(tuple(self.parameters), sink)
         loader.roots = loader.roots.naming(arguments.named_files)
@@ -295,7 +289,7 @@ def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilatio
     try:
         spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them
         robot = robot_of(spec, settings, loader, meshes, sink) if spec else None
-        ignores = tuple(_ignores(loader))
+        ignores = loader.ignores
     except BeyondLimitError as beyond:
         sink.end(beyond)
     is_whole = not any(diagnostic.code is NOT_JUDGED for diagnostic in sink)
@@ -307,14 +301,6 @@ def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilatio
 
         report = heed(report, ignores, is_whole=robot is not None)
     return Compilation(robot, report, (*loader.files, *meshes.files), (*loader.unread, *meshes.unread))
-
-
-def _ignores(loader: Loader) -> Iterator[Ignore]:
-    for file in loader.sources:
-        if IGNORE_WORDS.search(file.text):
-            from linkforge_compile.syntax.ignore_comments import ignore_comments
-
-            yield from ignore_comments(file, loader.budget)
 
 
 def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:

@@ -5,7 +5,6 @@ from linkforge_compile.modules.arguments import (
     Told,
     Unset,
     arguments_from_text,
-    arguments_from_told,
     arguments_from_values,
 )
 from linkforge_compile.modules.assembly import Instance
@@ -23,7 +22,6 @@ __all__ = [
     "Unset",
     "Used",
     "arguments_from_text",
-    "arguments_from_told",
     "arguments_from_values",
     "expand",
 ]

@@ -85,7 +85,7 @@ def arguments_from_text(pairs: Sequence[str], sink: Diagnostics) -> Arguments:
     return Arguments(entries, Path(), as_text=True)
 
 
-def arguments_from_told(values: Mapping[str, Told]) -> Arguments:
+def _from_told(values: Mapping[str, Told]) -> Arguments:
     """Take values by parameter name, which are read as on the command line."""
     entries: dict[str, YamlEntry] = {}
     for name, (place, spelt, text) in values.items():
@@ -96,9 +96,15 @@ def arguments_from_told(values: Mapping[str, Told]) -> Arguments:
 
 
 def arguments_from_values(values: Mapping[str, object]) -> Arguments:
-    """Take Python values: text is read as on the command line, None sets nothing; TypeError for what no spec says."""
+    """Take Python values: text is read as on the command line, None sets nothing; TypeError for what no spec says.
+
+    Where all of them are what another program told, they are read as it says them.
+    """
     if not values:
         return Arguments(folder=Path(), as_text=True, from_python=True)
+    told = {name: value for name, value in values.items() if isinstance(value, Told)}
+    if len(told) == len(values):
+        return _from_told(told)
     from linkforge_compile.modules.values import node_of
 
     entries: dict[str, YamlEntry] = {}

@@ -24,8 +24,10 @@ from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
+from linkforge_compile.syntax.ignore_words import IGNORE_WORDS
 
 if TYPE_CHECKING:
+    from linkforge_compile.diagnostics.ignores import Ignore
     from linkforge_compile.modules.packages import Package
 
 
@@ -113,6 +115,16 @@ class Loader:
     def unread(self) -> tuple[Path, ...]:
         """Every file that was asked for and is not there, or is no text, in that order."""
         return tuple(dict.fromkeys(self._unread))
+
+    @property
+    def ignores(self) -> tuple[Ignore, ...]:
+        """Every comment of what was read that asks to ignore codes."""
+        asking = [file for file in self.sources if IGNORE_WORDS.search(file.text)]
+        if not asking:
+            return ()
+        from linkforge_compile.syntax.ignore_comments import ignore_comments
+
+        return tuple(one for file in asking for one in ignore_comments(file, self.budget))
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:
         """Read a spec from text that is no file, or a URDF as one.
