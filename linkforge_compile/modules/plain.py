@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.modules.assembly import Instance
-from linkforge_compile.modules.changing import Changing
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.mesh_files import mesh_finder
+from linkforge_compile.modules.trees import is_computed
 from linkforge_compile.modules.uses import UseSite, mesh_base
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlList, YamlMap, YamlScalar
@@ -19,7 +19,7 @@ def is_plain(spec: SpecFile) -> bool:
     """Whether a file says its robot as it is: nothing in it is computed, repeated or used."""
     # A file that includes others may have lost one of them.
     apart = _COMPUTING.isdisjoint(spec.tree.entries) and not spec.included and "include" not in spec.tree.entries
-    return apart and not Changing().change(robot_part(spec.tree))
+    return apart and not is_computed(spec.file, spec.tree)
 
 
 def as_written(spec: SpecFile, loader: Loader) -> Instance:

@@ -5,14 +5,16 @@ Whoever compiles a robot twice in one process, as launch files, editors and watc
 
 from __future__ import annotations
 
+from functools import cached_property
 from pathlib import Path
 from threading import Lock
 from typing import TypeAlias
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.frozen import dataclass
+from linkforge_compile.modules.changing import Changing
 from linkforge_compile.modules.telltale import SIGNS, TELLTALE
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, read
@@ -24,12 +26,17 @@ _Place: TypeAlias = tuple[str, Path | None, int]
 """The name of a file, its path, and how many were read before it."""
 
 
-class _Read(NamedTuple):
+@dataclass(frozen=True)
+class _Read:
     """A text that was read without a fault, its tree, and how much of the budget it took."""
 
     source: SourceFile
     tree: YamlMap
     values: int
+
+    @cached_property
+    def is_computed(self) -> bool:
+        return _is_computed(self.tree)
 
 
 class _Whole:
@@ -111,6 +118,17 @@ def tree_of(source: SourceFile, sink: Diagnostics, budget: Budget) -> YamlMap | 
     if watched.is_silent:
         _faultless.keep(_Read(source, whole, before - budget.left(Limit.VALUES)))
     return whole
+
+
+def is_computed(source: SourceFile, tree: YamlMap) -> bool:
+    """Whether what a file says is computed or repeated, its author's own keys aside; remembered with its text."""
+    known = _faultless.find(source)
+    return known.is_computed if known and known.tree is tree else _is_computed(tree)
+
+
+def _is_computed(tree: YamlMap) -> bool:
+    said = {name: entry for name, entry in tree.entries.items() if not name.startswith("x-")}
+    return Changing().change(YamlMap(said, tree.span))
 
 
 def _place(source: SourceFile) -> _Place:
