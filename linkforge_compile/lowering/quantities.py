@@ -197,7 +197,10 @@ def _in_bound(node: YamlNode, number: float, measure: Measure) -> float | Refusa
     if not math.isfinite(number):
         return Refusal(NOT_FINITE, {"found": found(node)})
     if measure.bound and not measure.bound.holds(number):
-        return Refusal(OUT_OF_RANGE, {"bound": measure.bound.words + measure.si_unit, "found": found(node)})
+        meant = (
+            f"; write '{found(node)} deg' if degrees are meant" if doubt(node, number, measure) is WIDE_ANGLE else ""
+        )
+        return Refusal(OUT_OF_RANGE, {"bound": measure.bound.words + measure.si_unit, "found": found(node) + meant})
     return number
 
 

@@ -100,7 +100,8 @@ def _example(_: YamlNode, misfit: Misfit) -> str:
 
 
 def _truth(node: YamlScalar, misfit: Misfit) -> str:
-    return TRUTHS_OF_YAML_1_1.get(node.text.lower(), "") if "true, false" in expected(misfit.schema) else ""
+    takes_truth = expected(misfit.schema).startswith(("true, false", "true or false"))
+    return TRUTHS_OF_YAML_1_1.get(node.text.lower(), "") if takes_truth else ""
 
 
 def _color(node: YamlScalar, misfit: Misfit) -> str:
@@ -265,13 +266,7 @@ _OF_SCALARS: tuple[Callable[[YamlScalar, Misfit], str], ...] = (
     _use,
     _item,
 )
-_OF_LISTS: tuple[Callable[[YamlList, Misfit], str], ...] = (
-    _example,
-    _decimal_commas,
-    _object_in_order,
-    _six_of_a_pose,
-    _by_name,
-)
+_OF_LISTS = (_example, _decimal_commas, _object_in_order, _six_of_a_pose, _by_name)
 _OF_MAPS: tuple[Callable[[YamlMap, Misfit], str], ...] = (_interfaces, _parts, _attribute)
 
 _EXAMPLES = {"for": "'{side: [left, right]}'"}

@@ -211,6 +211,8 @@ def _entry_expected(trouble: _Trouble) -> Diagnostic:
     if trouble.before.strip():
         if trouble.character in ("}", "]"):
             return codes.BRACKET_TOO_MANY.at(here, bracket=trouble.character)
+        if trouble.character == "," and trouble.before.rstrip().endswith(("}", "]")):
+            return codes.COMMA_AFTER_VALUE.at(here)
         return codes.TEXT_AFTER_VALUE.at(here)
     if stuck := trouble.found(_ITEM_STUCK_TO_DASH, here.line):
         return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)

@@ -24,6 +24,7 @@ KEY_AMONG_ITEMS = Code(
 )
 LIST_ON_KEY_LINE = Code("LF1015", Severity.ERROR, "a list with dashes begins on a line of its own; on one line: [a, b]")
 TEXT_AFTER_VALUE = Code("LF1016", Severity.ERROR, "the value ended before this; put the whole text in quotes")
+COMMA_AFTER_VALUE = Code("LF1057", Severity.ERROR, "nothing is in brackets here that this ',' could part; leave it out")
 MISSING_VALUE = Code("LF1017", Severity.ERROR, "expected a value, found {found}")
 UNKNOWN_ESCAPE = Code("LF1018", Severity.ERROR, "'{text}' means nothing in double quotes; use single quotes")
 FORBIDDEN_CHARACTER = Code("LF1019", Severity.ERROR, "a spec cannot hold the character {character}")
