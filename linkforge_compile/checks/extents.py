@@ -49,11 +49,6 @@ MeasureMesh: TypeAlias = Callable[[Mesh], Extent | None]
 """Returns the box around a mesh in its own frame [m], None where it cannot be measured."""
 
 
-def extent_of(shapes: Iterable[Visual | Collision], measure: MeasureMesh = lambda _: None) -> Extent | None:
-    """Return the box that holds all of the shapes; None without any, and where a mesh cannot be measured."""
-    return around(extents_of(shapes, measure))
-
-
 def extents_of(shapes: Iterable[Visual | Collision], measure: MeasureMesh) -> list[Extent | None]:
     """Return the box of each shape, None for a mesh that cannot be measured."""
     return [_extent(shape.geometry, shape.origin, measure) for shape in shapes]

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkforge_compile.checks.extents import extent_of
+from linkforge_compile.checks.extents import room_of
 from linkforge_compile.core import (
     Box,
     Collision,
@@ -102,10 +102,10 @@ def test_small_parts_of_the_whole_are_not_judged():
 
 
 def test_the_box_around_shapes_holds_them_turned_and_moved():
-    extent = extent_of(
-        [Collision(BEAM, Transform(Vector3(1, 0, 0), Vector3(0, 0, math.pi / 2))), Collision(Sphere(0.1))]
-    )
-    assert extent is not None
+    shapes = [Collision(BEAM, Transform(Vector3(1, 0, 0), Vector3(0, 0, math.pi / 2))), Collision(Sphere(0.1))]
+    room = room_of(Link("base", collisions=shapes), lambda _: None)
+    assert room is not None
+    extent = room.box
     assert extent.low == pytest.approx((-0.1, -0.15, -0.1))
     assert extent.high == pytest.approx((1.02, 0.15, 0.1))
     assert extent.distance((1.02, 0.15, 0.5)) == pytest.approx(0.4)
