@@ -77,6 +77,7 @@ def test_a_path_is_absolute_and_belongs_to_the_file_that_writes_it(tmp_path: Pat
             """,
         },
     )
+    (tmp_path / "data").mkdir()
     compilation = compile_file(tmp_path / "robot.robot.yaml")
     assert [(one.code.id, one.span.file.path.name) for one in compilation.diagnostics if one.code.id != "LF5401"] == [
         ("LF3092", "arm.robot.yaml")
