@@ -77,6 +77,9 @@ _TIMES_JUDGED = 3
 """How many times what a compile may take its judges may take: the largest robot is judged twice with its SRDF."""
 
 
+_PACKAGE = "package://"
+
+
 class Loader:
     """All the files of one compile."""
 
@@ -202,7 +205,8 @@ class Loader:
         if used.where is None or self.roots.hold(path):
             return True
         notes = [Note(f"it leads to {os.path.realpath(path)}"), Note(f"what may be read lies in {self.roots}")]
-        sink.report(OUTSIDE_ROOTS.at(used.where, path=used.text, notes=notes))
+        name = used.text.removeprefix(_PACKAGE).partition("/")[0] if used.text.startswith(_PACKAGE) else "NAME"
+        sink.report(OUTSIDE_ROOTS.at(used.where, path=used.text, name=name, notes=notes))
         return False
 
     def _text(self, path: Path, used: Used, sink: Diagnostics, read: _ReadText = file_text) -> str | None:

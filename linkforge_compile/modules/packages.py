@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain, islice
 from pathlib import Path
 
-from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.pattern import pattern
-from linkforge_compile.roots import as_walked
+from linkforge_compile.roots import Roots, as_walked
+from linkforge_compile.source import Span
 
 # A stranger wrote what it is searched in: no character is tried twice.
 _NAME = pattern(r"<name>([^<]*)</name>")
@@ -69,15 +71,31 @@ def _in_ros_1(name: str) -> Iterator[Path]:
         yield from (path.parent for path in sorted(root.glob(f"*/{name}/package.xml")))
 
 
-def notes_of_seen(name: str, start: Path | None) -> tuple[Note, ...]:
-    """Return where a package lies that was not found, with the option that says so; () where none is in sight.
+def unknown_package(
+    where: Span | None,
+    name: str,
+    start: Path | None,
+    *,
+    near: Iterable[str],
+    roots: Roots,
+    notes: Iterable[Note] = (),
+) -> Diagnostic:
+    """Return what tells that a package is nowhere, and where one of its name lies that was not searched.
 
     A workspace that is not sourced is not searched for what a spec names: another version of the package may be the
     one that is meant, and what lies beside a stranger's package is none of its business. To its user it is told.
+    `packages` of the file is no way to one outside of the roots, for it adds none to them.
     """
+    seen = _seen_around(name, start)
+    option = f"--package {name}=FOLDER"
+    way = option if seen and not roots.hold(seen) else f"'packages' of this file or {option}"
+    found = [Note(f"there is one; write --package {name}={_from_here(seen)}")] if seen else []
+    return UNKNOWN_PACKAGE.at(where, name=name, way=way, near=near, notes=(*notes, *found))
+
+
+def _seen_around(name: str, start: Path | None) -> Path | None:
     folders = islice(_folders_around(as_walked(start)) if start else (), _MOST_FOLDERS)
-    seen = next((folder for folder in folders if _manifest_name(folder) == name), None)
-    return (Note(f"there is one; write --package {name}={_from_here(seen)}"),) if seen else ()
+    return next((folder for folder in folders if _manifest_name(folder) == name), None)
 
 
 def _folders_around(start: Path) -> Iterator[Path]:

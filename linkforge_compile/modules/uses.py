@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, UNKNOWN_PACKAGE, USE_OF_NOWHERE
+from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, USE_OF_NOWHERE
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.paths import follow
@@ -161,14 +161,13 @@ def _in_package(site: UseSite, path: str, loader: Loader, sink: Diagnostics) -> 
     match = _PACKAGE_PATH.fullmatch(path)
     if match is None:
         return _nowhere(site, "it takes the form package://NAME/PATH", sink)
-    from linkforge_compile.modules.packages import Package, find_package, notes_of_seen
+    from linkforge_compile.modules.packages import Package, find_package, unknown_package
 
     name = match[1]
     declared = {**site.packages, **loader.packages}
     folder = find_package(name, declared, site.user.folder)
     if folder is None:
-        notes = notes_of_seen(name, site.user.folder)
-        sink.report(UNKNOWN_PACKAGE.at(site.where, name=name, near=declared, notes=notes))
+        sink.report(unknown_package(site.where, name, site.user.folder, near=declared, roots=loader.roots))
         return None
     return Target(follow(folder, match[2]), Package(name, folder))
 

@@ -14,10 +14,10 @@ from linkforge_compile.diagnostics.codes.importing import (
     XACRO_NOT_INSTALLED,
     XACRO_UNKNOWN_NAME,
 )
-from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PACKAGE, UNKNOWN_PARAMETER
+from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, Used
-from linkforge_compile.modules.packages import notes_of_seen
+from linkforge_compile.modules.packages import unknown_package
 from linkforge_compile.modules.paths import as_typed, names_in
 from linkforge_compile.source import SourceFile, Span
 
@@ -94,8 +94,8 @@ class Telling:
             near = {**(self.use.packages or {}), **self.loader.packages}
             name = asked.lost[-1]
             looked = [Note("it is looked for here", place)] if where and place else []
-            notes = (*looked, *notes_of_seen(name, self.use.path.parent))
-            self.sink.report(UNKNOWN_PACKAGE.at(where or place, name=name, near=near, notes=notes))
+            folder, roots = self.use.path.parent, self.loader.roots
+            self.sink.report(unknown_package(where or place, name, folder, near=near, roots=roots, notes=looked))
         elif failed.kind == "ArgException":
             self._unset(failed.reason, place, failed.arguments or {})
         else:

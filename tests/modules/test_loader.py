@@ -187,8 +187,13 @@ def test_a_package_beside_that_of_the_spec_is_not_read_and_its_user_told_where_i
     monkeypatch.chdir(tmp_path / "src" / "arm")
     [fault] = compile_file("arm.robot.yaml").diagnostics
     assert fault.code.id == "LF3005"
+    # `packages` of the spec would lead out of what may be read.
+    assert fault.message == "no package named 'gripper'; say where it is with --package gripper=FOLDER"
     assert [note.message for note in fault.notes] == ["there is one; write --package gripper=../hands/gripper"]
     assert compile_file("arm.robot.yaml", packages={"gripper": "../hands/gripper"}).robot
+    (tmp_path / ".git").mkdir()
+    [fault] = compile_file("arm.robot.yaml").diagnostics
+    assert "say where it is with 'packages' of this file or --package gripper=FOLDER" in fault.message
 
 
 def test_a_package_beyond_the_sources_of_the_workspace_is_none_of_it(tmp_path):

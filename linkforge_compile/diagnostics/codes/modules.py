@@ -12,7 +12,7 @@ NOT_A_SPEC = Code("LF3003", _E, "a module is a .robot.yaml, .urdf or .xacro file
 UNKNOWN_PACKAGE = Code(
     "LF3005",
     _E,
-    "no package named '{name}'; say where it is with 'packages' of this file or --package {name}=FOLDER",
+    "no package named '{name}'; say where it is with {way}",
     _WRITER,
     in_xml="no package named '{name}'; say where it is with --package {name}=FOLDER",
 )

@@ -5,7 +5,8 @@ from linkforge_compile.diagnostics.diagnostic import Blame, Code, Severity
 OUTSIDE_ROOTS = Code(
     "LF3401",
     Severity.ERROR,
-    "'{path}' leads out of the folders that may be read; name its own by --package NAME=FOLDER, or say --allow-outside",
+    "'{path}' leads out of the folders that may be read; add its folder to them with --package {name}=FOLDER, or allow "
+    "all with --allow-outside",
     Blame.WRITER,
 )
 UNSEEN_MESHES = Code(
