@@ -40,11 +40,32 @@ def test_a_spec_is_written_and_compiles(arm, tmp_path: Path, capfd: pytest.Captu
 
 def test_a_loss_is_told_and_is_a_failure_if_strict(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
     spec = tmp_path / "arm.robot.yaml"
-    urdf = arm("some text")
-    assert main(["import", urdf, "-o", str(spec), "--strict"]) == 1
-    assert not spec.exists()
+    urdf = arm('some text<link name="base"/>')
     assert main(["import", urdf, "-o", str(spec)]) == 0
-    assert capfd.readouterr().err.count("LF8101") == 2
+    assert "warning: <robot> holds no text; 'some text' is left out [LF8101]" in capfd.readouterr().err
+    spec.unlink()
+    assert main(["import", urdf, "-o", str(spec), "--strict"]) == 1
+    told = capfd.readouterr().err
+    assert not spec.exists()
+    assert "error: <robot> holds no text; 'some text' is left out [LF8101]" in told
+    assert "warning: <link> is kept as raw XML" in told
+    assert told.endswith("\nnothing written: 1 loss (LF8101)\n")
+
+
+@pytest.mark.parametrize("quieter", [["-q"], ["--ignore", "LF8101"], ["--select", "LF5"]])
+def test_a_loss_that_strict_fails_for_is_told_whatever_is_left_out(
+    arm, quieter: list[str], capfd: pytest.CaptureFixture[str]
+):
+    assert main(["import", arm("some text"), "--strict", *quieter]) == 1
+    written, told = capfd.readouterr()
+    assert written == ""
+    assert "left out [LF8101]" in told
+    assert told.endswith("\nnothing written: 1 loss (LF8101)\n")
+
+
+def test_strict_says_that_it_writes_nothing_where_there_are_errors(arm, capfd: pytest.CaptureFixture[str]):
+    assert main(["import", arm('<link name="base"/>'), "--strict", "--werror"]) == 1
+    assert capfd.readouterr().err.endswith("\nnothing written: there are errors\n")
 
 
 def test_what_is_kept_raw_is_no_loss(arm, capfd: pytest.CaptureFixture[str]):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,11 +16,14 @@ from linkforge_compile.cli.options import (
     split_assignments,
 )
 from linkforge_compile.cli.targets import file_to_write, imported_spec
-from linkforge_compile.cli.telling import add_telling_options, say, tell
+from linkforge_compile.cli.telling import add_telling_options, say, say_failure, tell
 from linkforge_compile.cli.waiting import told_when_long
+from linkforge_compile.diagnostics import Diagnostic, Severity
 
 if TYPE_CHECKING:
     import argparse
+
+    from linkforge_compile.importing import Import
 
 _EXAMPLES = """\
 The spec compiles to the same robot. What the language has no word for is in its `extra`, as raw XML; what cannot be
@@ -74,11 +78,29 @@ def run(arguments: argparse.Namespace) -> int:
             output=output.parent if output else None,
             text=standard_input() if urdf == "-" else None,
         )
-    is_faulty = tell(imported.diagnostics, arguments) or imported.has_errors
-    if imported.text is None or (arguments.strict and (imported.losses or is_faulty)):
+    told = _with_losses_as_errors(imported) if arguments.strict else imported.diagnostics
+    is_faulty = tell(told, arguments) or imported.has_errors
+    if imported.text is None:
+        return FAULTY_SPEC
+    if arguments.strict and is_faulty:
+        say_failure(f"nothing written: {_why(imported.losses)}", arguments)
         return FAULTY_SPEC
     _put(imported.text, output, arguments)
     return FAULTY_SPEC if is_faulty else OK
+
+
+def _with_losses_as_errors(imported: Import) -> list[Diagnostic]:
+    from linkforge_compile.diagnostics.codes.importing import LOSSES
+
+    return [replace(one, taken_for=Severity.ERROR) if one.code in LOSSES else one for one in imported.diagnostics]
+
+
+def _why(losses: tuple[Diagnostic, ...]) -> str:
+    if not losses:
+        return "there are errors"
+    count = sum(1 + loss.untold for loss in losses)
+    codes = sorted({loss.code.id for loss in losses})
+    return f"{count} {'loss' if count == 1 else 'losses'} ({', '.join(codes)})"
 
 
 def _refuse_others(urdf: str) -> None:
