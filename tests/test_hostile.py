@@ -83,6 +83,7 @@ SPECS: dict[str, tuple[str, str | bytes]] = {
     "text by a format": ("LF3121", HEAD + "metadata: {a: \"$('%1000000000d' % 3)\"}\n"),
     "a method": ("LF3106", HEAD + "metadata: {a: \"$('x'.join('y'))\"}\n"),
     "a long number": ("LF1112", HEAD + "x-a: " + "9" * 5_000_000),
+    "a number with a unit that is beyond a double": ("LF5004", LINK + f"{{inertial: {{mass: {'9' * 320} kg}}}}"),
     "text that doubles": ("LF3128", HEAD + doubled("abcdefgh", "{0}{0}", 60) + "metadata: {a: $(v59)}\n"),
     "lists that double": ("LF3301", HEAD + doubled("[1, 2]", "[{0}, {0}]", 60) + "metadata: {a: $(v59)}\n"),
     "many long texts": (

@@ -8,7 +8,8 @@ a document can be indented, or not, without touching what it says.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from operator import methodcaller
 from typing import TypeAlias
 
 from linkforge_compile.backends.marks import is_recording, mark
@@ -56,6 +57,9 @@ NOTHING = Xml()
 Spellable: TypeAlias = str | float | bool | Iterable[float]
 """What an attribute or a text may be: words, a number, yes or no, or numbers with spaces between them."""
 
+_item: Callable[[object], float | bool] = methodcaller("item")
+"""Makes of a number or a truth of NumPy, alone or as an array without dimensions, that of Python."""
+
 
 def spelled(value: Spellable) -> str:
     """Return a value as the text that URDF writes, not escaped yet."""
@@ -63,6 +67,8 @@ def spelled(value: Spellable) -> str:
         return number_text(value)
     if isinstance(value, str):
         return value
+    if getattr(value, "ndim", None) == 0:
+        value = _item(value)
     if isinstance(value, bool):
         return "true" if value else "false"
     if not isinstance(value, Iterable):

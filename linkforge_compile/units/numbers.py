@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import lru_cache
-from typing import SupportsIndex
+from operator import index
 
 _IN_FULL = re.compile(r"-?(?:0|[1-9][0-9]*)\.[0-9]+")
 
@@ -17,9 +17,10 @@ def number_text(value: float) -> str:
     written as the double, or the integer, that they are.
     """
     if not isinstance(value, float):
-        if isinstance(value, int | SupportsIndex):
-            return str(int(value))
-        value = float(value)
+        try:
+            return str(index(value))
+        except TypeError:  # it is no whole number; that it has an `__index__` says nothing: every array has one
+            value = float(value)
     return _text_of_double(value)
 
 

@@ -44,7 +44,7 @@ class Unit:
             # Division of whole numbers gives the nearest double, however long they are.
             return over * tens / under if power > 0 else over / (under * tens)
         except OverflowError:
-            return math.copysign(math.inf, over)
+            return -math.inf if over < 0 else math.inf
 
 
 def _unit(name: str, dimension: Dimension, *factors: int | _Ratio, per_pi: bool = False) -> Unit:

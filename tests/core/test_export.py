@@ -4,13 +4,16 @@ import numpy as np
 import pytest
 
 from linkforge_compile.core import (
+    CameraInfo,
     GroupState,
     Inertial,
     Joint,
+    JointLimits,
     Link,
     Robot,
     RobotGeneratorError,
     SemanticRobotDescription,
+    Sensor,
     Transform,
     Vector3,
 )
@@ -47,6 +50,22 @@ def test_numbers_of_numpy_are_written_as_numbers(kind):
     assert '<mass value="2"/>' in urdf
     assert 'xyz="1 2 3"' in urdf
     assert '<joint name="weld" value="2"/>' in robot.export_srdf(validate=False)
+
+
+def test_arrays_of_numpy_without_dimensions_are_written_as_what_they_hold():
+    axis, limits = Vector3(0, 0, 1), JointLimits(effort=np.asarray(0.25), velocity=np.asarray(2))
+    robot = Robot("arm", links=[Link("base", Inertial(np.asarray(0.5))), Link("tool")])
+    robot.add_joint(Joint("spin", "continuous", "base", "tool", axis=axis, limits=limits))
+    urdf = robot.export_urdf(validate=False)
+    assert '<mass value="0.5"/>' in urdf
+    assert '<limit effort="0.25" velocity="2"/>' in urdf
+
+
+@pytest.mark.parametrize("true", [np.True_, np.asarray(True)])
+def test_a_truth_of_numpy_is_written_as_a_truth(true):
+    sensor = Sensor("eye", "camera", "base", always_on=true, camera_info=CameraInfo())
+    urdf = Robot("arm", links=[Link("base")], sensors=[sensor]).export_urdf(validate=False)
+    assert "<always_on>true</always_on>" in urdf
 
 
 def test_a_version_that_was_set_later_is_written():

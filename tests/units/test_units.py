@@ -58,7 +58,16 @@ def test_an_unknown_unit_is_still_seen_as_one():
     assert unit_text("left arm") is None
 
 
-@pytest.mark.parametrize(("text", "value"), [("1e999 mm", math.inf), ("-1e400 km", -math.inf), ("1e-999 deg", 0.0)])
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1e999 mm", math.inf),
+        ("-1e400 km", -math.inf),
+        (f"{'9' * 320} kg", math.inf),
+        (f"-{'9' * 320} mm", -math.inf),
+        ("1e-999 deg", 0.0),
+    ],
+)
 def test_a_number_beyond_a_double_is_infinite_and_quick(text: str, value: float):
     quantity = parse_quantity(text)
     assert quantity is not None
@@ -117,13 +126,13 @@ def test_numbers_are_as_short_as_they_can_be(number: float, text: str):
     assert number_text(number) == text
 
 
-@pytest.mark.parametrize("kind", [np.float16, np.float32, np.float64, np.longdouble])
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.float64, np.longdouble, np.asarray])
 def test_a_float_of_numpy_is_spelled_as_the_double_that_it_is(kind):
     assert number_text(kind(0.5)) == "0.5"
     assert float(number_text(kind(0.1))) == float(kind(0.1))
 
 
-@pytest.mark.parametrize("kind", [np.int8, np.int32, np.int64, np.uint8, np.uint64])
+@pytest.mark.parametrize("kind", [np.int8, np.int32, np.int64, np.uint8, np.uint64, np.asarray])
 def test_an_integer_of_numpy_is_spelled_with_every_digit(kind):
     assert number_text(kind(100)) == "100"
 
