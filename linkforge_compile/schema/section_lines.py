@@ -32,7 +32,8 @@ def with_sections_restored(tree: YamlMap, sink: Diagnostics) -> YamlMap:
 
 def _restored(node: YamlMap, shape: Shape, sink: Diagnostics) -> YamlMap:
     """Return an object with the sections that it holds inside others of its sections."""
-    entries, todo = {**node.entries}, [*node]
+    # What is under `x-` is the author's own, and may look like anything.
+    entries, todo = {**node.entries}, [entry for entry in node if not entry.name.startswith("x-")]
     while todo:
         around = todo.pop(0)
         absent = {name: section for name, section in _sections(shape).items() if name not in entries}
@@ -63,9 +64,10 @@ def _lost_in(around: YamlEntry, shape: Shape, absent: Mapping[str, Shape]) -> _L
     said = [*around.value] if isinstance(around.value, YamlMap) else []
     # From the end, so that of several lines each has its own entries below it.
     for at, line in reversed([*enumerate(said[:-1])]):
-        if line.name in absent and _is_indented(line, said[at + 1 :], shape, absent[line.name]):
+        below, section = said[at + 1 :], absent.get(line.name)
+        if section is not None and _is_indented(line, below, around.name, shape, section):
             fault = SECTION_LINE_INDENTED.at(line.key.span, name=line.name, around=around.name)
-            return _Lost(fault, _map(said[:at], around), YamlEntry(line.key, _map(said[at + 1 :], around)))
+            return _Lost(fault, _map(said[:at], around), YamlEntry(line.key, _map(below, around)))
     # A mount is a joint as any other.
     others = {name: section for name, section in absent.items() if name != "mount"}
     begins = {name: at for name, section in others.items() if (at := _begin(said, shape, name, section))}
@@ -90,19 +92,38 @@ def _map(entries: Sequence[YamlEntry], around: YamlEntry) -> YamlMap:
     return YamlMap({entry.name: entry for entry in entries}, span)
 
 
-def _is_indented(line: YamlEntry, below: Sequence[YamlEntry], around: Shape, section: Shape) -> bool:
-    """Whether an entry without a value is the line of the section that stands below it."""
+def _is_indented(line: YamlEntry, below: Sequence[YamlEntry], name: str, around: Shape, section: Shape) -> bool:
+    """Whether an entry without a value is the line of the section that stands below it, all in `around` of a name."""
     if not is_null(line.value) or line.name in around.keys or not all(_may_be_of(section, entry) for entry in below):
+        return False
+    if name in _OF_ANY_VALUE and not any(_is_plainly_of(section, entry) for entry in below):
         return False
     return around.things not in _MAY_BE_EMPTY or not all(_takes(around, entry) for entry in below)
 
 
-def _may_be_of(section: Shape, entry: YamlEntry) -> bool:
-    """Whether an entry may stand in a section, as far as its keys tell."""
+def _is_plainly_of(section: Shape, entry: YamlEntry) -> bool:
+    """Whether an entry is one of a section and, as its keys tell, of no other."""
     if section.is_object:
-        return entry.name in section.keys
-    keys = _keys_of_entries(section)
-    return is_null(entry.value) or not keys or not _keys(entry) or bool(_keys(entry) & keys)
+        return True
+    return _takes(section, entry) and bool(_keys(entry) & _keys_of_entries(section))
+
+
+def _may_be_of(section: Shape, entry: YamlEntry) -> bool:
+    """Whether an entry may stand in a section, as far as its kind and its keys tell."""
+    if section.is_object:
+        return _is_part_of(section, entry)
+    if is_null(entry.value):
+        return True
+    keys, known = _keys(entry), _keys_of_entries(section)
+    return bool(keys & known) if keys and known else _is_shaped_as(section, entry)
+
+
+def _is_part_of(section: Shape, entry: YamlEntry) -> bool:
+    """Whether an entry may stand in an object: it has one of its keys, and at least a part of its value fits."""
+    if entry.name not in section.keys:
+        return False
+    part, parts = section.under(entry.name), entry.value if isinstance(entry.value, YamlMap) else ()
+    return _is_shaped_as(section, entry) or any(_is_shaped_as(part, each) for each in parts)
 
 
 def _begin(said: Sequence[YamlEntry], around: Shape, name: str, section: Shape) -> int:
@@ -112,6 +133,9 @@ def _begin(said: Sequence[YamlEntry], around: Shape, name: str, section: Shape) 
         at -= 1
     while at < len(said) and _takes(around, said[at]):
         at += 1
+    # The condition of an object stands first in it.
+    if section.is_object and 0 < at < len(said) and said[at - 1].name == "when":
+        at -= 1
     tail = said[at:]
     is_whole = any(not is_null(entry.value) and not _lacks_its_essence(entry, section) for entry in tail)
     # A joint that says little may be a link as well.
@@ -122,7 +146,7 @@ def _begin(said: Sequence[YamlEntry], around: Shape, name: str, section: Shape) 
 def _belongs(entry: YamlEntry, around: Shape, name: str, section: Shape) -> bool:
     """Whether an entry of one section is plainly one of another."""
     if section.is_object:
-        return entry.name in section.keys and entry.name not in around.keys
+        return entry.name not in around.keys and _is_part_of(section, entry)
     if is_null(entry.value):
         return section.has_names
     if not isinstance(entry.value, YamlMap):
@@ -163,6 +187,9 @@ def _keys_of_entries(section: Shape) -> Set[str]:
 
 _MAY_BE_EMPTY = {"links"}
 """What has entries that say nothing: a link may, and have any name."""
+
+_OF_ANY_VALUE = {"metadata", "variables"}
+"""Sections whose entries may be anything, without a value as well."""
 
 _ESSENTIAL = {
     "joints": "child",

@@ -70,8 +70,8 @@ def _may_lack_a_line(tree: YamlMap) -> bool:
 
 
 def _unsaid_in_sections(node: YamlNode | None) -> set[str]:
-    """Return the names of the entries without a value in the sections of an object."""
-    sections = [section.value for section in node] if isinstance(node, YamlMap) else []
+    """Return the names of the entries without a value in the sections of an object, but not in the author's own."""
+    sections = [part.value for part in node if not part.name.startswith("x-")] if isinstance(node, YamlMap) else []
     inside = (section.entries.items() for section in sections if isinstance(section, YamlMap))
     return {name for entries in inside for name, entry in entries if is_null(entry.value)}
 

@@ -25,6 +25,14 @@ RIGHT = {
     "links have the names of sections": "links: {base: , sensors: , joints: , arm: {visual: {sphere: 0.1}}}",
     "variables hold what links do": "variables: {a: 1, wheel: {visual: {sphere: 0.1}}, steel: {color: [1, 1, 1]}}",
     "parameters have the names of sections": "parameters: {links: 3, joints: {type: integer, default: 2}}",
+    "variables without a value have such names": "variables: {joints: , n: 3}",
+    "a variable without a value stands before one of those names": "variables: {joints: , links: 2}",
+    "no variable of any value has the keys of a joint": "variables: {parameters: , variants: , joints: , n: {a: 3}}",
+    "variables have the keys of an object and other values": "variables: {gazebo: , plugins: {mock: mock/System}}",
+    "metadata have such names": "metadata: {joints: , author: me}",
+    "a variant says what a joint does": "variants: {links: , joints: {child: 3}}",
+    "a note of the author's own has such names": "x-notes: {joints: , todo: measure again}",
+    "a note of the author's own looks like a section": "x-notes: {joints: , a: {parent: b, child: c}}\nlinks: {b: }",
     "one of several sections says nothing": "materials: \nlinks: {base: }\njoints:",
 }
 
@@ -38,6 +46,7 @@ MEANT_OTHERWISE = {
     "the section is there already": "frames: {a: {parent: b}}\nlinks: {b: , c: {parent: b}}",
     "an entry has keys of its own section besides": "links: {b: , c: {parent: b, visual: {sphere: 0.1}}}",
     "all of a section are of another": "links: {c: {parent: b, child: d, type: fixed}, e: {parent: b, child: c}}",
+    "a value is of another kind than in the object": "parameters: {a: 1, plugins: {mock: mock/System, sim: b}}",
     "it is not the end of a section": "links: {b: , c: {type: fixed, parent: b, child: d}, d: {visual: {sphere: 0.1}}}",
 }
 
