@@ -1,9 +1,12 @@
-"""In what order the visuals and collisions of a link stand in its document, each kind in its own order."""
+"""In what order the visuals and collisions of a link stand in its document, and how MuJoCo colors them by it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import chain, zip_longest
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import accumulate, chain, zip_longest
+from typing import TypeVar
+
+Color = TypeVar("Color")
 
 VISUAL, COLLISION = "visual", "collision"
 KINDS = (VISUAL, COLLISION)
@@ -29,3 +32,11 @@ def as_said(kinds: Sequence[str]) -> str | Sequence[str] | None:
     if tuple(kinds) == apart(kinds):
         return None
     return PAIRS if tuple(kinds) == in_pairs(kinds) else kinds
+
+
+def shown_colors(own: Iterable[Color | None]) -> Iterator[Color | None]:
+    """Yield the color in which MuJoCo shows each shape of a link, given the one that each says, in their order.
+
+    Who says none, as all collisions do, has that of the shape before it; None before the first color.
+    """
+    return accumulate(own, lambda before, said: before if said is None else said)

@@ -35,7 +35,7 @@ MAY_IMPORT = {
     "checks": "source diagnostics units core",
     "backends": "bytecode source diagnostics bounds units core resources shape_order",
     "writers": "source units syntax core modules shape_order",
-    "compare": "core backends",
+    "compare": "core backends shape_order",
     "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core roots stack",
     "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
     "launch": "diagnostics backends core modules pipeline stamps",

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import count
 
 from linkforge_compile.compare.difference import Difference, Kind
-from linkforge_compile.compare.words import plain, shortened
+from linkforge_compile.compare.pairing import partners
+from linkforge_compile.compare.words import plain, shortened, told
 from linkforge_compile.core.models.link import Link, Visual
-from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.models.transmission import Transmission
+from linkforge_compile.shape_order import COLLISION, VISUAL, shown_colors
 
 _LONGEST = 200
 """Characters of each of two orders that are shown."""
@@ -20,7 +23,7 @@ def order_differences(path: tuple[str, ...], before: object, after: object) -> I
         case (Transmission(), Transmission()):
             yield from _ends(path, before, after)
         case (Link(), Link()):
-            yield from _shapes(path, before, after)
+            yield from _recolored(path, before, after)
         case (Material(), Material()) if path[0] == "materials" and before.after_links != after.after_links:
             was, now = ("behind the links" if one.after_links else "before the links" for one in (before, after))
             here = (*path, "after_links")
@@ -38,24 +41,42 @@ def _ends(path: tuple[str, ...], before: Transmission, after: Transmission) -> I
             yield from _told((*path, what), were, are)
 
 
-def _shapes(path: tuple[str, ...], before: Link, after: Link) -> Iterator[Difference]:
-    """Yield where collisions of a link come behind another visual, whose color they have in MuJoCo."""
-    were, are = ([type(shape).__name__.lower() for shape in link.shapes] for link in (before, after))
-    if sorted(were) == sorted(are) and _painters(before) != _painters(after):
-        yield from _told((*path, "shape_order"), were, are)
+def _recolored(path: tuple[str, ...], before: Link, after: Link) -> Iterator[Difference]:
+    """Yield the shapes that MuJoCo shows in another color since another visual comes before them."""
+    if before.shapes == after.shapes:
+        return
+    were, are = _own_colors(before), _own_colors(after)
+    same = {
+        (kind, now): (kind, was)
+        for kind, old, new in (
+            (VISUAL, before.visuals, after.visuals),
+            (COLLISION, before.collisions, after.collisions),
+        )
+        for now, was in partners(dict(enumerate(old)), dict(enumerate(new))).items()
+    }
+    # What a visual says of its own color is told there, so it counts as said of it before.
+    as_now = {**were, **{was: are[now] for now, was in same.items()}}
+    shown_before, shown_if_told, shown = map(_shown_colors, (were, as_now, are))
+    for now, was in same.items():
+        old_color, color = shown_before[was], shown[now]
+        if color not in (old_color, shown_if_told[was]):
+            kind, place = now
+            text = f"color {told(old_color)} → {told(color)} in MuJoCo, that of the visual before it"
+            yield Difference(Kind.CHANGED, (*path, kind, str(place)), plain(old_color), plain(color), text)
 
 
-def _painters(link: Link) -> Sequence[int | None]:
-    """Return for each collision the place of the visual that colors it in MuJoCo, None for none."""
-    painters: list[int | None] = []
-    painter, visuals = None, 0
+def _own_colors(link: Link) -> dict[tuple[str, int], Color | None]:
+    """Return the color that each shape says, by its kind and place there, in the order in which they are written."""
+    places = {VISUAL: count(), COLLISION: count()}
+    colors: dict[tuple[str, int], Color | None] = {}
     for shape in link.shapes:
-        if isinstance(shape, Visual):
-            painter = visuals if shape.material and shape.material.color else painter
-            visuals += 1
-        else:
-            painters.append(painter)
-    return painters
+        kind, material = (VISUAL, shape.material) if isinstance(shape, Visual) else (COLLISION, None)
+        colors[kind, next(places[kind])] = material.color if material else None
+    return colors
+
+
+def _shown_colors(own: Mapping[tuple[str, int], Color | None]) -> dict[tuple[str, int], Color | None]:
+    return dict(zip(own, shown_colors(own.values()), strict=True))
 
 
 def _told(path: tuple[str, ...], were: Sequence[str], are: Sequence[str]) -> Iterator[Difference]:

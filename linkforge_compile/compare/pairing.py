@@ -71,10 +71,10 @@ def _by_key(items: Iterable[object]) -> dict[str, dict[int, object]]:
 
 
 def _pairs(key: str, before: Mapping[int, object], after: Mapping[int, object]) -> Iterator[Pair]:
-    partners = _partners(before, after)
-    taken = set(partners.values())
+    places = partners(before, after)
+    taken = set(places.values())
     for place, item in after.items():
-        yield Pair(_shown(key, place), before.get(partners.get(place, -1)), item)
+        yield Pair(_shown(key, place), before.get(places.get(place, -1)), item)
     for place, item in before.items():
         if place not in taken:
             yield Pair(_shown(key, place), item, None)
@@ -84,21 +84,21 @@ def _shown(key: str, place: int) -> str:
     return "/".join((*([key] if key else []), *([str(place)] if place or not key else [])))
 
 
-def _partners(before: Mapping[int, object], after: Mapping[int, object]) -> dict[int, int]:
-    """Return by place after the place before."""
+def partners(before: Mapping[int, object], after: Mapping[int, object]) -> dict[int, int]:
+    """Return by place after the place before, of members of one key."""
     if len(before) == len(after) == 1:
         return {0: 0}
-    partners: dict[int, int] = {}
+    found: dict[int, int] = {}
     for trait_of in _TRAITS:
-        taken = set(partners.values())
+        taken = set(found.values())
         free: dict[Hashable, deque[int]] = {}
         for place, item in before.items():
             if place not in taken:
                 free.setdefault(trait_of(item), deque()).append(place)
         for place, item in after.items():
-            if place not in partners and (places := free.get(trait_of(item))):
-                partners[place] = places.popleft()
-    return partners
+            if place not in found and (places := free.get(trait_of(item))):
+                found[place] = places.popleft()
+    return found
 
 
 def _name_of(item: object) -> Hashable:

@@ -8,14 +8,17 @@ from itertools import islice
 
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from linkforge_compile.compare import compare, vanished
 from linkforge_compile.compare.walk import How, walk
 from linkforge_compile.core import Robot
 from linkforge_compile.core.exceptions import RobotModelError
-from linkforge_compile.core.models.geometry import Vector3
+from linkforge_compile.core.models.geometry import Sphere, Vector3
 from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.link import Collision, Link, Visual
+from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.part import Inside
 from tests.strategies import robots
 from tests.test_coverage import CLASSES
@@ -132,3 +135,37 @@ def test_what_is_told_of_any_two_robots_goes_into_json(before: Robot, after: Rob
     differences = compare(before, after)
     json.dumps([(one.kind, one.path, one.before, one.after, one.text) for one in differences], allow_nan=False)
     assert all(one.text for one in differences)
+
+
+COLORS = {"red": Color(1, 0, 0), "green": Color(0, 1, 0)}
+orders_of_shapes = st.lists(st.sampled_from(("collision", "visual", *COLORS)), max_size=6).flatmap(
+    lambda looks: st.tuples(*[st.permutations(list(enumerate(looks, start=1)))] * 2)
+)
+"""Two orders of the same shapes: spheres by their radius [m], each a collision, a visual or a visual of a color."""
+
+
+@settings(max_examples=40)
+@given(orders_of_shapes)
+def test_an_order_is_told_exactly_where_mujoco_shows_another_color(orders: tuple[list[tuple[int, str]], ...]):
+    before, after = (Robot("r", links=[link_of(shapes)]) for shapes in orders)
+    seen, now_seen = map(seen_in_mujoco, orders)
+    assert len(compare(before, after)) == sum(seen[shape] != now_seen[shape] for shape in seen)
+
+
+def link_of(shapes: list[tuple[int, str]]) -> Link:
+    paints = {look: Material(look, color) for look, color in COLORS.items()}
+    return Link(
+        "a",
+        visuals=[Visual(Sphere(size), material=paints.get(look)) for size, look in shapes if look != "collision"],
+        collisions=[Collision(Sphere(size)) for size, look in shapes if look == "collision"],
+        shape_order=["collision" if look == "collision" else "visual" for _, look in shapes],
+    )
+
+
+def seen_in_mujoco(shapes: list[tuple[int, str]]) -> dict[int, str]:
+    """Return the color of each shape: as its reader of URDF goes on with the last color that it met."""
+    color, seen = "", {}
+    for size, look in shapes:
+        color = look if look in COLORS else color
+        seen[size] = color
+    return seen
