@@ -1,7 +1,11 @@
-"""Comments of an XML file, placed in the spec where what they stand above, behind or in has come to stand."""
+"""Comments of an XML file, placed in the spec where what they stand above, behind or in has come to stand.
+
+A comment at the end of a line is about what ends or begins there, one on lines of its own about what follows.
+"""
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Iterator
 from itertools import accumulate
@@ -23,7 +27,7 @@ class Comments(NamedTuple):
 
 def placed_comments(document: XmlDocument, draft: Draft, tree: YamlMap) -> Comments:
     """Return every comment of a document but banners, and those in elements that are kept raw, which have theirs."""
-    placing = _Placing(draft, tree)
+    placing = _Placing(document.root, draft, tree)
     above: YamlNode | None = next(iter(tree)).key
     for item in without_banners(document.content):
         if isinstance(item, XmlComment):
@@ -34,26 +38,49 @@ def placed_comments(document: XmlDocument, draft: Draft, tree: YamlMap) -> Comme
     return Comments(_joined(placing.above), _joined(placing.endings))
 
 
+_HEADING = re.compile(
+    r"(?:[A-Z]+ )?(?:GROUPS|LINKS|JOINTS?|CHAINS|SUBGROUPS|STATES|EFFECTOR|COLLISIONS|PROPERTY|APPROXIMATIONS?)\s*[:,-]"
+)
+"""How what MoveIt's assistant writes above the sections of an SRDF begins: `END EFFECTOR: Purpose: ...`."""
+
+
 class _Placing:
-    def __init__(self, draft: Draft, tree: YamlMap) -> None:
+    def __init__(self, root: XmlElement, draft: Draft, tree: YamlMap) -> None:
         self.above: defaultdict[YamlNode, list[str]] = defaultdict(list)
         self.endings: defaultdict[YamlNode, list[str]] = defaultdict(list)
         self._draft, self._tree = draft, tree
         # What was made and then said by a shorter form, or not at all, has no place.
         self._present = set(_nodes(tree))
+        self._headings = set(_headings(root))
+        self._sections = dict(_by_first(draft.bodies[root]))
 
-    def comments_of(self, element: XmlElement, holder: YamlNode | None) -> None:
-        """Place the comments in an element; `holder` is the nearest key or item that the text has for it."""
+    def comments_of(self, element: XmlElement, holder: YamlNode | None) -> YamlNode | None:
+        """Place the comments in an element; `holder` is the nearest key or item that the text has for it.
+
+        Return the first key or item that the text has for what is in it, None where it has none.
+        """
         keys = [self._key(item) if isinstance(item, XmlElement) else None for item in element.content]
-        # Of each place the nearest key before it and behind it, in one pass each: a file may be all comments.
-        before = accumulate(keys, _latest)
+        # Of each place the nearest key behind it, in one pass: a file may be all comments.
         behind = list(accumulate(reversed(keys), _latest))[::-1]
-        for item, key, last, following in zip(element.content, keys, before, behind, strict=True):
+        first: YamlNode | None = None
+        on_line = holder
+        for item, key, following in zip(element.content, keys, behind, strict=True):
             if isinstance(item, XmlComment):
-                near = last if item.follows and last is not None else following
-                self._comment(item, element, near, holder)
-            elif isinstance(item, XmlElement) and item not in self._draft.raw:
-                self.comments_of(item, holder if key is None else key)
+                self._comment(item, element, self._subject(item, on_line, following), holder)
+            elif isinstance(item, XmlElement):
+                around = holder if key is None else key
+                inside = None if item in self._draft.raw else self.comments_of(item, around)
+                first = _latest(key or inside, first)
+                on_line = key or inside or holder
+        return first
+
+    def _subject(self, comment: XmlComment, on_line: YamlNode | None, following: YamlNode | None) -> YamlNode | None:
+        """Return what a comment is about, `on_line` where it stands at the end of a line; None for what has no key."""
+        if comment.follows and on_line is not None:
+            return on_line
+        if following is not None and comment in self._headings:
+            return self._sections.get(following, following)
+        return following
 
     def put(self, comment: XmlComment, above: YamlNode | None, ending: YamlNode | None = None) -> None:
         """Put a comment above a node, or at an end; that of the file where neither is given."""
@@ -76,6 +103,37 @@ class _Placing:
     def _key(self, element: XmlElement) -> YamlNode | None:
         key = self._draft.keys.get(element)
         return key if key in self._present else None
+
+
+def _headings(root: XmlElement) -> Iterator[XmlComment]:
+    """Yield the comments that stand apart from the element below them: those of a section, where it is the first.
+
+    They are above an empty line, or have several lines above another comment, or are known as headings.
+    """
+    is_apart = is_above_another = False
+    for item in reversed(root.content):
+        if isinstance(item, XmlElement):
+            is_apart = is_above_another = False
+        elif isinstance(item, str):
+            is_apart = is_apart or item.count("\n") > 1
+        elif not item.follows:
+            is_known = _HEADING.match(item.text.lstrip()) is not None
+            is_apart = is_apart or is_known or (is_above_another and "\n" in item.text)
+            is_above_another = True
+            if is_apart:
+                yield item
+
+
+def _by_first(sections: YamlNode) -> Iterator[tuple[YamlNode, YamlNode]]:
+    """Yield the keys and items with which each section begins, at every depth, and its key."""
+    for entry in sections if isinstance(sections, YamlMap) else ():
+        node = entry.value
+        while isinstance(node, YamlMap) and len(node) > 0:
+            first = next(iter(node))
+            yield first.key, entry.key
+            node = first.value
+        if isinstance(node, YamlList) and len(node) > 0:
+            yield node.items[0], entry.key
 
 
 def _latest(last: YamlNode | None, key: YamlNode | None) -> YamlNode | None:

@@ -46,7 +46,7 @@ class XmlAttribute:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class XmlComment:
-    """A comment, without its marks; `follows` where it stands on the line on which an element before it ends."""
+    """A comment, without its marks; `follows` where it stands behind a tag on the line on which that ends."""
 
     text: str
     span: Span
@@ -176,6 +176,7 @@ class _Parse:
         self._require_room(start, len(tag) + 1)
         read, place = self._attributes(start, attributes)
         closing = _CLOSING.match(self._text, place)
+        self._last_end = self._text.index(">", place) + 1
         self._open.append(_Open(tag, read, start, closing.end() if closing else None))
 
     def _end(self, tag: str) -> None:

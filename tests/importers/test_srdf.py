@@ -182,6 +182,29 @@ def test_comments_stand_where_they_stood(read):
         # that is all""")
 
 
+def test_headings_of_the_assistant_stand_above_the_sections(read):
+    assert read("""
+      <!--GROUPS: Representation of a set of joints and links.-->
+      <!--LINKS: When a link is specified, its parent joint is included-->
+      <group name="g"> <!-- all of it -->
+        <chain base_link="base" tip_link="tip"/>
+      </group>
+      <!--END EFFECTOR: Purpose: Represent information about an end effector.-->
+      <!--DISABLE COLLISIONS: By default any link could collide with any other.-->
+      <!-- computed by hand -->
+      <disable_collisions link1="base" link2="upper" reason="Adjacent"/>""") == dedent("""\
+        # GROUPS: Representation of a set of joints and links.
+        # LINKS: When a link is specified, its parent joint is included
+        groups:
+          # all of it
+          g: {chain: {base_link: base, tip_link: tip}}
+        # END EFFECTOR: Purpose: Represent information about an end effector.
+        # DISABLE COLLISIONS: By default any link could collide with any other.
+        disabled_collisions:
+          # computed by hand
+          base: {upper: Adjacent}""")
+
+
 def test_comments_around_both_files_are_kept(tmp_path: Path):
     text = imported(
         tmp_path,

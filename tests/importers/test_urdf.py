@@ -313,6 +313,54 @@ def test_comments_stand_where_they_stood(tmp_path: Path):
         """)
 
 
+def test_a_comment_at_the_end_of_a_line_is_about_what_stands_on_it(read):
+    text = read("""
+      <link name="a"> <!-- the base -->
+        <visual>
+          <origin xyz="0 0 1"/> <!-- raised -->
+          <geometry>
+            <sphere radius="1"/>
+          </geometry> <!-- round -->
+        </visual>
+      </link>
+      <link name="b"/> <!-- the tip -->
+      <!-- turns -->
+      <joint name="j" type="floating"><parent link="a"/><child link="b"/>
+        <origin xyz="0 0 0"/> <!-- on the base -->
+      </joint>""")
+    assert text.partition("links:")[2] == dedent("""
+          # the base
+          a:
+            visual:
+              # round
+              sphere: 1
+              # raised
+              origin: [0, 0, 1]
+          # the tip
+          b: {}
+
+        joints:
+          # turns
+          # on the base
+          j: {type: floating, parent: a, child: b}""")
+
+
+@pytest.mark.parametrize(
+    ("above", "below"),
+    [
+        ("<!-- Arm of our lab -->\n\n<!-- made of steel -->\n\n", ""),
+        ("<!--\nArm of our lab\nmade of steel\n-->\n<!-- the base -->", "  # the base\n"),
+        ("<!-- Arm of our lab -->\n<!--made of steel-->\n\n<!-- the base -->\n", "  # the base\n"),
+    ],
+)
+def test_comments_apart_from_the_first_element_stand_above_its_section(read, above: str, below: str):
+    joint = '<joint name="j" type="floating"><parent link="a"/><child link="b"/></joint>'
+    text = read(f'\n{above}<link name="a"/>\n\n<!-- within it -->\n\n<link name="b"/>{joint}')
+    head, _, links = text.partition("\n\njoints:")[0].partition("links:\n")
+    assert head == "# Arm of our lab\n# made of steel\n"
+    assert links == f"{below}  a: {{}}\n  # within it\n  b: {{}}"
+
+
 def test_the_order_in_each_section_is_the_authors(read):
     text = read("""
       <joint name="z" type="fixed"><parent link="c"/><child link="a"/><origin xyz="1 0 0"/></joint>

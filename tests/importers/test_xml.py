@@ -63,9 +63,11 @@ def test_raw_text_ends_where_the_element_ends():
     assert [child.raw for child in root.children] == ["<a><b/></a>", "<c x='>'/>", "<d></d >", "<e/>"]
 
 
-def test_a_comment_follows_what_ends_on_its_line():
-    content = document("<robot><a/> <!-- one --> <!-- two -->\n<!-- three --><b/><!-- four --></robot>").root.content
+def test_a_comment_follows_the_tag_that_ends_on_its_line():
+    text = "<robot at='>'> <!-- zero --><a/> <!-- one --> <!-- two -->\n<!-- three --><b/><!-- four --></robot>"
+    content = document(text).root.content
     assert [(one.text.strip(), one.follows) for one in content if isinstance(one, XmlComment)] == [
+        ("zero", True),
         ("one", True),
         ("two", True),
         ("three", False),

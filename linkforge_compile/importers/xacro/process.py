@@ -230,11 +230,11 @@ def _comments(document: Document) -> Iterator[Comment]:
 
 
 def _follows(comment: Comment) -> bool:
-    """Whether a comment stands on the line on which an element before it ends."""
+    """Whether a comment stands behind a tag on the line on which that ends."""
     before = comment.previousSibling
     if isinstance(before, Text) and not before.data.strip() and "\n" not in before.data:
         before = before.previousSibling
-    return isinstance(before, Element)
+    return isinstance(before or comment.parentNode, Element)
 
 
 if TYPE_CHECKING:
