@@ -10,7 +10,7 @@ from linkforge_compile.diagnostics import MAX_TOLD
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
-from linkforge_compile.schema.numbers_meant import number_meant
+from linkforge_compile.schema.numbers_meant import number_to_write
 from linkforge_compile.schema.repetition import has_names
 from linkforge_compile.schema.words import COMMON_KEYS, alternatives, shown
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, is_null
@@ -171,8 +171,8 @@ def _decimal_comma(before: YamlNode, entry: YamlEntry) -> str:
     """Say how `1,5 mm` is written, which in braces is the value of one entry and the key `5 mm` behind it."""
     if not (isinstance(before, YamlScalar) and isinstance(before.value, int) and is_null(entry.value)):
         return ""
-    meant = number_meant(f"{before.text},{entry.name}")
-    return f"write '{meant}'" if meant else ""
+    meant = number_to_write(f"{before.text},{entry.name}", unit=None)
+    return f"write {meant}" if meant else ""
 
 
 def _keys_within(schema: Json) -> set[str]:

@@ -8,8 +8,19 @@ from typing import TypeAlias
 
 from linkforge_compile.expressions import forgotten_expression
 from linkforge_compile.named_tuple import NamedTuple
+from linkforge_compile.schema.colors_meant import color_meant
 from linkforge_compile.schema.json_types import Schema, branches, mapping
-from linkforge_compile.schema.numbers_meant import is_row, number_meant, numbers_of_row, with_points
+from linkforge_compile.schema.numbers_meant import (
+    MOST_ITEMS,
+    is_row,
+    lengths_of_lists,
+    number_meant,
+    number_to_write,
+    row_meant,
+    text_of_items,
+    with_points,
+)
+from linkforge_compile.schema.shapes import FREE, shape_of, shapes
 from linkforge_compile.schema.words import expected, is_number, shown
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
@@ -106,15 +117,10 @@ def _truth(node: YamlScalar, misfit: Misfit) -> str:
 
 def _color(node: YamlScalar, misfit: Misfit) -> str:
     """A color by its name, or as it stands in a style sheet."""
-    rgb = _COLORS.get(node.text.lower()) or _of_hex_digits(node.text)
+    rgb = color_meant(node.text)
     if rgb and ("a color" in misfit.titles or misfit.field == "rgba"):
         return f"'{rgb}'"
     return f"'{{color: {rgb}}}'" if rgb and "a material" in misfit.titles else ""
-
-
-def _of_hex_digits(text: str) -> str | None:
-    found = re.fullmatch(r"(?:#|0x)((?:[0-9a-fA-F]{2}){3,4})", text)
-    return None if found is None else f"[{', '.join(f'{part / 255:.3g}' for part in bytes.fromhex(found[1]))}]"
 
 
 def _expression(node: YamlScalar, misfit: Misfit) -> str:
@@ -124,14 +130,27 @@ def _expression(node: YamlScalar, misfit: Misfit) -> str:
 
 def _row(node: YamlScalar, misfit: Misfit) -> str:
     """The numbers of one attribute of URDF, '0 0 1'."""
-    numbers = numbers_of_row(node)
-    if len(numbers) == 6 and misfit.field == "origin":
-        return _pose(numbers)
-    is_item = isinstance(misfit.field, int) and not number_meant(node.text)
-    if len(numbers) < 2 or not (misfit.takes("array") or is_item):
+    if not is_row(node):
         return ""
-    listed = ", ".join(numbers)
-    return f"'[{listed}]'" if misfit.takes("array") else f"'{listed}'"
+    if misfit.field == "origin" and (six := row_meant(node.text, _POSE)):
+        return _pose(six)
+    if misfit.takes("array"):
+        numbers = row_meant(node.text, lengths_of_lists(misfit.schema))
+        return f"'[{', '.join(numbers)}]'" if numbers else ""
+    return "" if number_meant(node.text) else _row_among_items(misfit)
+
+
+def _row_among_items(misfit: Misfit) -> str:
+    """The list, written anew, that holds several numbers in one item, since spaces part them or commas are in them."""
+    listed: YamlNode | None = misfit.file
+    shape = shapes()
+    for key in misfit.path[:-1]:
+        listed = listed.child(key) if listed else None
+        shape = shape.under(key) if isinstance(key, str) else shape.item or FREE
+    if not isinstance(listed, YamlList) or len(listed) > MOST_ITEMS:
+        return ""
+    numbers = row_meant(text_of_items(listed), lengths_of_lists(shape.schema))
+    return _of_field(misfit.path[-2], numbers) if numbers else ""
 
 
 def _number(node: YamlScalar, misfit: Misfit) -> str:
@@ -139,10 +158,7 @@ def _number(node: YamlScalar, misfit: Misfit) -> str:
     if not misfit.takes("number") or not isinstance(node.value, str):
         return ""
     text = node.text.strip()
-    if is_number(text):
-        return f"{text} without quotes"
-    meant = number_meant(text)
-    return f"'{meant}'" if meant else ""
+    return f"{text} without quotes" if is_number(text) else number_to_write(text, shape_of(misfit.schema).unit)
 
 
 def _leader(node: YamlScalar, misfit: Misfit) -> str:
@@ -233,7 +249,7 @@ def _interfaces(node: YamlMap, misfit: Misfit) -> str:
 def _parts(node: YamlMap, misfit: Misfit) -> str:
     """The numbers of a list by the names of their axes."""
     named = [entry.name for entry in node] == ["x", "y", "z"]
-    return _of_field(misfit, [shown(entry.value) for entry in node]) if named and misfit.takes("array") else ""
+    return _of_field(misfit.field, [shown(entry.value) for entry in node]) if named and misfit.takes("array") else ""
 
 
 def _attribute(node: YamlMap, misfit: Misfit) -> str:
@@ -242,15 +258,14 @@ def _attribute(node: YamlMap, misfit: Misfit) -> str:
     if only is None or only.name not in _ATTRIBUTES:
         return ""
     if isinstance(only.value, YamlScalar):
-        numbers = numbers_of_row(only.value) if misfit.takes("array") else ()
-        return _of_field(misfit, numbers if len(numbers) > 1 else only.value.text)
+        return _of_field(misfit.field, row_meant(only.value.text, lengths_of_lists(misfit.schema)) or only.value.text)
     if isinstance(only.value, YamlList) and misfit.takes("array"):
-        return _of_field(misfit, [shown(item) for item in only.value])
+        return _of_field(misfit.field, [shown(item) for item in only.value])
     return ""
 
 
-def _of_field(misfit: Misfit, value: str | Sequence[str]) -> str:
-    key = f"{misfit.field}: " if isinstance(misfit.field, str) and misfit.field else ""
+def _of_field(field: str | int, value: str | Sequence[str]) -> str:
+    key = f"{field}: " if isinstance(field, str) and field else ""
     return f"'{key}{value}'" if isinstance(value, str) else f"'{key}[{', '.join(value)}]'"
 
 
@@ -283,6 +298,9 @@ _NAMED_BY = {"group_states": "group", "disabled_collisions": "link1", "enabled_c
 _ATTRIBUTES = ("link", "value", "name", "joint", "xyz", "rgba", "size")
 """Attributes of URDF that hold the whole of their element."""
 
+_POSE = [range(6, 7)]
+"""How many numbers a place and a rotation in one row have."""
+
 _IN_ORDER: Mapping[str, Sequence[str]] = {
     "a cylinder": ("radius", "length"),
     "a capsule": ("radius", "length"),
@@ -292,25 +310,6 @@ _IN_ORDER: Mapping[str, Sequence[str]] = {
     "an inertia tensor": ("ixx", "iyy", "izz"),
 }
 """Objects whose fields have an order that everybody thinks of."""
-
-_COLORS = {
-    "black": "[0, 0, 0]",
-    "blue": "[0, 0, 1]",
-    "brown": "[0.6, 0.3, 0.1]",
-    "cyan": "[0, 1, 1]",
-    "gray": "[0.5, 0.5, 0.5]",
-    "green": "[0, 1, 0]",
-    "grey": "[0.5, 0.5, 0.5]",
-    "magenta": "[1, 0, 1]",
-    "orange": "[1, 0.5, 0]",
-    "pink": "[1, 0.75, 0.8]",
-    "purple": "[0.5, 0, 0.5]",
-    "red": "[1, 0, 0]",
-    "silver": "[0.75, 0.75, 0.75]",
-    "white": "[1, 1, 1]",
-    "yellow": "[1, 1, 0]",
-}
-"""Red, green and blue of what people call by its name."""
 
 _NO_SUCH_JOINT = "; URDF has no such joint: write three revolute ones that share a place"
 
