@@ -221,7 +221,7 @@ class Loader:
             return None
         if text is None:
             notes = [looked_for(path, used.text, used.where)] if used.where else []
-            near = names_in(path.parent)
+            near = [name for name in names_in(path.parent) if _is_srdf(name) == _is_srdf(path.name)]
             sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
             self._unread.append(as_typed(path))
         return text
@@ -252,6 +252,10 @@ class Loader:
         source = known_source(SourceFile(name, text, path, order=len(self._sources), included=included))
         self._sources.append(source)
         return source
+
+
+def _is_srdf(name: str) -> bool:
+    return ".srdf" in name.lower()
 
 
 def _urdf(source: SourceFile, sink: Diagnostics) -> Whole | None:

@@ -59,13 +59,17 @@ def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | Non
     """Read the file that a `use` names; None where there is none, which is reported there."""
     lowered = site.text.lower()
     if not lowered.endswith((*SPEC_ENDINGS, _URDF_ENDING)):
-        is_bare = "." not in lowered.rpartition("/")[2]
-        hint = f"; write '{site.text}.robot.yaml'" if is_bare else ""
-        sink.report(NOT_A_SPEC.at(site.where, path=site.text, hint=hint))
+        sink.report(NOT_A_SPEC.at(site.where, path=site.text, hint=_hint_for(site.text)))
         return None
     target = locate(site, loader, sink)
     spec = loader.open(target.path, sink, package=target.package, used=site.used) if target else None
     return replace(spec, packages=site.packages) if spec else None
+
+
+def _hint_for(no_spec: str) -> str:
+    if no_spec.lower().endswith(".srdf"):
+        return f"; write 'srdf: {no_spec}' beside the 'use' of its robot"
+    return "" if "." in no_spec.rpartition("/")[2] else f"; write '{no_spec}.robot.yaml'"
 
 
 def locate(site: UseSite, loader: Loader, sink: Diagnostics) -> Target | None:

@@ -174,6 +174,24 @@ def test_an_output_called_by_a_dash_is_standard_output(arm, tmp_path: Path):
     assert [file.name for file in tmp_path.iterdir()] == ["arm.urdf"]
 
 
+@pytest.mark.parametrize(("words", "robot"), [(["arm.urdf", "arm.srdf"], "arm.urdf"), (["arm.srdf"], "ROBOT.urdf")])
+def test_an_srdf_among_the_words_is_told_with_its_option(
+    words: list[str], robot: str, capfd: pytest.CaptureFixture[str]
+):
+    assert main(["import", *words]) == 2
+    remedy = f"give it with its robot: linkforge import {robot} --srdf arm.srdf"
+    assert f"'arm.srdf' is an SRDF; {remedy}" in capfd.readouterr().err
+
+
+def test_only_an_srdf_is_offered_for_an_srdf_that_is_not_there(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    urdf = arm()
+    assert main(["import", urdf, "--srdf", str(tmp_path / "arm1.srdf")]) == 1
+    assert "did you mean" not in capfd.readouterr().err
+    (tmp_path / "arm_2.srdf").write_text('<robot name="arm"/>')
+    assert main(["import", urdf, "--srdf", str(tmp_path / "arm1.srdf")]) == 1
+    assert "did you mean 'arm_2.srdf'?" in capfd.readouterr().err
+
+
 def test_a_spec_is_not_imported(capfd: pytest.CaptureFixture[str]):
     assert main(["import", "arm.robot.yaml"]) == 2
     assert "'arm.robot.yaml' is a spec already; import takes a URDF" in capfd.readouterr().err

@@ -58,8 +58,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     files, assignments = split_assignments(arguments.words)
+    _refuse_others(files)
     urdf = one_spec(files)
-    _refuse_others(urdf)
     from linkforge_compile.cli.output import refuse_to_replace
 
     require_file("--srdf", arguments.srdf)
@@ -103,12 +103,14 @@ def _why(losses: tuple[Diagnostic, ...]) -> str:
     return f"{count} {'loss' if count == 1 else 'losses'} ({', '.join(codes)})"
 
 
-def _refuse_others(urdf: str) -> None:
+def _refuse_others(files: list[str]) -> None:
     """Refuse what is no URDF and no xacro of one: an SRDF, and what is a spec already."""
-    if urdf.lower().endswith((".srdf", ".srdf.xacro")):
-        raise UsageError(f"'{urdf}' is an SRDF; give it with its robot: linkforge import ROBOT.urdf --srdf {urdf}")
-    if urdf.lower().endswith((".yaml", ".yml")):
-        raise UsageError(f"'{urdf}' is a spec already; import takes a URDF or a xacro of one")
+    srdf = next((file for file in files if file.lower().endswith((".srdf", ".srdf.xacro"))), None)
+    if srdf:
+        robot = next((file for file in files if file != srdf), "ROBOT.urdf")
+        raise UsageError(f"'{srdf}' is an SRDF; give it with its robot: linkforge import {robot} --srdf {srdf}")
+    if len(files) == 1 and files[0].lower().endswith((".yaml", ".yml")):
+        raise UsageError(f"'{files[0]}' is a spec already; import takes a URDF or a xacro of one")
 
 
 def _put(text: str, output: Path | None, arguments: argparse.Namespace) -> None:
