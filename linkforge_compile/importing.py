@@ -111,7 +111,7 @@ def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
 
     loader = Settings().loader(None)
     file = SourceFile("<urdf>", render_urdf(robot, gazebo=gazebo))
-    imported = read_urdf(file, sink)
+    imported = read_urdf(file, sink, keeps_refused=True)
     if imported is None:
         return None
     judge = _judge_of(SpecFile(file, imported.tree, None), loader)
@@ -202,14 +202,16 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader,
         for name, entry in arguments.without(taken).entries.items():
             note = Note("a URDF takes no arguments", file.whole)
             sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=taken, notes=[note]))
-    robot = read_urdf(file, sink) if file else None
+    robot = read_urdf(file, sink, keeps_refused=True) if file else None
     return (file, robot) if file and robot else None
 
 
 def _read_xacro(xacro: Path, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
     from linkforge_compile.modules.xacro import XacroUse, read_xacro
 
-    expanded = read_xacro(XacroUse(xacro, Used(str(xacro), None), arguments, taken=taken), loader, sink)
+    expanded = read_xacro(
+        XacroUse(xacro, Used(str(xacro), None), arguments, taken=taken), loader, sink, keeps_refused=True
+    )
     return (expanded.file, expanded.imported) if expanded else None
 
 

@@ -11,7 +11,7 @@ from tests.urdf_case import check_urdf_case, expected_in_urdf
 from tests.yaml_case import check_case, expected
 
 BAD = sorted((Path(__file__).parent / "cases" / "bad").glob("*.yaml"))
-BAD_URDF = sorted((Path(__file__).parent / "cases" / "bad_urdf").glob("*.urdf"))
+BAD_URDF = sorted((Path(__file__).parent / "cases").glob("*_urdf/*.urdf"))
 
 FAMILIES = [module for module in vars(codes).values() if getattr(module, "__package__", None) == codes.__name__]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -40,6 +40,7 @@ class Draft:
     it; `raw` the elements that are kept as they stand, and `told` what is to be told of the import. `refused` are
     elements, by their spans, that are known to be no use to the language, and why. `has_quaternions` says whether
     the document is of a version of URDF whose readers take them; the others ignore them. `shapes` are the robot's.
+    `at_fault` are the elements in which an error has been told: what of them cannot be read is at fault, not raw.
     """
 
     def __init__(
@@ -48,8 +49,10 @@ class Draft:
         *,
         has_quaternions: bool = False,
         shapes: Shapes = NO_SHAPES,
+        at_fault: Collection[XmlElement] = (),
     ) -> None:
         self.refused = refused
+        self.at_fault = at_fault
         self.has_quaternions = has_quaternions
         self.shapes = shapes
         self.keys: dict[XmlElement, YamlNode] = {}

@@ -8,14 +8,14 @@ raises DeclinedError, and its parent keeps the element as raw XML.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
 from linkforge_compile.importers.draft import DeclinedError, Draft
 from linkforge_compile.importers.prefixed import MARKUP, raw_with_prefix
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
 from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension
 
 Read = Callable[["Reading"], YamlNode | None]
@@ -42,6 +42,7 @@ class Reading:
         self._text_is_taken = False
         self._inside: dict[str, YamlNode] = {}
         self._left: YamlMap | None = None
+        self._names_at_fault: set[str] = set()
 
     @property
     def span(self) -> Span:
@@ -167,6 +168,7 @@ class Reading:
         return self.element.text
 
     def _read(self, child: XmlElement, read: Read) -> tuple[YamlNode | None] | None:
+        """Read a child: one node or None; what is at fault is told already. None where it is declined."""
         mark = len(self.draft.told)
         try:
             if refused := self.draft.refused.get(child.span):
@@ -176,6 +178,10 @@ class Reading:
         except DeclinedError as declined:
             # What was told of its parts, that they were kept raw or left out, is no longer so.
             del self.draft.told[mark:]
+            if child in self.draft.at_fault:
+                self._children.remove(child)
+                self._names_at_fault |= {*_names_in(child)}
+                return (YamlFault(child.span),)
             self.draft.told.append(KEPT_RAW.at(declined.span, tag=child.tag, reason=declined.reason))
             return None
         self._keep_left(reading)
@@ -224,10 +230,12 @@ class Reading:
         if text and not self._text_is_taken:
             shown = text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
             self.draft.told.append(TEXT_LEFT_OUT.at(self.span, tag=self.element.tag, text=shown))
-        extra = [self._raw(child) for child in self._children]
+        extra = self.draft.one_or_list([self._raw(child) for child in self._children])
+        if self._names_at_fault:
+            extra = YamlFault(self.span, frozenset(self._names_at_fault))
         attributes = {one.name: self.draft.word(one.value, one.span) for one in self._attributes.values()}
         return {
-            "extra": self.draft.one_or_list(extra),
+            "extra": extra,
             "extra_attributes": self.draft.map_of(attributes, self.span) if attributes else None,
             "extra_inside": self.draft.map_of(self._inside, self.span) if self._inside else None,
         }
@@ -239,6 +247,13 @@ class Reading:
         self.draft.raw.add(child)
         self.draft.made(node, child)
         return node
+
+
+def _names_in(element: XmlElement) -> Iterator[str]:
+    """Yield the names that an element at fault gives, its tag at least, and of the links that it joins."""
+    yield element.tag
+    for one in (element, *element.children):
+        yield from (name for key in ("name", "link") if (name := one.get(key)))
 
 
 def without_instructions(raw: str) -> str:

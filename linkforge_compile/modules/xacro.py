@@ -87,14 +87,14 @@ def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | N
     return SpecFile(robot.file, tree, folder, use.package, included, use.packages or {})
 
 
-def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Robot | None:
-    """Expand a xacro file and read the robot in it, as `open_xacro` does."""
+def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics, *, keeps_refused: bool = False) -> Robot | None:
+    """Expand a xacro file and read the robot in it, as `open_xacro` does; `keeps_refused` as `read_urdf` has it."""
     from linkforge_compile.importers.urdf import read_urdf
 
     expansion = expand_xacro(use, loader, sink)
     if expansion is None:
         return None
-    imported = read_urdf(expansion.text, _inside(use, sink), expansion.moved)
+    imported = read_urdf(expansion.text, _inside(use, sink), expansion.moved, keeps_refused=keeps_refused)
     main, *others = expansion.files
     return Robot(imported, main, tuple(others)) if imported else None
 

@@ -19,6 +19,12 @@ NOT_A_ROBOT = Code("LF8011", _E, "expected <robot>, found <{tag}>")
 ROBOT_WITHOUT_NAME = Code("LF8012", _E, "the robot has no name; write <robot name='...'>")
 STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro's; it is expanded in a file named '{name}'")
 
+# What no reader of URDF takes
+NO_NUMBERS = Code("LF8060", _E, "'{name}' of <{tag}> takes {expected}, found '{text}'{way_out}")
+LACKS_PART = Code("LF8065", _E, "this <{tag}> has no {what}, so readers of URDF refuse it")
+NAME_IS_TAKEN = Code("LF8160", _E, "there is a <{tag}> named '{name}' already; give each a name of its own")
+NO_TYPE_OF_JOINT = Code("LF8161", _E, "there is no type of joint named '{name}'")
+
 # LF802x: what comes in, but not as its own kind
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML: {reason}")
 

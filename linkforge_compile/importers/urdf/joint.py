@@ -33,6 +33,7 @@ _MOTIONS: Mapping[str, _Motion] = {
     "floating": _Motion(has_axis=False),
     "fixed": _Motion(has_axis=False, has_limits=False),
 }
+TYPES_OF_JOINTS = tuple(_MOTIONS)
 _AXES: Mapping[tuple[float | None, ...], str] = {
     tuple(sign * (letter == name) for letter in "xyz"): f"{'-' if sign < 0 else ''}{name}"
     for name in "xyz"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from functools import partial
 
 from linkforge_compile.diagnostics import Diagnostics
@@ -17,6 +17,7 @@ from linkforge_compile.importers.urdf.gazebo import Blocks
 from linkforge_compile.importers.urdf.joint import read_joint
 from linkforge_compile.importers.urdf.link import read_link
 from linkforge_compile.importers.urdf.material import Named, Palette
+from linkforge_compile.importers.urdf.refused import refused_by_readers
 from linkforge_compile.importers.urdf.ros2_control import read_ros2_control
 from linkforge_compile.importers.urdf.transmission import read_transmission
 from linkforge_compile.importers.xml import XmlElement
@@ -30,11 +31,14 @@ _OF_SRDF = (
 _VERSIONS_WITHOUT_QUATERNIONS = (None, "1.0")
 
 
-def read_urdf(file: SourceFile, sink: Diagnostics, moved: Move | None = None) -> Imported | None:
+def read_urdf(
+    file: SourceFile, sink: Diagnostics, moved: Move | None = None, *, keeps_refused: bool = False
+) -> Imported | None:
     """Read a URDF document; None where it is none, which is told.
 
     All that it says is in the tree, in the language's own words or as raw XML, or it is told what is left out.
-    `moved` gives the elements other places than those that they have in the text.
+    `moved` gives the elements other places than those that they have in the text. What readers of URDF refuse is an
+    error and at fault in the tree; where the tree becomes a spec, `keeps_refused`, it comes in as raw XML.
     """
     document = read_document(file, sink, moved)
     if document is None:
@@ -43,11 +47,20 @@ def read_urdf(file: SourceFile, sink: Diagnostics, moved: Move | None = None) ->
     if part := _part_of_srdf(root):
         sink.report(SRDF_FOR_URDF.at(part.span, tag=part.tag))
         return None
-    draft = Draft(has_quaternions=_has_quaternions(root), shapes=_shapes_of(root))
-    tree = _robot(Reading(draft, root))
-    draft.bodies[root] = tree
+    draft, tree = _drafted(root)
+    # What readers refuse has no form in the language, so where nothing is raw there is none of it.
+    if draft.raw and not keeps_refused and (faults := tuple(refused_by_readers(root))):
+        sink.report_all(fault.told for fault in faults)
+        draft, tree = _drafted(root, frozenset(element for fault in faults for element in fault.path))
     draft.tell(sink)
     return Imported(tree, placed_comments(document, draft, tree), (document,))
+
+
+def _drafted(root: XmlElement, at_fault: Collection[XmlElement] = ()) -> tuple[Draft, YamlMap]:
+    draft = Draft(has_quaternions=_has_quaternions(root), shapes=_shapes_of(root), at_fault=at_fault)
+    tree = _robot(Reading(draft, root))
+    draft.bodies[root] = tree
+    return draft, tree
 
 
 def _part_of_srdf(root: XmlElement) -> XmlElement | None:
