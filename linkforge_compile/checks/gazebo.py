@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.references import SHOWN, Use, listed
 from linkforge_compile.checks.tree import hanging, parent_joints
+from linkforge_compile.core.constants import WORLD
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps, Note
@@ -30,9 +31,6 @@ if TYPE_CHECKING:
 
 NEGLIGIBLE_MASS = 1e-6
 """What Gazebo takes for no mass [kg]."""
-
-WORLD = "world"
-"""The root link that Gazebo takes for the world, which needs no mass."""
 
 LOOKS_UP_A_LINK = frozenset(("link_name", "linkName", "body_name", "parent_link"))
 """The tags by which plugins name a link that they look for in the simulation."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from linkforge_compile.checks.circles import Graph, circles, told_circles
 from linkforge_compile.checks.references import SHOWN, Use, listed, unknown
+from linkforge_compile.core.constants import WORLD
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
@@ -88,7 +89,8 @@ def check_single_root(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
         return
     graph = joint_graph(robot)
     below = {link.name: _links_below(link.name, graph) for link in roots}
-    root = max(roots, key=lambda link: below[link.name])
+    # A link on which nothing hangs has lost its joint, wherever it stands; else the base is what people write first.
+    root = min(roots, key=lambda link: (link.name != WORLD, not below[link.name]))
     strays = [link for link in roots if link is not root]
     yield SEVERAL_ROOTS.at(
         _missing_joint(strays[0], root),

@@ -18,6 +18,8 @@ EPSILON: Final = 1e-9
 IR_VERSION: Final = "1.1"
 
 # Links
+WORLD: Final = "world"
+"""The link that stands for the world: Gazebo takes it for that, and it needs no mass."""
 DEFAULT_LINK_MASS: Final = 1.0  # [kg]
 MIN_REASONABLE_INERTIA: Final = 1e-9  # [kg·m²], the diagonal of a tensor that nobody stated
 DEFAULT_SELF_COLLIDE: Final = False

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from linkforge_compile.core.constants import WORLD
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.link import Link
@@ -24,8 +25,6 @@ from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlMap
 
-WORLD = "world"
-"""The link on which a file hangs by its mount where nobody uses it."""
 _ENDS = ("parent", "origin")
 """What is said of a mount by the entry that uses its file."""
 

@@ -63,7 +63,23 @@ def test_two_joints_back_to_one_link_are_two_circles():
     ]
 
 
-def test_several_roots_are_told_once_and_the_largest_tree_has_the_root():
+@pytest.mark.parametrize(
+    ("links", "root"),
+    [
+        ("mount bracket arm elbow hand", "mount"),
+        ("arm elbow hand mount bracket", "arm"),
+        ("arm elbow hand world bracket", "world"),
+    ],
+)
+def test_the_root_is_the_world_or_what_was_written_first(links: str, root: str):
+    """Of two trees the larger one is the arm, whose joint to its base was lost."""
+    base = "world" if root == "world" else "mount"
+    joints = (fixed("a", base, "bracket"), fixed("b", "arm", "elbow"), fixed("c", "elbow", "hand"))
+    (diagnostic,) = check(robot(links, *joints), Gaps())
+    assert diagnostic.message.endswith(f" on '{root}'")
+
+
+def test_several_roots_are_told_once_and_a_link_that_stands_alone_is_none():
     subject = robot("camera base arm lidar", fixed("shoulder", "base", "arm"))
     (diagnostic,) = check(subject, Gaps())
     assert diagnostic.message == (
