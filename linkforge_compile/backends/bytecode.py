@@ -17,7 +17,10 @@ from linkforge_compile.bytecode import BROKEN, folder_beside, stamp
 
 
 class TemplatePython(compiler.CodeGenerator):
-    """Places what `finalize` returns: that is escaped, and Jinja's own look at every value takes a tenth of a robot."""
+    """Places what `finalize` returns: that is escaped, and Jinja's own look at every value takes a tenth of a robot.
+
+    These two are private to Jinja: in one that does not call them, its own look finds nothing to do.
+    """
 
     def _output_child_pre(
         self, node: nodes.Expr, frame: compiler.Frame, finalize: compiler.CodeGenerator._FinalizeInfo

@@ -54,7 +54,11 @@ def _finished(value: object) -> str:
     if value.__class__ is Xml:  # nine of ten
         return value
     if isinstance(value, str):
-        return value if hasattr(value, "__html__") else escaped(value)
+        if hasattr(value, "__html__"):
+            return value
+        text = escaped(value)
+        # Jinja itself leaves it as it is then, should it ever look.
+        return value if text is value else Xml(text)
     raise TypeError(f"templates place strings that are ready, found {value!r}")
 
 

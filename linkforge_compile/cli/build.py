@@ -73,9 +73,10 @@ def _refuse_to_replace(files: Sequence[Path], outputs: Sequence[Output], depfile
     """Refuse to write over what the robot is made from, or over another output, as a depfile over the URDF."""
     from linkforge_compile.cli.output import refuse_to_replace
 
+    paths = [path for path in (*(output.path for output in outputs), depfile) if path is not None]
+    refuse_to_replace(files, paths)
     places: set[Path] = set()
-    for path in filter(None, (*(output.path for output in outputs), depfile)):
-        refuse_to_replace(files, path)
+    for path in paths:
         place = path.resolve()
         # A device, such as /dev/null, takes whatever comes.
         if place in places and (place.is_file() or not place.exists()):

@@ -42,11 +42,12 @@ def put_json(text: str, output: str | None, *, quiet: bool) -> None:
             sys.stderr.write(f"wrote {output}\n" if is_new else f"{output} is up to date\n")
 
 
-def refuse_to_replace(made_from: Iterable[Path], path: Path) -> None:
+def refuse_to_replace(made_from: Iterable[Path], outputs: Iterable[Path]) -> None:
     """Refuse to write over what a robot is made from, as the URDF of a vendor beside a spec of the same name."""
-    place = path.resolve()
-    if any(place == one.resolve() for one in made_from):
-        raise UsageError(f"'{path}' would be replaced, and the robot is made from it; write to another place")
+    taken = {file.resolve() for file in made_from}
+    for path in outputs:
+        if path.resolve() in taken:
+            raise UsageError(f"'{path}' would be replaced, and the robot is made from it; write to another place")
 
 
 def write_if_changed(path: Path, text: str) -> bool:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from jinja2 import Environment, FileSystemLoader
+from jinja2.compiler import CodeGenerator
 
 from linkforge_compile.backends.bytecode import TemplateBytecode
 from linkforge_compile.backends.environment import _environment
@@ -47,6 +48,13 @@ def test_templates_leave_escaping_to_the_one_place_that_does_it() -> None:
     python = _environment().compile("{{ robot.name }}", raw=True)
     assert "environment.finalize(environment.getattr(" in python
     assert "escape(" not in python
+
+
+def test_what_is_escaped_stays_so_where_jinja_looks_at_every_value() -> None:
+    looking = _environment().overlay()
+    looking.code_generator_class = CodeGenerator
+    assert "escape(" in looking.compile("{{ text }}", raw=True)
+    assert looking.from_string("{{ text }}").render(text="a&b<c>") == "a&amp;b&lt;c&gt;"
 
 
 def test_a_template_is_compiled_once_for_all_processes(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile.cli.main import main
+from linkforge_compile.cli.output import refuse_to_replace
 from linkforge_compile.cli.targets import targets_of
 from tests.meshes import block, save
 from tests.programs import program
@@ -224,6 +225,15 @@ def test_what_a_robot_is_made_from_is_not_written_over(
     assert main(["compile", *words]) == 2
     assert "would be replaced, and the robot is made from it; write to another place" in capfd.readouterr().err
     assert {path: path.read_bytes() for path in cell.iterdir()} == before
+
+
+def test_each_file_is_resolved_once_for_all_outputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    resolved: list[Path] = []
+    resolve = Path.resolve
+    monkeypatch.setattr(Path, "resolve", lambda path: resolved.append(path) or resolve(path))
+    files, outputs = ([tmp_path / f"{number}{ending}" for number in range(4)] for ending in (".yaml", ".urdf"))
+    refuse_to_replace(files, outputs)
+    assert sorted(resolved) == sorted([*files, *outputs])
 
 
 @pytest.mark.parametrize(

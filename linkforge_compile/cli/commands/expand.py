@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     output = file_to_write(arguments.output)
     if output is not None:
-        refuse_to_replace(compilation.files, output)
+        refuse_to_replace(compilation.files, [output])
     banner = None if spec == "-" else f"Expanded by linkforge from {Path(spec).name}; edit that file, not this one."
     text = write_spec(compilation.robot, banner=banner, origins=True)
     if output is None:

@@ -64,7 +64,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     require_file("--srdf", arguments.srdf)
     if (named := file_to_write(arguments.output)) is not None:
-        refuse_to_replace([Path(file) for file in (urdf, arguments.srdf) if file is not None], named)
+        refuse_to_replace([Path(file) for file in (urdf, arguments.srdf) if file is not None], [named])
     output = imported_spec(urdf, arguments.output)
     from linkforge_compile.importing import import_urdf
 
