@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import Field, fields, replace
 from functools import lru_cache
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.naming import is_valid_name
 
 P = TypeVar("P")
 
-_Copier = Callable[[Any, str], Any]  # Any: it takes a part of one class and returns another of that class
+Copies: TypeAlias = dict[type, tuple[Any, Any]]
+"""Of each class whose parts are SHARED the last part that was copied under one prefix, and its copy."""
+
+_Copier = Callable[[Any, str, Copies], Any]  # Any: it takes a part of one class and returns another of that class
 
 
 def prefixed_copy(part: P, prefix: str) -> P:
@@ -23,15 +26,19 @@ def prefixed_copy(part: P, prefix: str) -> P:
     may check or compute more than ours.
     """
     copier = _COPIERS.get(part.__class__) or _copier_of(part.__class__)
-    copy: P = copier(part, prefix) if _is_harmless(prefix) else _constructed_copy(part, prefix)
+    copy: P = copier(part, prefix, {}) if _is_harmless(prefix) else _constructed_copy(part, prefix, {})
     return copy
 
 
-def prefixed_copies(parts: Iterable[P], prefix: str) -> list[P]:
-    """Return parts as `with_prefix` of each gives them, asked only where its class has a way of its own."""
+def prefixed_copies(parts: Iterable[P], prefix: str, shared: Copies | None = None) -> list[P]:
+    """Return parts as `with_prefix` of each gives them, asked only where its class has a way of its own.
+
+    `shared` begins empty, and is handed to every call whose copies share parts under this prefix; None for this alone.
+    """
+    shared = {} if shared is None else shared
     if not _is_harmless(prefix):
-        return [_ask(part, prefix) for part in parts]
-    return [_DIRECT.get(part.__class__, _ask)(part, prefix) for part in parts]
+        return [_ask(part, prefix, shared) for part in parts]
+    return [_DIRECT.get(part.__class__, _ask)(part, prefix, shared) for part in parts]
 
 
 def _copier_of(kind: type[Any]) -> _Copier:
@@ -44,27 +51,18 @@ def _copier_of(kind: type[Any]) -> _Copier:
     return copier
 
 
-_LAST: dict[type, tuple[Any, str, Any]] = {}
-"""Of each class whose parts are SHARED the last one that was copied, under which prefix, and its copy."""
-
-
 def _keeping_the_last(kind: type, copier: _Copier) -> _Copier:
-    def copy(part: Any, prefix: str) -> Any:
-        copied, under, made = _LAST.get(kind, _NOTHING)
-        if copied is not part or under != prefix:
-            made = copier(part, prefix)
-            _LAST[kind] = part, prefix, made
+    def copy(part: Any, prefix: str, shared: Copies) -> Any:
+        copied, made = shared.get(kind, _NOTHING)
+        if copied is not part:
+            made = copier(part, prefix, shared)
+            shared[kind] = part, made
         return made
 
     return copy
 
 
-_NOTHING = None, "", None
-
-
-def forget_copies() -> None:
-    """Let go of the copies that are kept for parts that share them: each knows the file that it was written in."""
-    _LAST.clear()
+_NOTHING = None, None
 
 
 @lru_cache
@@ -80,11 +78,11 @@ _DIRECT: dict[type, _Copier] = {}
 """The copiers of classes that have no `with_prefix` of their own: what holds such parts need not ask them for it."""
 
 
-def _ask(part: Any, prefix: str) -> Any:
+def _ask(part: Any, prefix: str, shared: Copies) -> Any:
     return part.with_prefix(prefix)
 
 
-def _constructed_copy(part: Any, prefix: str) -> Any:
+def _constructed_copy(part: Any, prefix: str, shared: Copies) -> Any:
     return replace(part, **{name: _under_prefix(getattr(part, name), prefix) for name in part.PREFIXED})
 
 
@@ -104,7 +102,12 @@ def _under_prefix(value: Any, prefix: str) -> Any:
 def _written_copier(kind: type[Any]) -> _Copier:
     """Return a function that copies slot by slot, written out as dataclass does for `__init__`: a loop is slower."""
     any_name = " or ".join(f"part.{name}" for name in kind.PREFIXED)
-    lines = ["def copy(part, prefix):", f"    if not ({any_name}):", "        return part", "    copy = new(kind)"]
+    lines = [
+        "def copy(part, prefix, shared):",
+        f"    if not ({any_name}):",
+        "        return part",
+        "    copy = new(kind)",
+    ]
     scope: dict[str, Any] = {"new": object.__new__, "kind": kind, "FrozenMap": FrozenMap}
     scope |= {"direct": _DIRECT.get, "ask": _ask}
     for field in fields(kind):
@@ -126,7 +129,7 @@ def _prefixed(field: Field[Any]) -> str:
     if kind == "Sequence[str]":
         return "value and tuple([name and prefix + name for name in value])"
     if kind.startswith("Sequence["):
-        return "value and tuple([direct(each.__class__, ask)(each, prefix) for each in value])"
+        return "value and tuple([direct(each.__class__, ask)(each, prefix, shared) for each in value])"
     if kind.startswith("Mapping[str"):
         return "FrozenMap({prefix + name: each for name, each in value.items()})"
-    return "value and direct(value.__class__, ask)(value, prefix)"
+    return "value and direct(value.__class__, ask)(value, prefix, shared)"

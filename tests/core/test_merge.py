@@ -1,9 +1,12 @@
 """Merging: everything nameable comes along, all of it or nothing."""
 
+import gc
 import sys
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from subprocess import run
 from types import MappingProxyType
+from weakref import ref
 
 import pytest
 
@@ -318,6 +321,61 @@ def test_a_part_of_a_class_of_ones_own_takes_a_prefix_and_is_made_anew():
     robot.prefix_all("left_")
     assert robot.joint("left_j").label == "left_j: 3.0 kg"
     assert (robot.joints[0].parent, robot.joints[0].child) == ("left_a", "left_b")
+
+
+class Marked(Link):
+    def with_prefix(self, prefix: str) -> Link:
+        return Link(f"{prefix}marked_{self.name}")
+
+
+def test_a_link_of_a_class_of_ones_own_is_asked_for_its_copy():
+    robot = Robot("arm", links=[Marked("a")])
+    robot.prefix_all("left_")
+    assert [link.name for link in robot.links] == ["left_marked_a"]
+
+
+class Weak(str):
+    """A name of which one can tell whether anybody still has it."""
+
+
+def painted(name: str) -> Robot:
+    skin, shape = Material(name, RED), Box(Vector3(1, 1, 1))
+    return Robot(
+        "arm",
+        links=[
+            Link("a", visuals=[Visual(shape, material=skin)] * 2),
+            Link("b", visuals=[Visual(shape, material=skin)]),
+        ],
+    )
+
+
+def test_a_material_that_visuals_share_stays_one():
+    arm = Robot("station", links=[Link("table")]).merge(painted("skin"), None, None, "left_")
+    copies = {id(visual.material) for link in arm.links for visual in link.visuals}
+    assert len(copies) == 1
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda robot: robot.prefix_all("left_"),
+        lambda robot: [link.with_prefix("left_") for link in robot.links],
+        lambda robot: robot.links[0].visuals[0].with_prefix("left_"),
+        lambda robot: (
+            robot.add_joint(Joint("j", "fixed", "a", "b"))
+            or Robot("s", links=[Link("left_b")]).merge(robot, None, None, "left_")
+        ),
+    ],
+    ids=["robot", "links", "visual", "refused"],
+)
+def test_nothing_of_a_robot_is_kept_when_it_is_gone(use):
+    name = Weak("skin")
+    kept, robot = ref(name), painted(name)
+    with suppress(RobotModelError):
+        use(robot)
+    del name, robot
+    gc.collect()
+    assert kept() is None
 
 
 def test_a_prefix_that_no_name_may_have_is_refused():

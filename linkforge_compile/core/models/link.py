@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from itertools import islice
 
@@ -21,7 +21,7 @@ from linkforge_compile.core.models.index import Renamable
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.naming import prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
-from linkforge_compile.core.prefixing import prefixed_copies
+from linkforge_compile.core.prefixing import Copies, prefixed_copies
 from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
@@ -224,16 +224,29 @@ class Link(Renamable):
 
     def with_prefix(self, prefix: str) -> Link:
         """Return a new link with its name and those of its visuals and collisions prefixed."""
+        return self._with_prefix(prefix, {})
+
+    def _with_prefix(self, prefix: str, shared: Copies) -> Link:
         name = prefixed(prefix, self.name)
         require_valid_characters(name, "link name", "LinkName")
         link = object.__new__(type(self))
         vars(link).update(
             vars(self),
             name=name,
-            visuals=tuple(prefixed_copies(self.visuals, prefix)),
-            collisions=tuple(prefixed_copies(self.collisions, prefix)),
+            visuals=tuple(prefixed_copies(self.visuals, prefix, shared)),
+            collisions=tuple(prefixed_copies(self.collisions, prefix, shared)),
         )
         return link
+
+
+def prefixed_links(links: Iterable[Link], prefix: str) -> list[Link]:
+    """Return links as `with_prefix` of each gives them; materials that they share stay shared."""
+    shared: Copies = {}
+    # Somebody else's class may have a way of its own.
+    return [
+        link._with_prefix(prefix, shared) if type(link).with_prefix is Link.with_prefix else link.with_prefix(prefix)
+        for link in links
+    ]
 
 
 def _kinds(words: Sequence[str]) -> tuple[str, ...]:

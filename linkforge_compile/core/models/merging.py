@@ -7,8 +7,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.models.link import prefixed_links
 from linkforge_compile.core.part import attribute_pairs
-from linkforge_compile.core.prefixing import forget_copies, prefixed_copies
+from linkforge_compile.core.prefixing import prefixed_copies
 from linkforge_compile.frozen import dataclass
 
 if TYPE_CHECKING:
@@ -46,10 +47,10 @@ class PrefixedParts:
             RobotModelError: INVALID_NAME where the prefix makes a name that no part may have.
 
         """
-        parts = cls(
+        return cls(
             materials={prefix + name: material.with_prefix(prefix) for name, material in robot.materials.items()},
             # Links may be changed in place: two robots never share one, and `with_prefix` makes a new one always.
-            links=[link.with_prefix(prefix) for link in robot.links],
+            links=prefixed_links(robot.links, prefix),
             joints=prefixed_copies(robot.joints, prefix),
             sensors=prefixed_copies(robot.sensors, prefix),
             transmissions=prefixed_copies(robot.transmissions, prefix),
@@ -59,8 +60,6 @@ class PrefixedParts:
             extra_elements=robot.extra_elements,
             extra_attributes=attribute_pairs(robot.extra_attributes),
         )
-        forget_copies()
-        return parts
 
 
 def new_materials(own: Mapping[str, Material], added: Mapping[str, Material]) -> dict[str, Material]:
