@@ -2,12 +2,14 @@
 
 A compile defines a hundred classes before it reads its first file. Up to Python 3.12 each takes the standard library a
 millisecond, nearly all of it to compile the texts of six methods. Here five of them are the same few functions for all
-classes, and `__init__` is compiled once for all that have as many fields. Nothing else differs: `fields`, `replace`,
-`match`, `copy`, `pickle`, subclasses and type checkers see what they saw. Equality is that of tuples, as up to Python
-3.12, so that a NaN equals itself.
+classes, and `__init__` is compiled once for all that have as many fields. `fields`, `replace`, `match`, `copy`,
+`pickle`, subclasses and type checkers see what they saw. Equality is that of tuples, as up to Python 3.12, so that a
+NaN equals itself. A class without a docstring has its name for one, not its signature, and `__dataclass_params__` shows
+itself otherwise.
 
 What takes more than a look is left to the standard library, to make or to refuse: a class that is not frozen or has no
-slots, `InitVar`, `KW_ONLY`, a field that is no argument, an annotation that is no text, a base of those, and faults.
+slots, `InitVar`, `KW_ONLY`, a field that is no argument, an annotation that is no text, or that Python would first have
+to compute, a base of those, and faults.
 """
 
 from __future__ import annotations
@@ -32,6 +34,9 @@ _Fields: TypeAlias = Mapping[str, Field[object]]
 
 _MADE: Final = vars(dataclasses)["_HAS_DEFAULT_FACTORY"]
 """The default of a parameter that has a factory, as long as nobody says another: signatures show it as `<factory>`."""
+
+_COMPUTED: Final = frozenset({"__annotate__", "__annotate_func__"})
+"""What a class of Python 3.14 has whose annotations are not texts yet, by the names of its versions."""
 
 _MARK: Final = "_field_type"
 _PLAIN: Final = vars(dataclasses)["_FIELD"]
@@ -85,6 +90,8 @@ def _fields(cls: type, kw_only: bool) -> _Fields | None:
 
 def _own_fields(cls: type, kw_only: bool) -> _Fields | None:
     """Return the fields that a class does not inherit; None where that takes more than a look."""
+    if not _COMPUTED.isdisjoint(vars(cls)):
+        return None
     annotations: Mapping[str, object] = cls.__annotations__
     own: dict[str, Field[object]] = {}
     for name, annotation in annotations.items():

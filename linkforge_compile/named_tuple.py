@@ -2,10 +2,11 @@
 
 The standard library compiles the text of each annotation and of each class's `__new__`. Here annotations stay the texts
 that they are, `__new__` is compiled once for all classes with as many fields, and the other methods are those of one
-base. Nothing else differs: order, unpacking, `match`, `pickle`, `_replace` and type checkers see what they saw.
+base, without docstrings. Nothing else differs: order, unpacking, `match`, `pickle`, `_replace` and type checkers see
+what they saw.
 
 What takes more than a look is left to the standard library, to make or to refuse: further bases, an annotation that is
-no text, and faults.
+no text, or that Python would first have to compute, and faults.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from typing import TYPE_CHECKING, Final, Self
 
 __all__ = ["NamedTuple"]
 
-_getter: Final = cache(vars(collections)["_tuplegetter"])
+_getter: Final = vars(collections)["_tuplegetter"]
 """What gives a field by its number: the standard library's, in C."""
 
 _REFUSED: Final = frozenset(
@@ -74,9 +75,9 @@ class _Rows(type):
     """The metaclass of `NamedTuple` and of nothing else: what derives from that is an ordinary class."""
 
     def __new__(cls, name: str, bases: tuple[type, ...], body: dict[str, object]) -> type:
-        annotations = body.get("__annotations__", {})
-        assert isinstance(annotations, dict)
-        if len(bases) > 1 or not _is_plain(body, annotations):
+        # Python 3.14 has them in the body only where they are texts.
+        annotations = body.get("__annotations__")
+        if not isinstance(annotations, dict) or len(bases) > 1 or not _is_plain(body, annotations):
             return _theirs(name, bases, body)
         fields = tuple(annotations)
         return type(name, (_Row,), _shown(name, fields) | body | _made(body, fields, annotations))

@@ -6,19 +6,28 @@ To compile one takes longer than to define a class.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from typing import TYPE_CHECKING, AnyStr, Generic
 
 __all__ = ["pattern"]
 
 
 class _Pattern(Generic[AnyStr]):
-    """What stands for a compiled pattern, and has its methods as soon as they are asked for."""
+    """What stands for a compiled pattern, and has its methods as soon as they are asked for.
+
+    It is none itself: call its own methods, for the functions of `re` do not take it. Its copies are compiled.
+    """
 
     def __init__(self, text: AnyStr, flags: int = 0) -> None:
         self._text: AnyStr = text
         self._flags = flags
 
+    def __reduce__(self) -> tuple[Callable[[AnyStr, int], re.Pattern[AnyStr]], tuple[AnyStr, int]]:
+        return re.compile, (self._text, self._flags)
+
     def __getattr__(self, name: str) -> object:
+        if name.startswith("_"):  # its own, which `__init__` gives it, and what Python asks of everything
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
         # `re` remembers what it compiled; what is found here is not asked for again.
         value: object = getattr(re.compile(self._text, self._flags), name)
         setattr(self, name, value)

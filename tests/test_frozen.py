@@ -241,6 +241,13 @@ def test_what_takes_more_than_a_look_is_the_standard_librarys():
     assert [one.name for one in dataclasses.fields(Scaled)] == ["value", "unit"]
 
 
+def test_annotations_that_are_still_to_be_computed_are_the_standard_librarys():
+    # As Python 3.14 makes a class without the import from __future__.
+    late = type("Late", (), {"__annotate_func__": lambda _: {"x": int}})
+    made = dataclass(frozen=True, slots=True)(late)
+    assert type(made.__dataclass_params__) is type(THEIRS[0].__dataclass_params__)
+
+
 FAULTS = {
     "mutable default": {"__annotations__": {"name": "list"}, "name": []},
     "non-default argument": {"__annotations__": {"name": "str", "text": "str"}, "name": ""},

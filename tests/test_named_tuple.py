@@ -135,6 +135,23 @@ def test_what_takes_more_than_a_look_is_the_standard_librarys():
     assert Held.__parameters__ == (T,)
 
 
+def test_annotations_that_are_still_to_be_computed_are_the_standard_librarys():
+    # As Python 3.14 hands over a body without the import from __future__.
+    body = {"__module__": __name__, "__qualname__": "Late", "__annotate_func__": lambda _: {"x": int}}
+    assert not is_quick(type(NamedTuple)("Late", (NamedTuple,), body))
+
+
+def test_the_docstring_of_a_field_is_its_own():
+    class One(NamedTuple):
+        name: str
+
+    class Other(NamedTuple):
+        name: str
+
+    One.name.__doc__ = "What one is called."
+    assert Other.name.__doc__ == "Alias for field number 0"
+
+
 FAULTS = {
     "cannot start with an underscore": {"__annotations__": {"_name": "str"}},
     "Non-default namedtuple field text cannot follow": {"__annotations__": {"name": "str", "text": "str"}, "name": ""},

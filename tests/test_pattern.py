@@ -1,5 +1,7 @@
 """A pattern of ours is what `re` would make of it, as soon as it is used."""
 
+import copy
+import pickle
 import re
 from importlib import import_module
 from pathlib import Path
@@ -24,6 +26,15 @@ def test_it_does_what_the_compiled_one_does():
     assert unit.sub("-", "1 mm, 2 mm") == "-, -"
     assert (unit.pattern, unit.groups) == (r"(?P<number>\d+) *MM", 1)
     assert pattern(rb"\d").findall(b"1a2") == [b"1", b"2"]
+
+
+@pytest.mark.parametrize("through", [lambda one: pickle.loads(pickle.dumps(one)), copy.copy, copy.deepcopy])
+def test_its_copies_are_compiled(through):
+    assert through(pattern("a", re.IGNORECASE)) == re.compile("a", re.IGNORECASE)
+
+
+def test_one_that_is_not_made_yet_has_no_attributes():
+    assert not hasattr(pattern.__new__(pattern), "fullmatch")
 
 
 def test_it_is_compiled_as_it_is_used():
