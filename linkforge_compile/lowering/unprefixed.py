@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import takewhile
+from typing import TypeAlias
 
 from linkforge_compile.core.frozen_map import FreePart
 from linkforge_compile.core.models.robot import Robot
@@ -37,6 +39,9 @@ _AROUND_A_LIST = " \t\r\n[](){}'\""
 
 _WRITTEN_WHOLE = frozenset(("parameters", "properties"))
 """Free parts: a list in one can only be written anew as a whole."""
+
+
+Path: TypeAlias = tuple[str | int, ...]
 
 
 class Text(NamedTuple):
@@ -82,18 +87,18 @@ def passed_on(robot: Robot, tree: YamlNode, prefix: str, users: Collection[Sourc
 
 def warnings_under_a_prefix(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
     """Yield what there is to tell once the file takes a prefix; the robot is the file with its modules."""
-    paths: dict[Span, tuple[str, ...]] = {}
+    paths: dict[Span, Path] = {}
     # A raw text may say one name often.
-    said = dict.fromkeys((name, text.where) for text in passed.plugin_texts for name in _named_in(text.text, robot))
+    said = {(name, text.where): text.text for text in passed.plugin_texts for name in _named_in(text.text, robot)}
     for kind, names in (("link", robot.links), ("joint", robot.joints)):
-        for name, where in said:
+        for (name, where), whole in said.items():
             if name not in names:
                 continue
             remedy = f"write '$({kind}('{name}'))'"
             if where.file.is_xml:
                 paths = paths or dict(_paths(passed.tree))
                 to_final = f" to '{passed.prefix}{name}'" if passed.prefix else ""
-                remedy = f"change it{to_final} by 'override: {_override(paths.get(where, ()))}' where this file is used"
+                remedy = f"change it{to_final} by {_override(paths.get(where, ()), is_name=whole == name)}"
             yield UNPREFIXED_NAME.at(where, name=name, kind=kind, remedy=remedy)
     for topic, where, _ in passed.absolute_topics:
         yield ABSOLUTE_TOPIC.at(where, topic=topic)
@@ -117,25 +122,31 @@ def _named_in(text: str, robot: Robot) -> Sequence[str]:
     return [item for item in items if item in robot.links or item in robot.joints] if is_list else ()
 
 
-def _override(path: tuple[str, ...]) -> str:
-    """Return the override that reaches what stands under a path, but for the value."""
+def _override(path: Path, *, is_name: bool) -> str:
+    """Say the override that reaches what stands under a path, and what takes the place of its value.
+
+    `is_name` is whether the name is all that stands there.
+    """
+    free = next((at for at, key in enumerate(path) if key in _WRITTEN_WHOLE), len(path))
+    reached = (*path[:free], *takewhile(lambda key: isinstance(key, str), path[free:]))
     said = "..."
-    for key in reversed(path):
+    for key in reversed(reached):
         said = f"{{{key}: {said}}}"
-    return said
+    whole = "element" if free == len(path) else "list" if reached != path else "" if is_name else "text"
+    value = f", '...' being the whole {whole} with that name in it" if whole else ""
+    return f"'override: {said}' where this file is used{value}"
 
 
-def _paths(node: YamlNode, *path: str) -> Iterator[tuple[Span, tuple[str, ...]]]:
-    """Yield the place of each scalar with the keys and positions by which an override reaches it."""
+def _paths(node: YamlNode, *path: str | int) -> Iterator[tuple[Span, Path]]:
+    """Yield the place of each scalar with the keys and positions that lead to it."""
     if isinstance(node, YamlScalar):
         yield node.span, path
     elif isinstance(node, YamlMap):
         for entry in node:
             yield from _paths(entry.value, *path, entry.name)
     elif isinstance(node, YamlList):
-        is_whole = not _WRITTEN_WHOLE.isdisjoint(path)
         for number, item in enumerate(node):
-            yield from _paths(item, *path, *(() if is_whole else (str(number),)))
+            yield from _paths(item, *path, number)
 
 
 def _topics_and_frames(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:

@@ -209,6 +209,13 @@ def test_a_depfile_of_nothing_is_wrong_usage(
     assert not (cell / "robot.d").exists()
 
 
+def test_standard_output_is_the_target_of_no_rule(cell: Path, capfd: pytest.CaptureFixture[str]):
+    assert main(["deps", "cell.robot.yaml", "-o", "-"]) == 2
+    captured = capfd.readouterr()
+    assert captured.out == ""
+    assert "a rule of Make says what files are made from, so it takes -o with a folder or a file" in captured.err
+
+
 @pytest.mark.parametrize(
     "words",
     [

@@ -244,9 +244,18 @@ def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_told_once(tmp_path)
     assert diagnostic.code.id == "LF5704"
     assert diagnostic.message == (
         "'finger' is a link of this file and takes the prefix, but not here; "
-        "change it to 'g_finger' by 'override: {extra: ...}' where this file is used"
+        "change it to 'g_finger' by 'override: {extra: ...}' where this file is used, "
+        "'...' being the whole element with that name in it"
     )
     assert Path(diagnostic.span.file.name).name == "gripper.urdf"
+
+
+def test_of_a_list_and_of_a_text_with_several_names_the_override_says_the_whole(tmp_path):
+    plugin = '<plugin name="p" filename="p.so"><on>palm</on><on>table</on><all>palm, table</all></plugin>'
+    gripper = GRIPPER.replace("</robot>", f"<gazebo>{plugin}</gazebo></robot>")
+    said = " ".join(told(compiled(tmp_path, USED, gripper)))
+    assert "{on: ...}}}}}' where this file is used, '...' being the whole list with that name in it" in said
+    assert "{all: ...}}}}}' where this file is used, '...' being the whole text with that name in it" in said
 
 
 def test_of_several_raw_elements_the_override_says_the_one_again(tmp_path):

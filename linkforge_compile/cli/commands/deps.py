@@ -63,6 +63,7 @@ def _outputs(spec: str, outputs: list[str], compilation: Compilation) -> tuple[P
     from linkforge_compile.cli.build import targets_for
 
     targets = targets_of(spec, outputs or [f"{name_of(spec)}.urdf"], None)
+    targets.require_files("a rule of Make", "says what files are made from")
     if compilation.robot is not None:
         targets = targets_for(compilation.robot, targets) or targets
     return tuple(path for path in targets.paths.values() if path is not None)
