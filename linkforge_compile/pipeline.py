@@ -289,6 +289,11 @@ def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilatio
     try:
         spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them
         robot = robot_of(spec, settings, loader, meshes, sink) if spec else None
+        if robot is not None and robot.extra_elements:
+            # Not asked of a robot that is judged: an import keeps raw what has the name of another.
+            from linkforge_compile.backends.raw_names import check_raw_names
+
+            sink.report_all(check_raw_names(robot))
         ignores = loader.ignores
     except BeyondLimitError as beyond:
         sink.end(beyond)

@@ -79,12 +79,13 @@ def check_single_root(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """All links but one hang on joints; that one is the root.
 
     URDF readers refuse a robot in several pieces. Add the missing joint, or give a module the `parent` that
-    it hangs on. Silent while part of the robot could not be read, or while joints lead nowhere or to a link
-    that has a parent: each of these may be the joint that is missed here.
+    it hangs on. Silent while part of the robot could not be read, or while joints are raw XML, lead nowhere or to a
+    link that has a parent: each of these may be the joint that is missed here.
     """
     children = {joint.child for joint in robot.joints if robot.has_link(joint.child)}
     roots = [link for link in robot.links if link.name not in children]
-    astray = len(robot.joints) - len(children)
+    raw = sum(text.lstrip().startswith("<joint") for text in robot.extra_elements)
+    astray = len(robot.joints) - len(children) + raw
     if gaps or len(roots) - 1 <= astray:
         return
     graph = joint_graph(robot)

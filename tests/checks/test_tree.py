@@ -123,3 +123,8 @@ def test_a_chain_of_10000_links_is_checked_without_recursion():
     assert told(chain) == [
         "LF5403 joint 'back': links hang on one another in a circle: l0 → l1 → l2 → l3 → l4 → … → l9999 → l0"
     ]
+
+
+def test_a_raw_joint_may_be_the_one_that_is_missed():
+    raw = '<joint name="j" type="fixed"><parent link="base"/><child link="arm"/></joint>'
+    assert told(robot("base arm", extra_elements=(raw,))) == []

@@ -44,6 +44,12 @@ SECOND_OF_ONE = Code(
     "leave one out",
 )
 
+RAW_NAME_IS_TAKEN = Code(
+    "LF7160",
+    Severity.ERROR,
+    "there is a {tag} '{name}' already, and readers of URDF refuse a robot with two; leave this one out, or rename it",
+)
+
 # LF708x, LF709x: what a command asks of an output
 NO_SEMANTIC_PART = Code(
     "LF7085",
