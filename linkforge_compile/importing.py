@@ -198,11 +198,12 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader,
 
     named, text = urdf
     file = loader.open_xml(named, sink) if text is None else loader.given_xml(str(named), text)
-    if file and taken is not None:
+    robot = read_urdf(file, sink, keeps_refused=True) if file else None
+    # A xacro that is not named as one, and is told as that, would take them.
+    if file and robot and taken is not None:
         for name, entry in arguments.without(taken).entries.items():
             note = Note("a URDF takes no arguments", file.whole)
             sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=taken, notes=[note]))
-    robot = read_urdf(file, sink, keeps_refused=True) if file else None
     return (file, robot) if file and robot else None
 
 

@@ -49,6 +49,7 @@ WITHOUT_A_CASE = {
     "LF8034": "modules/test_xacro_modules.py",
     "LF8035": "modules/test_xacro_modules.py",
     "LF8063": "modules/test_xacro_faults.py",
+    "LF8066": "modules/test_xacro_faults.py",
     "LF8064": "modules/test_xacro_faults.py",
     "LF8061": "modules/test_xacro_arguments.py",
     "LF8062": "modules/test_xacro_arguments.py",

@@ -6,9 +6,9 @@ import posixpath
 from collections.abc import Callable
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.importing import NOT_A_ROBOT, ROBOT_WITHOUT_NAME, STILL_XACRO
+from linkforge_compile.diagnostics.codes.importing import NOT_A_ROBOT, NOTHING_EXPANDED, ROBOT_WITHOUT_NAME, STILL_XACRO
 from linkforge_compile.importers.comments import Comments
-from linkforge_compile.importers.xml import XmlDocument, read_xml
+from linkforge_compile.importers.xml import XmlDocument, XmlElement, read_xml
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap
@@ -27,7 +27,10 @@ class Imported(NamedTuple):
 
 
 def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None) -> XmlDocument | None:
-    """Return a document of a named robot without xacro; None where the file is none, which is told."""
+    """Return a document of a named robot without xacro; None where the file is none, which is told.
+
+    What `moved` moves was expanded from a xacro.
+    """
     document = read_xml(file, sink)
     if document is None:
         return None
@@ -36,11 +39,27 @@ def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None
     if root.tag != "robot":
         sink.report(NOT_A_ROBOT.at(root.span, tag=root.tag))
         return None
-    if xacro := next((child for child in root.children if child.tag.startswith("xacro:")), None):
+    if xacro := _first_of_xacro(root):
         name = posixpath.basename(file.name).removesuffix(".xml") if file.path else "NAME.urdf"
         sink.report(STILL_XACRO.at(xacro.span, tag=xacro.tag, name=f"{name}.xacro"))
+        return None
+    if moved and not any(root.children):
+        sink.report(NOTHING_EXPANDED.at(root.span))
         return None
     if root.get("name") is None:
         sink.report(ROBOT_WITHOUT_NAME.at(root.span))
         return None
     return document
+
+
+def _first_of_xacro(root: XmlElement) -> XmlElement | None:
+    """Return the first element, at any depth, that xacro would have replaced."""
+    if "<xacro:" not in root.raw:
+        return None
+    waiting = [root]
+    while waiting:
+        element = waiting.pop()
+        if element.tag.startswith("xacro:"):
+            return element
+        waiting += reversed(tuple(element.children))
+    return None

@@ -26,7 +26,7 @@ from linkforge_compile.modules.xacro_faults import Telling, Written
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlNode, YamlScalar
-from linkforge_compile.units import Quantity, number_text
+from linkforge_compile.units import Quantity, number_text, parse_quantity
 
 if TYPE_CHECKING:
     from linkforge_compile.importers.document import Imported, Move
@@ -176,7 +176,8 @@ def _texts(use: XacroUse, sink: Diagnostics) -> dict[str, str] | None:
 def _text(node: YamlNode, use: XacroUse) -> object:
     """Return a value as text, FAULT where it was reported, None for what is neither text, number nor flag."""
     if use.arguments.as_text and isinstance(node, YamlScalar):
-        return node.text
+        quantity = parse_quantity(node.text)
+        return number_text(quantity.value) if quantity else node.text
     value = use.tree.value(node) if use.tree else plain_value(node)
     match value:
         case bool():

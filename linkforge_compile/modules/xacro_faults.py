@@ -188,6 +188,8 @@ _OUR_WORDS = (
     (r'Unused block "(.*)"', "the macro takes no block, found <{0}>"),
     (r'Undefined block "(.*)"', "no block of the macro is named '{0}'"),
     (r'Xacro conditional "(.*)" evaluated to "(.*)", which.*', "the condition is true or false, found '{1}'"),
+    (r"unsupported operand type\(s\) for (\S+).*: .*'str'.*", "'{0}' takes numbers, found a text"),
+    (r"can't multiply sequence by non-int of type 'float'", "'*' takes numbers, found a text"),
     (r"environment variable '(.*)' is not set", "the environment variable {0} is not set"),
     (
         r"Unknown substitution command \[(.*?)\].*",

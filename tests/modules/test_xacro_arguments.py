@@ -137,6 +137,14 @@ def test_a_urdf_takes_no_arguments(arm: Path, tmp_path: Path):
     assert (told.code.id, [note.message for note in told.notes]) == ("LF3020", ["a URDF takes no arguments"])
 
 
+def test_a_xacro_on_standard_input_is_told_as_that_and_not_by_its_arguments(arm: Path):
+    [told] = import_urdf(
+        "<stdin>", text=(arm / "arm.urdf.xacro").read_text("utf-8"), arguments=["reach:=1"]
+    ).diagnostics
+    assert told.code.id == "LF8013"
+    assert "it is expanded in a file named 'NAME.urdf.xacro'" in told.message
+
+
 def test_a_default_that_comes_too_late_is_told_where_xacro_needs_it(tmp_path: Path):
     pytest.importorskip("xacro")
     file = tmp_path / "a.urdf.xacro"

@@ -51,6 +51,16 @@ GIVES_UP = "xacro gives up here: "
             f"{GIVES_UP}there is no key 'b', in '${{dict(a=1)['b']}}'",
             "${dict(a=1)['b']}",
         ),
+        (
+            """<link name="${'long' / 2}"/>""",
+            f"{GIVES_UP}'/' takes numbers, found a text, in '${{'long' / 2}}'",
+            "${'long' / 2}",
+        ),
+        (
+            """<link name="${'long' * 0.5}"/>""",
+            f"{GIVES_UP}'*' takes numbers, found a text, in '${{'long' * 0.5}}'",
+            "${'long' * 0.5}",
+        ),
         ('<link name="$(env NONE_SUCH)"/>', f"{GIVES_UP}the environment variable NONE_SUCH is not set", "<link"),
     ],
 )
@@ -84,3 +94,19 @@ def test_a_fault_inside_a_macro_that_another_one_calls_is_told_in_the_macro(tmp_
     )
     assert told(tmp_path, *lines)[2][0][1] == 5
     assert told(tmp_path, *(line.replace("none", "a") for line in lines))[2][0][1] == 3
+
+
+@pytest.mark.parametrize("name", ["", 'name="a"'])
+def test_a_xacro_that_only_declares_macros_is_no_robot(name: str, tmp_path: Path):
+    file = tmp_path / "macros.xacro"
+    file.write_text(f'<robot {name} xmlns:xacro="http://www.ros.org/wiki/xacro">{MACRO}</robot>', "utf-8")
+    [diagnostic] = import_urdf(file).diagnostics
+    assert (diagnostic.code.id, diagnostic.span and diagnostic.span.line) == ("LF8066", 1)
+
+
+@pytest.mark.parametrize(("given", "size"), [("reach=70cm", "0.35"), ("reach:=0.70", "0.35"), ("reach=2", "1.0")])
+def test_a_quantity_on_the_command_line_is_a_number_to_xacro(given: str, size: str, tmp_path: Path):
+    file = tmp_path / "a.urdf.xacro"
+    box = '<visual><geometry><sphere radius="${$(arg reach) / 2}"/></geometry></visual>'
+    file.write_text(f'{HEAD}<xacro:arg name="reach" default="1"/><link name="l">{box}</link></robot>', "utf-8")
+    assert f"sphere: {size}}}" in (import_urdf(file, arguments=[given]).text or "")

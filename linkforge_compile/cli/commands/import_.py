@@ -42,7 +42,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge import [options] ROBOT.urdf | ROBOT.urdf.xacro [ARGUMENT:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument(
-        "words", metavar="ROBOT.urdf", nargs="+", help="the robot; a xacro is expanded first; - for standard input"
+        "words",
+        metavar="ROBOT.urdf",
+        nargs="+",
+        help="the robot; a file .xacro is expanded first; - for a URDF on standard input",
     )
     parser.add_argument("--srdf", metavar="ROBOT.srdf", help="what planners know of the same robot, or its xacro")
     parser.add_argument(

@@ -25,6 +25,10 @@ LACKS_PART = Code("LF8065", _E, "this <{tag}> has no {what}, so readers of URDF 
 NAME_IS_TAKEN = Code("LF8160", _E, "there is a <{tag}> named '{name}' already; give each a name of its own")
 NO_TYPE_OF_JOINT = Code("LF8161", _E, "there is no type of joint named '{name}'")
 
+NOTHING_EXPANDED = Code(
+    "LF8066", _E, "the xacro expands to nothing; where it only declares macros, give the file that calls them"
+)
+
 # LF802x: what comes in, but not as its own kind
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML: {reason}")
 
