@@ -10,7 +10,7 @@ from typing import TypeAlias
 from xml.parsers import expat
 
 from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import (
     DOCUMENT_TYPE,
     INSTRUCTION_LEFT_OUT,
@@ -153,12 +153,23 @@ class _Parse:
         try:
             self._parser.Parse(self._parsed, True)
         except expat.ExpatError as error:
-            at = self._offset(self._parser.ErrorByteIndex)
-            reason = expat.ErrorString(error.code)
-            raise _RefusedError(MALFORMED_XML.at(self._span(at, 1), problem=reason)) from None
+            raise _RefusedError(self._malformed(error)) from None
         [document] = self._open
         [root] = [item for item in document.content if isinstance(item, XmlElement)]
         return XmlDocument(root, tuple(document.content))
+
+    def _malformed(self, error: expat.ExpatError) -> Diagnostic:
+        from linkforge_compile.importers.malformed import malformed
+
+        _, *around = self._open
+        at = self._offset(self._parser.ErrorByteIndex)
+        found = malformed(error.code, self._parsed, at, [element.tag for element in around])
+        notes = [
+            Note(f"<{element.tag}> begins here", self._span(element.start, len(element.tag) + 1))
+            for element in around[-1:]
+            if found.is_open
+        ]
+        return MALFORMED_XML.at(self._span(found.at, 1), problem=found.problem, notes=notes)
 
     # Handlers
 

@@ -32,6 +32,36 @@ def elements(element: XmlElement):
         yield from elements(child)
 
 
+@pytest.mark.parametrize(
+    ("text", "place", "problem"),
+    [
+        (" \n", (1, 1), "the file is empty"),
+        ("<!-- x -->", (1, 11), "there is no element in it"),
+        ("<a>\n <b>\n</a>", (3, 3), "expected </b>, found </a>"),
+        ("<a>\n <b>", (2, 5), "it ends before </b>"),
+        ('<a b="x & y"/>', (1, 9), "'&' by itself is written '&amp;'"),
+        ("<a>R&D</a>", (1, 5), "'&' by itself is written '&amp;'"),
+        ("<a ä=c/>", (1, 6), "the value of an attribute stands in quotes; write '\"c\"'"),
+        ('<a b="c>\n<d/></a>', (2, 1), "the value of an attribute holds no '<'; close its quote, or write '&lt;'"),
+        ("<a><!-- ä -- c --></a>", (1, 11), "a comment holds no '--'"),
+        (
+            "<a>\n<<<<<<< HEAD\n</a>",
+            (2, 1),
+            "this line is one that git leaves of a merge conflict; keep one of the two sides",
+        ),
+        ("<a/>\n<a/>", (2, 1), "it has one element, behind which nothing but comments may stand"),
+        ('<a b="1"c="2"/>', (1, 9), "not well-formed (invalid token)"),
+        ("< a/>", (1, 2), "not well-formed (invalid token)"),
+    ],
+)
+def test_what_is_no_xml_is_told_where_that_is_certain(text: str, place: tuple[int, int], problem: str):
+    sink = Diagnostics()
+    assert read_xml(SourceFile("robot.urdf", text), sink) is None
+    [told] = sink
+    assert told.span
+    assert (told.message, (told.span.line, told.span.column)) == (f"this is not XML: {problem}", place)
+
+
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 def test_a_span_holds_what_is_written_there(end: str):
     text = end.join(

@@ -1,0 +1,65 @@
+"""What is wrong with a text that is no XML, in the words of whoever wrote it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from xml.parsers.expat import ErrorString, errors
+
+from linkforge_compile.named_tuple import NamedTuple
+
+_CONFLICT = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
+_REFERENCE = re.compile(r"&[\w.-]*\Z")
+_NAME = re.compile(r"[^\s/<>\"']+")
+_BEFORE_VALUE = re.compile(r"<[^\s<>!?/][^<>]*=\s*")
+
+
+class Malformed(NamedTuple):
+    """What is wrong, the offset at which it is, and whether that is that an element is not closed."""
+
+    problem: str
+    at: int
+    is_open: bool = False
+
+
+def malformed(code: int, text: str, at: int, open_tags: Sequence[str]) -> Malformed:
+    """Return what is wrong where a parser gave up, with the elements that are open there, the innermost last.
+
+    What is not certain stays as the parser says it.
+    """
+    if not text.strip():
+        return Malformed("the file is empty", 0)
+    known = ErrorString(code)
+    if known == errors.XML_ERROR_INVALID_TOKEN and (found := _of_invalid_token(text, at)):
+        return found
+    if known == errors.XML_ERROR_TAG_MISMATCH and open_tags:
+        name = _NAME.match(text, at)
+        closed = f"</{name[0]}>" if name else "an end"
+        return Malformed(f"expected </{open_tags[-1]}>, found {closed}", at, is_open=True)
+    if known == errors.XML_ERROR_NO_ELEMENTS:
+        if open_tags:
+            return Malformed(f"it ends before </{open_tags[-1]}>", at, is_open=True)
+        return Malformed("there is no element in it", at)
+    if known == errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
+        return Malformed("it has one element, behind which nothing but comments may stand", at)
+    return Malformed(known, at)
+
+
+def _of_invalid_token(text: str, at: int) -> Malformed | None:
+    before = text[:at]
+    line = before.rfind("\n") + 1
+    if _CONFLICT.match(text, line):
+        return Malformed("this line is one that git leaves of a merge conflict; keep one of the two sides", line)
+    if before.rfind("<!--") > before.rfind("-->"):
+        is_second = before.endswith("--")
+        return Malformed("a comment holds no '--'", at - 2) if is_second else None
+    if reference := _REFERENCE.search(before, line):
+        return Malformed("'&' by itself is written '&amp;'", reference.start())
+    tag = before[max(before.rfind("<"), 0) :]
+    if tag.count('"') % 2:
+        found = "the value of an attribute holds no '<'; close its quote, or write '&lt;'"
+        return Malformed(found, at) if text.startswith("<", at) else None
+    value = _NAME.match(text, at)
+    if value and _BEFORE_VALUE.fullmatch(tag):
+        return Malformed(f"the value of an attribute stands in quotes; write '\"{value[0].strip('“”‘’')}\"'", at)
+    return None
