@@ -20,7 +20,8 @@ from linkforge_compile.diagnostics.codes.model import (
     STATE_TAKES_OTHERS_ALONG,
     STATE_VALUE_COUNT,
 )
-from linkforge_compile.source import Key
+from linkforge_compile.source import Key, Span
+from linkforge_compile.units import WIDEST_ANGLE
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import GroupState, VirtualJoint
@@ -90,8 +91,16 @@ def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[objec
     elif isinstance(joint, Joint) and values and isinstance(position := values[0], int | float):
         unit = unit_in(use.place.text) if use.place else None
         span = missed_range(joint, position, position, unit)
-        if span:
+        if span and not _is_doubted(position, joint, use.place):
             yield use.told(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=in_unit(position, unit))
+
+
+def _is_doubted(position: float, joint: Joint, place: Span | None) -> bool:
+    """Whether a position was told already as one that is likely meant in degrees: a bare number of a spec."""
+    if place is None or place.text is None or place.file.is_xml or joint.type is not JointType.REVOLUTE:
+        return False
+    is_bare = place.text.lstrip("+-")[:1].isdigit() and unit_in(place.text) is None
+    return is_bare and abs(position) > WIDEST_ANGLE
 
 
 def _counted(values: tuple[object, ...]) -> str:

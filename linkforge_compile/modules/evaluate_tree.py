@@ -243,9 +243,10 @@ class TreeEvaluator:
         unknown = sorted(name for name in self.names_in(entry.key) if name not in self.scope)
         if not unknown or any(nearest(name, self.scope) for name in unknown):
             return self
-        example = f"for: {{{', '.join(f'{name}: …' for name in unknown)}}}"
-        hint = f"; to repeat {shape.things}, write '{example}' in the entry"
-        self.sink.report(UNKNOWN_NAME.at(entry.key.span, name=unknown[0], hint=hint))
+        if not _has_misspelt_for(entry.value):
+            example = f"for: {{{', '.join(f'{name}: …' for name in unknown)}}}"
+            hint = f"; to repeat {shape.things}, write '{example}' in the entry"
+            self.sink.report(UNKNOWN_NAME.at(entry.key.span, name=unknown[0], hint=hint))
         return replace(self, scope=self.scope.inside(dict.fromkeys(unknown, FAULT)))
 
     def _map(self, node: YamlMap, shape: Shape, is_free: bool) -> YamlMap:
@@ -309,6 +310,12 @@ class TreeEvaluator:
         if not admitted:
             return YamlFault(scalar.span)
         return node_of(_passed_on_in(value, shape, is_free), self.place(scalar))
+
+
+def _has_misspelt_for(node: YamlNode) -> bool:
+    """Whether an entry says `fro` for `for`, which was told."""
+    keys = node.entries if isinstance(node, YamlMap) else {}
+    return any(isinstance(entry.value, YamlFault) and nearest(name, ("for",)) for name, entry in keys.items())
 
 
 def _passed_on_in(value: Value, shape: Shape, is_free: bool) -> Value:

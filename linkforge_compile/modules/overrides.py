@@ -174,6 +174,8 @@ class _Patch:
         name = change.name
         if "$(" in name or any("$(" in other for other in base.entries):
             return
+        if isinstance(change.value, YamlFault) and name.partition("/")[0] in base.entries:
+            return  # a way to a value is told by that
         if name in _names(self._whole, "mount") and shape is shapes().under("joints"):
             self._report(MOUNT_IS_NO_JOINT, change)
             return

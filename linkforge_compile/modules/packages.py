@@ -89,7 +89,7 @@ def unknown_package(
     seen = _seen_around(name, start)
     option = f"--package {name}=FOLDER"
     way = option if seen and not roots.hold(seen) else f"'packages' of this file or {option}"
-    found = [Note(f"there is one; write --package {name}={_from_here(seen)}")] if seen else []
+    found = [Note(f"there is one; write --package {name}={_quoted(_from_here(seen))}")] if seen else []
     return UNKNOWN_PACKAGE.at(where, name=name, way=way, near=near, notes=(*notes, *found))
 
 
@@ -133,6 +133,13 @@ def _from_here(folder: Path) -> str:
         return min(str(folder), os.path.relpath(folder), key=len)
     except ValueError:  # on another drive of Windows
         return str(folder)
+
+
+def _quoted(path: str) -> str:
+    """Return a path as a shell takes it."""
+    import shlex
+
+    return shlex.quote(path)
 
 
 def _search_path(variable: str) -> Iterator[Path]:

@@ -134,8 +134,14 @@ def _way_in_one_key(key: str, known: Mapping[str, Json]) -> str:
     first, *steps = re.split(r"[/.]", key)
     if first not in known or not steps or not all(steps):
         return ""
+    return f"write '{nested([first, *steps], '…')}'"
+
+
+def nested(keys: Sequence[str], value: str) -> str:
+    """Return a value under a way of keys in one line: `limits: {effort: 20}`."""
+    first, *steps = keys
     inside = "".join(f"{{{step}: " for step in steps)
-    return f"write '{first}: {inside}…{'}' * len(steps)}'"
+    return f"{first}: {inside}{value}{'}' * len(steps)}"
 
 
 def _place(entry: YamlEntry, known: Mapping[str, Json]) -> str:

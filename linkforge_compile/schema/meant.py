@@ -10,14 +10,14 @@ from linkforge_compile.expressions import forgotten_expression
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.colors_meant import color_meant
 from linkforge_compile.schema.json_types import Schema, branches, mapping
+from linkforge_compile.schema.keys_meant import nested
 from linkforge_compile.schema.numbers_meant import (
-    MOST_ITEMS,
     is_row,
     lengths_of_lists,
     number_meant,
     number_to_write,
     row_meant,
-    text_of_items,
+    row_of_items,
     with_points,
 )
 from linkforge_compile.schema.shapes import FREE, shape_of, shapes
@@ -132,7 +132,7 @@ def _row(node: YamlScalar, misfit: Misfit) -> str:
     """The numbers of one attribute of URDF, '0 0 1'."""
     if not is_row(node):
         return ""
-    if misfit.field == "origin" and (six := row_meant(node.text, _POSE)):
+    if misfit.field == "origin" and len(six := row_meant(node.text)) == 6:
         return _pose(six)
     if misfit.takes("array"):
         numbers = row_meant(node.text, lengths_of_lists(misfit.schema))
@@ -147,9 +147,9 @@ def _row_among_items(misfit: Misfit) -> str:
     for key in misfit.path[:-1]:
         listed = listed.child(key) if listed else None
         shape = shape.under(key) if isinstance(key, str) else shape.item or FREE
-    if not isinstance(listed, YamlList) or len(listed) > MOST_ITEMS:
+    if not isinstance(listed, YamlList):
         return ""
-    numbers = row_meant(text_of_items(listed), lengths_of_lists(shape.schema))
+    numbers = row_of_items(listed, lengths_of_lists(shape.schema))
     return _of_field(misfit.path[-2], numbers) if numbers else ""
 
 
@@ -172,6 +172,12 @@ def _state(node: YamlScalar, misfit: Misfit) -> str:
         return ""
     joint, group = misfit.path[2:]
     return f"'{group}: {{NAME: {{{joint}: {node.text}}}}}'" if group in groups.entries else ""
+
+
+def _way(node: YamlScalar, misfit: Misfit) -> str:
+    """A value of an entry whose key is the way to it: `elbow/limits/effort: 20`."""
+    keys = str(misfit.field).split("/")
+    return f"'{nested(keys, node.text)}'" if len(keys) > 1 and keys[1] in shape_of(misfit.schema).keys else ""
 
 
 def _use(node: YamlScalar, misfit: Misfit) -> str:
@@ -278,6 +284,7 @@ _OF_SCALARS: tuple[Callable[[YamlScalar, Misfit], str], ...] = (
     _number,
     _leader,
     _state,
+    _way,
     _use,
     _item,
 )
@@ -297,9 +304,6 @@ _NAMED_BY = {"group_states": "group", "disabled_collisions": "link1", "enabled_c
 
 _ATTRIBUTES = ("link", "value", "name", "joint", "xyz", "rgba", "size")
 """Attributes of URDF that hold the whole of their element."""
-
-_POSE = [range(6, 7)]
-"""How many numbers a place and a rotation in one row have."""
 
 _IN_ORDER: Mapping[str, Sequence[str]] = {
     "a cylinder": ("radius", "length"),

@@ -22,7 +22,7 @@ _THOUSANDS_COMMA = re.compile(r"([+-]?[1-9]\d{0,2}),(\d{3})(\s*[^\d\s,]\S*|)")
 _MINUS_SIGNS = ("\u2212", "\u2013", "\u2014")
 """What word processors make of a hyphen before a number."""
 _ZEROS_FIRST = re.compile(r"0\d+")
-MOST_ITEMS = 100
+_MOST_ITEMS = 100
 """A list that is longer is not written anew in a message."""
 _ANY_LENGTH = range(2, sys.maxsize)
 
@@ -68,7 +68,7 @@ def row_meant(text: str, lengths: Sequence[range] = (_ANY_LENGTH,)) -> Sequence[
 def lengths_of_lists(schema: Schema) -> list[range]:
     """Return how many items the lists have that a schema takes; none where it takes no list."""
     lists = (branch for branch in branches(schema) if "items" in branch)
-    bounds = [(each.get("minItems", 2), each.get("maxItems", MOST_ITEMS)) for each in lists]
+    bounds = [(each.get("minItems", 2), each.get("maxItems", _MOST_ITEMS)) for each in lists]
     return [range(least, most + 1) for least, most in bounds if isinstance(least, int) and isinstance(most, int)]
 
 
@@ -92,10 +92,12 @@ def is_row(node: YamlNode) -> bool:
     return isinstance(node, YamlScalar) and isinstance(node.value, str) and bool(row_meant(node.text))
 
 
-def text_of_items(node: YamlList) -> str:
-    """Return the items of a list as they are written, without a space behind a comma where there is none."""
+def row_of_items(node: YamlList, lengths: Sequence[range]) -> Sequence[str]:
+    """Return the numbers of a list, some items of which are several, or a part of one before a decimal comma."""
+    if len(node) > _MOST_ITEMS:
+        return ()
     parts = [f"{',' if _is_stuck(before, item) else ', '}{shown(item)}" for before, item in pairwise(node)]
-    return "".join((*map(shown, node.items[:1]), *parts))
+    return row_meant("".join((*map(shown, node.items[:1]), *parts)), lengths)
 
 
 def _is_stuck(before: YamlNode, item: YamlNode) -> bool:

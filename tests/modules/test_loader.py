@@ -196,6 +196,14 @@ def test_a_package_beside_that_of_the_spec_is_not_read_and_its_user_told_where_i
     assert "say where it is with 'packages' of this file or --package gripper=FOLDER" in fault.message
 
 
+def test_the_option_for_a_package_can_be_pasted_where_its_folder_has_a_space(tmp_path, monkeypatch):
+    write(tmp_path, {"src/arm/arm.robot.yaml": "modules: {a: {use: 'package://gripper/gripper.robot.yaml'}}"})
+    write(tmp_path, {"src/my hands/package.xml": MANIFEST.format("gripper")})
+    monkeypatch.chdir(tmp_path / "src" / "arm")
+    [fault] = compile_file("arm.robot.yaml").diagnostics
+    assert [note.message for note in fault.notes] == ["there is one; write --package gripper='../my hands'"]
+
+
 def test_a_package_beyond_the_sources_of_the_workspace_is_none_of_it(tmp_path):
     write(tmp_path, {"ws/src/arm/arm.robot.yaml": "modules: {a: {use: 'package://gripper/gripper.robot.yaml'}}"})
     (tmp_path / "gripper").mkdir()
