@@ -249,7 +249,7 @@ class Fields:
             self.tell(number.code, node, near=number.near, field=field, **number.facts)
             return None
         if code := doubt(node, number, measure):
-            self.tell(code, node, field=field, **doubted(number))
+            self.tell(code, node, field=field, **doubted(node, number))
         return number
 
     def numbers_at(self, node: YamlNode, field: str, measure: Measure, *counts: int) -> tuple[float, ...] | None:

@@ -145,14 +145,27 @@ def as_float(value: float) -> float:
         return math.inf if value > 0 else -math.inf
 
 
-def doubted(number: float) -> dict[str, str]:
-    """Return the facts of what `doubt` returns; those but `found` are for a file that can say no unit."""
+def doubted(node: YamlNode, number: float) -> dict[str, str]:
+    """Return the facts of what `doubt` returns; those but `found` are for a file that can say no unit.
+
+    There a row such as `rpy="0 90 -90"` is one text, so all of it is told at once, by the number furthest from 0.
+    """
+    row = _row_at(node) or (number,)
+    number = max(row, key=abs)
     return {
         "found": number_text(number),
-        "thousandth": number_text(number / 1000),
+        "thousandth": " ".join(number_text(each / 1000) for each in row),
         "turns": f"{abs(number) / math.tau:.3g}",
-        "of_degrees": f"{math.radians(number):.6g}",
+        "of_degrees": " ".join(f"{math.radians(each):.6g}" for each in row),
     }
+
+
+def _row_at(node: YamlNode) -> tuple[float, ...]:
+    """Return the numbers of the attribute in which a node stands; none where it is no XML, or holds anything else."""
+    words = (node.span.text or "").split() if node.span.file.is_xml else []
+    values = [scalar_value(word) for word in words]
+    numbers = [as_float(value) for value in values if isinstance(value, int | float) and not isinstance(value, bool)]
+    return tuple(numbers) if len(numbers) == len(words) and all(map(math.isfinite, numbers)) else ()
 
 
 def doubt(node: YamlNode, number: float, measure: Measure) -> Code | None:
