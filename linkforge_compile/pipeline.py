@@ -60,7 +60,10 @@ __all__ = [
 ]
 
 Parameters: TypeAlias = Mapping[str, object] | Iterable[str]
-"""Values by name, as Python values or text with units; or `name=value` pairs as the command line has them."""
+"""Values by name, as Python values or text with units; or `name=value` pairs as the command line has them.
+
+Diagnostics say how one that is missing is set as the others are: as the command line does where these are pairs.
+"""
 
 Packages: TypeAlias = Mapping[str, str | Path]
 """The folder that `package://NAME/` stands for, by name; they come before every other place to look."""
@@ -106,7 +109,7 @@ class Compilation:
 def compile_file(
     path: str | Path,
     *,
-    parameters: Parameters = (),
+    parameters: Parameters | None = None,
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
@@ -135,7 +138,7 @@ def compile_text(
     *,
     name: str = "<text>",
     folder: str | Path | None = None,
-    parameters: Parameters = (),
+    parameters: Parameters | None = None,
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
@@ -149,7 +152,7 @@ def compile_text(
 def check_file(
     path: str | Path,
     *,
-    parameters: Parameters = (),
+    parameters: Parameters | None = None,
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
@@ -165,7 +168,7 @@ def check_text(
     *,
     name: str = "<text>",
     folder: str | Path | None = None,
-    parameters: Parameters = (),
+    parameters: Parameters | None = None,
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
@@ -179,7 +182,7 @@ def check_text(
 def check_variants(
     path: str | Path,
     *,
-    parameters: Parameters = (),
+    parameters: Parameters | None = None,
     packages: Packages | None = None,
     gazebo: Gazebo = "gz",
     allow_outside: bool = False,
@@ -231,7 +234,7 @@ _Read: TypeAlias = Callable[[Loader, Diagnostics], SpecFile | None]
 class Settings(NamedTuple):
     """How to compile a spec."""
 
-    parameters: Parameters = ()
+    parameters: Parameters | None = None
     packages: Packages | None = None
     variant: str | None = None
     gazebo: Gazebo = "gz"
@@ -247,8 +250,8 @@ class Settings(NamedTuple):
 
     def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:
         """Return the parameters; the loader may read the files that they name."""
-        if isinstance(self.parameters, Mapping):
-            arguments = arguments_from_values(self.parameters)
+        if self.parameters is None or isinstance(self.parameters, Mapping):
+            arguments = arguments_from_values(self.parameters or {})
         else:
             arguments = arguments_from_text(tuple(self.parameters), sink)
         loader.roots = loader.roots.naming(arguments.named_files)
@@ -266,7 +269,7 @@ def _compile_file(path: str | Path, settings: Settings) -> Compilation:
         return open_xacro(XacroUse(file, Used(str(path), None), settings.arguments(loader, sink)), loader, sink)
 
     # The expansion has no parameters any more.
-    return _compile(read, file, settings._replace(parameters=()))
+    return _compile(read, file, settings._replace(parameters=None))
 
 
 def _compile_text(text: str, name: str, folder: str | Path | None, settings: Settings) -> Compilation:

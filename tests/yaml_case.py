@@ -65,7 +65,7 @@ def told(compilation: Compilation | Import) -> set[Told]:
 
 def check_case(path: Path) -> None:
     """Compile a spec file and compare what is told with what it and the modules it reads expect."""
-    compilation = compile_file(path)
+    compilation = compile_file(path, parameters=[])  # as the command line does, which the cases speak of
     files = {path, *compilation.files}
     wanted = {one for file in files for one in expected(file.name, file.read_text("utf-8", errors="replace"))}
     assert told(compilation) == wanted

@@ -68,7 +68,9 @@ def test_a_python_value_that_no_spec_can_say_is_a_type_error():
 @pytest.mark.parametrize(
     ("given", "remedy"),
     [
+        (None, "parameters={'reach': …} or variant='long'"),
         ({"size": 2}, "parameters={'reach': …} or variant='long'"),
+        ([], "'-p reach=LENGTH' or '--variant long'"),
         (["size=2"], "'-p reach=LENGTH' or '--variant long'"),
     ],
 )
