@@ -37,11 +37,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core import Robot
     from linkforge_compile.core.resolver import FileSystemResolver
     from linkforge_compile.diagnostics.ignores import Ignore
-
-    # Types that whoever lists the parameters of a spec asks this room for.
-    from linkforge_compile.modules.listing import ListedParameter as ListedParameter  # noqa: PLC0414
-    from linkforge_compile.modules.listing import Listing as Listing  # noqa: PLC0414
-    from linkforge_compile.modules.listing import Plain as Plain  # noqa: PLC0414
+    from linkforge_compile.modules.listing import Listing
 
 __all__ = [
     "Compilation",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.backends.element import InsideError, RestatedAttributeError, inside_of, place_of_attribute
 from linkforge_compile.backends.markup import spelled
 from linkforge_compile.backends.namespaces import undeclared_prefixes
-from linkforge_compile.backends.parts import Held, Part, parts_in, parts_of_urdf
+from linkforge_compile.backends.parts import Held, Part, worded_parts_in, worded_parts_of_urdf
 from linkforge_compile.backends.srdf import render_srdf
 from linkforge_compile.backends.unwritable import unwritable_raw, unwritable_texts
 from linkforge_compile.backends.urdf import capsules, render_urdf, require_dialect, stated_version
@@ -43,7 +43,7 @@ def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
 
     """
     require_dialect(gazebo)
-    parts = parts_of_urdf(robot)
+    parts = worded_parts_of_urdf(robot)
     yield from check_texts(robot, parts)
     yield from check_raw_seconds(parts)
     yield from check_attributes(parts, robot, partial(render_urdf, robot, gazebo=gazebo))
@@ -62,7 +62,7 @@ def srdf_limits(robot: Robot) -> Iterator[Diagnostic]:
     if not robot.says_semantic:
         # To ask for its semantic part would make one.
         return
-    parts = parts_in(robot.semantic)
+    parts = worded_parts_in(robot.semantic)
     yield from unwritable_texts(parts)
     yield from undeclared_prefixes(robot.semantic, parts)
     yield from check_attributes(parts, robot, partial(render_srdf, robot))

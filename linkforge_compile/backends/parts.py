@@ -1,4 +1,4 @@
-"""All parts that a robot is made of, at any depth: looked for once, for whoever looks into them."""
+"""The parts of a robot that hold more than numbers, at any depth: looked for once, for whoever looks into them."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ class Held(NamedTuple):
     said: list[tuple[str, object]]
 
 
-def parts_of_urdf(robot: Robot) -> list[Held]:
-    """Return all parts that the URDF of a robot writes."""
-    return parts_in(
+def worded_parts_of_urdf(robot: Robot) -> list[Held]:
+    """Return the parts with more than numbers in them that the URDF of a robot writes."""
+    return worded_parts_in(
         (
             tuple(robot.materials.values()),
             robot.links,
@@ -50,8 +50,8 @@ def parts_of_urdf(robot: Robot) -> list[Held]:
     )
 
 
-def parts_in(value: object) -> list[Held]:
-    """Return a part, or those in collections of them, and all that are in these, `extra_inside` among them.
+def worded_parts_in(value: object) -> list[Held]:
+    """Return a part, or those in collections of them, and what is in these, `extra_inside` among them.
 
     Those that hold numbers alone, which are most, are left out: XML can write every one of these.
     """

@@ -105,13 +105,13 @@ def parameter_elements(parameters: Mapping[str, object], source: SourceRef | Non
     return Xml("\n".join(_lines(_nodes(parameters, source, path))))
 
 
-def is_plain(part: object) -> bool:
-    """Whether a free part is texts and maps of texts that XML can hold; a no is not certain: writing it will tell."""
+def is_surely_writable(part: object) -> bool:
+    """Whether a free part is texts and maps of texts that XML can hold; a no means that writing it will tell."""
     if isinstance(part, str):
         return is_writable(part)
     if not isinstance(part, dict):
         return False
-    return all(key[:1] != "_" and is_xml_name(key) and is_plain(inner) for key, inner in part.items())
+    return all(key[:1] != "_" and is_xml_name(key) and is_surely_writable(inner) for key, inner in part.items())
 
 
 def _nodes(parameters: Mapping[str, object], source: SourceRef | None, path: Path) -> list[Content]:

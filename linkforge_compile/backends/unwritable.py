@@ -45,11 +45,13 @@ def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> 
         from linkforge_compile.backends.raw import raw_elements
 
         yield from refused(lambda: raw_elements(value), where, name)
-    elif isinstance(value, Mapping) and _keys_are_tags(part):
-        from linkforge_compile.backends.raw import is_plain, parameter_elements
+    elif isinstance(value, Mapping) and isinstance(part, Element) and part.KEYS_ARE_TAGS:
+        from linkforge_compile.backends.raw import is_surely_writable, parameter_elements
 
         # A plugin's raw XML stands in place of its parameters.
-        for key, text in value.items() if getattr(part, "raw_xml", None) is None and not is_plain(value) else ():
+        for key, text in (
+            value.items() if getattr(part, "raw_xml", None) is None and not is_surely_writable(value) else ()
+        ):
             yield from refused(partial(parameter_elements, {key: text}), where, name, key)
     else:
         yield from _in_value(value, where, name)
@@ -69,14 +71,6 @@ def _in_value(value: object, where: SourceRef | None, *path: str) -> Iterator[Di
     elif isinstance(value, Sequence):
         for inner in value:
             yield from _in_value(inner, where, *path)
-
-
-_WITH_TAGS_FOR_KEYS = frozenset({"GazeboElement", "GazeboPlugin", "Transmission"})
-"""Classes by name: to ask for them would import what the robot may have none of."""
-
-
-def _keys_are_tags(part: Part) -> bool:
-    return any(kind.__name__ in _WITH_TAGS_FOR_KEYS for kind in part.__class__.__mro__)
 
 
 def refused(write: Callable[[], object], where: SourceRef | None, *path: str | int) -> Iterator[Diagnostic]:

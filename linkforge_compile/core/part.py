@@ -62,6 +62,9 @@ class Element(Part):
     inside that are no part of their own. They are compared, but not shown by `repr`.
     """
 
+    KEYS_ARE_TAGS: ClassVar[bool] = False
+    """Whether the keys of a mapping in it become elements, and not attributes."""
+
     extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False)
     extra_elements: Sequence[str] = field(default=(), repr=False)
     extra_inside: Sequence[Inside] = field(default=(), repr=False)

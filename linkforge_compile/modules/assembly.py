@@ -7,13 +7,17 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field
 from pathlib import Path
 
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Removed
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.mesh_files import FindMesh, no_mesh
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.ref import Located
-from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
+from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
+
+COMPUTING = frozenset({"parameters", "variables", "data", "variants", "packages", "modules", "defaults"})
+"""The sections that describe no robot, but help to make one."""
 
 
 class NameReference(NamedTuple):
@@ -76,3 +80,25 @@ def joint_name_of(module: str, fields: Located) -> str:
     said = fields.child("joint")
     said = said.child("name") if isinstance(said, YamlMap) else said
     return said.text if isinstance(said, YamlScalar) and said.value is not None else f"{module}_joint"
+
+
+def robot_part(tree: YamlMap) -> YamlMap:
+    """Return what describes the robot, without what only computes it and the author's own keys."""
+    kept = {name: entry for name, entry in tree.entries.items() if name not in COMPUTING and not name.startswith("x-")}
+    return YamlMap(kept, tree.span)
+
+
+def own_name(tree: YamlMap) -> str:
+    """Return the name that a file gives to its robot, "" for none."""
+    name = tree.get("name")
+    return name.text if isinstance(name, YamlScalar) else ""
+
+
+def count_entries(tree: YamlMap, uses: int, budget: Budget, use: Span | None = None) -> None:
+    """Count the entries of one use of a file: each is moved once for every use around it, which is most of the work.
+
+    `uses` are these and the use itself, which stands at `use`, None for the compiled file. It counts for two, with
+    the joint that it hangs on.
+    """
+    entries = sum(len(entry.value) for entry in tree if isinstance(entry.value, YamlMap | YamlList))
+    budget.spend(Limit.ENTRIES, (entries + 2) * uses, use or tree.span)

@@ -6,7 +6,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.modules.arguments import Arguments, Unset
 from linkforge_compile.modules.assembly import Instance
 from linkforge_compile.modules.loader import Loader, SpecFile
-from linkforge_compile.modules.plain import as_written, is_plain
+from linkforge_compile.modules.plain import as_written, computes_nothing
 
 
 def expand(
@@ -24,7 +24,7 @@ def expand(
     tree. `unset` says what it is when nothing sets a required parameter of the compiled file. `variant` is the one
     of its `variants` that sets what the arguments do not.
     """
-    if variant is None and not arguments.entries and is_plain(spec):
+    if variant is None and not arguments.entries and computes_nothing(spec):
         return as_written(spec, loader)
     # Half of this room, and all of that of expressions: a sixth of the imports of a robot that needs neither.
     from linkforge_compile.modules.expansion import expanded

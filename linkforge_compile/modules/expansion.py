@@ -16,7 +16,7 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Arguments, Unset
-from linkforge_compile.modules.assembly import Instance
+from linkforge_compile.modules.assembly import Instance, count_entries, own_name, robot_part
 from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
 from linkforge_compile.modules.given import Given
 from linkforge_compile.modules.loader import Loader, SpecFile
@@ -25,7 +25,6 @@ from linkforge_compile.modules.module_entry import ModuleEntry, found, read_entr
 from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.own_names import asked_in
-from linkforge_compile.modules.plain import count_entries, own_name, robot_part
 from linkforge_compile.modules.uses import SPEC_ENDINGS, XACRO, UseSite, locate, mesh_base, name_from, open_use
 from linkforge_compile.modules.variants import tell_unknown_variant, variants_of
 from linkforge_compile.schema.shapes import FREE, shapes

@@ -8,7 +8,7 @@ from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.modules import Arguments, Loader, SpecFile, Unset
 from linkforge_compile.modules.expansion import expanded
-from linkforge_compile.modules.plain import as_written, is_plain
+from linkforge_compile.modules.plain import as_written, computes_nothing
 from linkforge_compile.source import Span
 
 ROOT = Path(__file__).parents[2]
@@ -22,7 +22,7 @@ def opened(path: Path) -> SpecFile | None:
 
 
 SPECS = sorted(path for folder in ("tests/cases", "examples") for path in (ROOT / folder).rglob("*.yaml"))
-PLAIN = {path.relative_to(ROOT).as_posix(): spec for path in SPECS if (spec := opened(path)) and is_plain(spec)}
+PLAIN = {path.relative_to(ROOT).as_posix(): spec for path in SPECS if (spec := opened(path)) and computes_nothing(spec)}
 
 
 @pytest.mark.parametrize("name", PLAIN)
@@ -63,10 +63,10 @@ def test_a_plain_file_is_its_own_assembly(name: str):
 def test_what_computes_or_may_lack_a_file_is_not_plain(said: str):
     spec = Loader().parse(f"linkforge: 1\nname: r\n{said}\n", "r.robot.yaml", Path(), Diagnostics())
     assert spec
-    assert not is_plain(spec)
+    assert not computes_nothing(spec)
 
 
 def test_what_its_author_keeps_for_himself_computes_nothing():
     spec = Loader().parse("linkforge: 1\nname: r\nx-mine: $(1)\n", "r.robot.yaml", Path(), Diagnostics())
     assert spec
-    assert is_plain(spec)
+    assert computes_nothing(spec)

@@ -27,6 +27,7 @@ class GazeboPlugin(Element):
     """
 
     PREFIXED = ("name",)
+    KEYS_ARE_TAGS = True
 
     name: str
     filename: str
@@ -80,6 +81,7 @@ class GazeboElement(Element):
     """
 
     PREFIXED = ("reference", "plugins")
+    KEYS_ARE_TAGS = True
 
     reference: str | None = None
     properties: Mapping[str, FreePart] = FrozenMap()

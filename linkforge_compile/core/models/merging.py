@@ -61,26 +61,29 @@ class PrefixedParts:
             extra_attributes=attribute_pairs(robot.extra_attributes),
         )
 
+    def materials_beside(self, own: Mapping[str, Material]) -> dict[str, Material]:
+        """Return those of the materials that are new to a robot with its own.
 
-def new_materials(own: Mapping[str, Material], added: Mapping[str, Material]) -> dict[str, Material]:
-    """Return those of the added materials that are new.
+        Raises:
+            RobotValidationError: DUPLICATE_NAME for two different materials of one name.
 
-    Raises:
-        RobotValidationError: DUPLICATE_NAME for two different materials of one name.
+        """
+        for name, material in self.materials.items():
+            if own.get(name, material) != material:
+                raise RobotValidationError(
+                    ValidationErrorCode.DUPLICATE_NAME,
+                    f"Duplicate material name: '{name}', for two different materials",
+                    target="Material",
+                    value=name,
+                )
+        return {name: material for name, material in self.materials.items() if name not in own}
 
-    """
-    for name, material in added.items():
-        if own.get(name, material) != material:
-            raise RobotValidationError(
-                ValidationErrorCode.DUPLICATE_NAME,
-                f"Duplicate material name: '{name}', for two different materials",
-                target="Material",
-                value=name,
-            )
-    return {name: material for name, material in added.items() if name not in own}
+    def hung_by(self, connecting: Joint, *, like: Joint | None) -> PrefixedParts:
+        """Return them with the connecting joint, which has from `like` what merging has no argument for."""
+        return replace(self, joints=(*self.joints, _with_rest_of(like, connecting)))
 
 
-def with_rest_of(joint: Joint | None, connecting: Joint) -> Joint:
+def _with_rest_of(joint: Joint | None, connecting: Joint) -> Joint:
     """Return the connecting joint with those fields of `joint`, if any, for which merging has no argument."""
     if joint is None:
         return connecting

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from copy import deepcopy
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
@@ -143,26 +142,22 @@ class Robot(SemanticRobot):
                 different materials of one name; what Joint raises for the connecting one.
 
         """
-        from linkforge_compile.core.models.merging import PrefixedParts, with_rest_of
-
         if at_link is not None:
             _require(self.links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
-        parts = PrefixedParts.of(component, prefix)
+        parts = _parts_under(component, prefix)
         links = self.links.extended(parts.links)  # of two links of one name, nobody could say which one a joint means
         if at_link is None:
             refuse_loose_joints({link.name for link in parts.links}, parts.joints)
         else:
             root = single_root(parts.links, parts.joints).name
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
-            parts = replace(parts, joints=(*parts.joints, with_rest_of(joint, connecting)))
+            parts = parts.hung_by(connecting, like=joint)
         refuse_cycles(parts.joints)
         self._take_in(parts, links)
         return self
 
     def _take_in(self, parts: PrefixedParts, links: Index[Link]) -> None:
-        from linkforge_compile.core.models.merging import new_materials
-
-        materials = new_materials(self.materials, parts.materials)
+        materials = parts.materials_beside(self.materials)
         add_materials = self.materials.update
         joints = self.joints.extended(parts.joints)
         sensors = self.sensors.extended(parts.sensors)
@@ -193,10 +188,8 @@ class Robot(SemanticRobot):
         """
         if not prefix:
             return
-        from linkforge_compile.core.models.merging import PrefixedParts
-
         require_robot_name(prefix + self.name)
-        parts = PrefixedParts.of(self, prefix)
+        parts = _parts_under(self, prefix)
         self.links = parts.links  # first, for they alone can be refused: two may have been renamed to one name
         self.joints = parts.joints
         self.sensors = parts.sensors
@@ -262,6 +255,13 @@ class Robot(SemanticRobot):
         errors = [found.message for found in check(self, Gaps()) if found.severity is Severity.ERROR]
         if errors:
             raise RobotGeneratorError("\n".join(errors))
+
+
+def _parts_under(robot: Robot, prefix: str) -> PrefixedParts:
+    # Most robots are neither merged nor given a prefix.
+    from linkforge_compile.core.models.merging import PrefixedParts
+
+    return PrefixedParts.of(robot, prefix)
 
 
 def _require(parts: Index[Link] | Index[Joint], name: str, what: str, target: str, *field: str) -> None:

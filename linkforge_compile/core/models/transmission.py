@@ -125,6 +125,7 @@ class Transmission(Element):
     """
 
     PREFIXED = ("name", "joints", "actuators")
+    KEYS_ARE_TAGS = True
 
     name: str
     type: str
