@@ -8,7 +8,11 @@ from linkforge_compile.bounds import MAX_FILE_BYTES
 
 
 class UnreadableError(Exception):
-    """There is something at the path, and no text that could be a spec; says why."""
+    """There is something at the path, and no text that could be a spec; says why, and of which byte if of one."""
+
+    def __init__(self, reason: str, undecoded: UnicodeDecodeError | None = None) -> None:
+        self.undecoded = undecoded
+        super().__init__(reason)
 
 
 class TooLargeError(UnreadableError):
@@ -30,7 +34,8 @@ def utf8_text(content: bytes) -> str:
         return content.decode("utf-8")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
-        raise UnreadableError(f"it is not UTF-8: line {line} has the byte {error.object[error.start]:#04x}") from error
+        reason = f"it is not UTF-8: line {line} has the byte {error.object[error.start]:#04x}"
+        raise UnreadableError(reason, error) from error
 
 
 def file_bytes(path: Path, limit: int, *, only_regular: bool) -> bytes | None:

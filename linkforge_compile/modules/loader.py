@@ -22,7 +22,7 @@ from linkforge_compile.modules.trees import known_source, tree_of
 from linkforge_compile.modules.whole import Whole, reached
 from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
+from linkforge_compile.source.encoding import EncodingError, begins_xml, place_of_byte, xml_text
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
 from linkforge_compile.syntax.ignore_words import IGNORE_WORDS
 
@@ -216,7 +216,9 @@ class Loader:
         try:
             text = read(path, only_regular=used.where is not None)
         except UnreadableError as error:
-            sink.report(UNREADABLE_FILE.at(used.where, path=used.text, reason=error))
+            byte = place_of_byte(error.undecoded, str(as_typed(path))) if error.undecoded else None
+            notes = [Note("the byte is here", byte)] if byte and used.where else []
+            sink.report(UNREADABLE_FILE.at(used.where or byte, path=used.text, reason=error, notes=notes))
             self._unread.append(as_typed(path))
             return None
         if text is None:
@@ -292,4 +294,4 @@ def _decoded_xml(content: bytes) -> str:
     try:
         return xml_text(content)
     except EncodingError as error:
-        raise UnreadableError(str(error)) from error
+        raise UnreadableError(str(error), error.undecoded) from error

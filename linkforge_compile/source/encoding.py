@@ -6,6 +6,8 @@ import codecs
 import re
 
 from linkforge_compile.pattern import pattern
+from linkforge_compile.source.file import SourceFile
+from linkforge_compile.source.span import Span
 
 _MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be"))
 _DECLARED = pattern(rb"""<\?xml\s(?:(?!\?>).)*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""", re.DOTALL)
@@ -24,8 +26,26 @@ _KNOWN = frozenset(
 )
 
 
+_TWO_BYTES = ("utf-16", "utf-16-le", "utf-16-be")
+_WAY_OUT = (
+    "save the file as UTF-8, or declare the encoding that it has, as in <?xml version='1.0' encoding='iso-8859-1'?>"
+)
+
+
 class EncodingError(Exception):
-    """The bytes are no text in the encoding that they are said to be; says why."""
+    """The bytes are no text in the encoding that they are said to be; says why, and of which byte if of one."""
+
+    def __init__(self, reason: str, undecoded: UnicodeDecodeError | None = None) -> None:
+        self.undecoded = undecoded
+        super().__init__(reason)
+
+
+def place_of_byte(error: UnicodeDecodeError, name: str) -> Span:
+    """Return where the byte stands that a decoder refused, in a file of that name that shows what can be read of it."""
+    before, text = (data.decode(error.encoding, "replace") for data in (error.object[: error.start], error.object))
+    lines = before.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    line, column = len(lines), len(lines[-1]) + 1
+    return Span(SourceFile(name, text), line, column, line, column + 1)
 
 
 def begins_xml(data: bytes | str) -> bool:
@@ -41,7 +61,11 @@ def xml_text(data: bytes) -> str:
         if data.startswith(mark):
             return _decoded(data.removeprefix(mark), encoding)
     declared = _DECLARED.search(data[:_SEARCHED])
-    return _decoded(data, declared[1].decode("ascii") if declared else "utf-8")
+    encoding = declared[1].decode("ascii") if declared else "utf-8"
+    if encoding.lower() in _TWO_BYTES:
+        # Each letter of the declaration was one byte.
+        raise EncodingError(f"it declares the encoding {encoding}, which it is not in; write encoding='utf-8'")
+    return _decoded(data, encoding)
 
 
 def _decoded(data: bytes, encoding: str) -> str:
@@ -55,4 +79,5 @@ def _decoded(data: bytes, encoding: str) -> str:
         return data.decode(known)
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        raise EncodingError(f"line {line} has the byte {data[error.start]:#04x}, which is not {encoding}") from error
+        reason = f"line {line} has the byte {data[error.start]:#04x}, which is not {encoding}; {_WAY_OUT}"
+        raise EncodingError(reason, error) from error

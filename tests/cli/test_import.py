@@ -232,7 +232,9 @@ def test_a_file_in_another_encoding_than_it_says_is_told(tmp_path: Path, capfd: 
     urdf = tmp_path / "arm.urdf"
     urdf.write_bytes(b'<?xml version="1.0" encoding="utf-8"?><robot name="\xff"/>')
     assert main(["import", str(urdf)]) == 1
-    assert "line 1 has the byte 0xff, which is not utf-8" in capfd.readouterr().err
+    told = capfd.readouterr().err
+    assert "line 1 has the byte 0xff, which is not utf-8; save the file as UTF-8, or declare the encoding" in told
+    assert "arm.urdf:1:52: error" in told
 
 
 def test_standard_input_is_no_srdf(arm, capfd: pytest.CaptureFixture[str]):

@@ -140,6 +140,7 @@ def test_a_file_is_read_in_the_encoding_that_it_says(data: bytes, name: str):
     ("data", "reason"),
     [
         (b"<robot>\n\xff</robot>", "line 2 has the byte 0xff, which is not utf-8"),
+        (b'<?xml version="1.0" encoding="UTF-16"?><robot/>', "it declares the encoding UTF-16, which it is not in"),
         (b'<?xml version="1.0" encoding="klingon"?><robot/>', "there is no encoding 'klingon' of text here"),
         (b'<?xml version="1.0" encoding="zip"?><robot/>', "there is no encoding 'zip' of text here"),
         (b'<?xml version="1.0" encoding="unicode_escape"?><robot/>', "there is no encoding 'unicode_escape'"),
