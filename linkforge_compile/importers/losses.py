@@ -14,7 +14,7 @@ from linkforge_compile.diagnostics.codes.importing import (
     VERSION_FOR_CAPSULE,
 )
 from linkforge_compile.importers.draft import same
-from linkforge_compile.importers.orders import reordered
+from linkforge_compile.importers.orders import recolored
 from linkforge_compile.importers.said import Said, said
 from linkforge_compile.importers.xml import XmlDocument, XmlElement
 from linkforge_compile.source import Span
@@ -25,8 +25,9 @@ _Key: TypeAlias = tuple[str | None, ...]
 
 def losses(document: XmlDocument, again: XmlDocument) -> Iterator[Diagnostic]:
     """Yield what two documents do not both say, told at the place in the first."""
-    yield from _differences(said(document.root), said(again.root))
-    yield from reordered(document.root, again.root)
+    one, other = said(document.root), said(again.root)
+    yield from _differences(one, other)
+    yield from recolored(one, other)
 
 
 def unread(tree: YamlNode, again: YamlNode | None, name: str = "robot") -> Iterator[Diagnostic]:

@@ -98,14 +98,14 @@ BECOMES_OTHER = Code("LF8191", _W, "{what} is '{was}' here, and '{now}' as it co
 SHAPES_REORDERED = Code(
     "LF8140",
     _W,
-    "visuals and collisions of link '{link}' come out of the spec in another order, and MuJoCo gives a collision the "
-    "color of the visual before it",
+    "visuals and collisions of link '{link}' come out of the spec in another order, so MuJoCo shows this one in the "
+    "color of another visual",
 )
 COLORS_REORDERED = Code(
     "LF8141",
     _W,
-    "of the colors named '{name}' another one comes first in what comes out of the spec, and MuJoCo takes the first "
-    "for all that only name it",
+    "MuJoCo shows this in another of the colors named '{name}' in what comes out of the spec, for it takes the first "
+    "in a file for all that only name it",
 )
 COMES_IN_ADDITION = Code("LF8192", _W, "{what} comes out of the spec, and does not stand here")
 
