@@ -174,13 +174,14 @@ class _Patch:
         name = change.name
         if "$(" in name or any("$(" in other for other in base.entries):
             return
-        if isinstance(change.value, YamlFault) and name.partition("/")[0] in base.entries:
-            return  # a way to a value is told by that
+        way = _way(name, base, shape)
+        if way and isinstance(change.value, YamlFault):
+            return  # its fault says how the way is written
         if name in _names(self._whole, "mount") and shape is shapes().under("joints"):
             self._report(MOUNT_IS_NO_JOINT, change)
             return
         notes = self._missing.why(name)
-        hint = "" if notes else self._hint(name, base, shape)
+        hint = "" if notes else way or self._hint(name, base, shape)
         near = () if notes or hint else base.entries
         self._report(NOTHING_TO_OVERRIDE, change, near=near, notes=notes, owner=shape.things, hint=hint)
 
@@ -322,6 +323,15 @@ def _pairs_without(pairs: YamlNode, links: set[str]) -> YamlNode:
 
 def _map_of(entries: list[YamlEntry], span: Span) -> YamlMap:
     return YamlMap({entry.name: entry for entry in entries}, span)
+
+
+def _way(name: str, base: YamlMap, shape: Shape) -> str:
+    """Return how a name is written that is the way into an entry: `elbow/limits`; "" for any other."""
+    from linkforge_compile.schema.keys_meant import nested, steps_of
+
+    first, *steps = steps_of(name)
+    is_way = steps and first in base.entries and steps[0] in shape.under(first).keys
+    return f"; write '{nested([first, *steps], '…')}'" if is_way else ""
 
 
 def _names(tree: YamlMap, section: str) -> Mapping[str, object]:

@@ -131,10 +131,15 @@ _BEYOND_ITS_KEYS = {
 
 def _way_in_one_key(key: str, known: Mapping[str, Json]) -> str:
     """Return how a way to a value is written that stands in one key, as 'explain' and YAML's queries write it."""
-    first, *steps = re.split(r"[/.]", key)
+    first, *steps = steps_of(key)
     if first not in known or not steps or not all(steps):
         return ""
     return f"write '{nested([first, *steps], '…')}'"
+
+
+def steps_of(key: str) -> Sequence[str]:
+    """Return the keys of a way to a value that stands in one key; the key itself where it is none."""
+    return re.split(r"[/.]", key)
 
 
 def nested(keys: Sequence[str], value: str) -> str:

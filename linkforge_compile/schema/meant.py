@@ -10,7 +10,7 @@ from linkforge_compile.expressions import forgotten_expression
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.colors_meant import color_meant
 from linkforge_compile.schema.json_types import Schema, branches, mapping
-from linkforge_compile.schema.keys_meant import nested
+from linkforge_compile.schema.keys_meant import nested, steps_of
 from linkforge_compile.schema.numbers_meant import (
     is_row,
     lengths_of_lists,
@@ -176,7 +176,7 @@ def _state(node: YamlScalar, misfit: Misfit) -> str:
 
 def _way(node: YamlScalar, misfit: Misfit) -> str:
     """A value of an entry whose key is the way to it: `elbow/limits/effort: 20`."""
-    keys = str(misfit.field).split("/")
+    keys = steps_of(str(misfit.field))
     return f"'{nested(keys, node.text)}'" if len(keys) > 1 and keys[1] in shape_of(misfit.schema).keys else ""
 
 

@@ -104,7 +104,7 @@ def _is_indented(line: YamlEntry, below: Sequence[YamlEntry], name: str, around:
 def _is_plainly_of(section: Shape, entry: YamlEntry) -> bool:
     """Whether an entry is one of a section and, as its keys tell, of no other."""
     if section.is_object:
-        return True
+        return isinstance(entry.value, YamlMap)
     return _takes(section, entry) and bool(_keys(entry) & _keys_of_entries(section))
 
 

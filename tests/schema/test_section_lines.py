@@ -29,6 +29,7 @@ RIGHT = {
     "a variable without a value stands before one of those names": "variables: {joints: , links: 2}",
     "no variable of any value has the keys of a joint": "variables: {parameters: , variants: , joints: , n: {a: 3}}",
     "variables have the keys of an object and other values": "variables: {gazebo: , plugins: {mock: mock/System}}",
+    "variables are called as the keys of an object": "variables: {gazebo: , gravity: true}",
     "metadata have such names": "metadata: {joints: , author: me}",
     "a variant says what a joint does": "variants: {links: , joints: {child: 3}}",
     "a note of the author's own has such names": "x-notes: {joints: , todo: measure again}",
