@@ -70,8 +70,9 @@ class _Placing:
             elif isinstance(item, XmlElement):
                 around = holder if key is None else key
                 inside = None if item in self._draft.raw else self.comments_of(item, around)
-                first = _latest(key or inside, first)
-                on_line = key or inside or holder
+                said = _latest(inside, key)
+                first = _latest(said, first)
+                on_line = _latest(holder, said)
         return first
 
     def _subject(self, comment: XmlComment, on_line: YamlNode | None, following: YamlNode | None) -> YamlNode | None:
@@ -116,7 +117,7 @@ def _headings(root: XmlElement) -> Iterator[XmlComment]:
             is_apart = is_above_another = False
         elif isinstance(item, str):
             is_apart = is_apart or item.count("\n") > 1
-        elif not item.follows:
+        else:
             is_known = _HEADING.match(item.text.lstrip()) is not None
             is_apart = is_apart or is_known or (is_above_another and "\n" in item.text)
             is_above_another = True

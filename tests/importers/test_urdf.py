@@ -355,7 +355,7 @@ def test_a_comment_at_the_end_of_a_line_is_about_what_stands_on_it(read):
 )
 def test_comments_apart_from_the_first_element_stand_above_its_section(read, above: str, below: str):
     joint = '<joint name="j" type="floating"><parent link="a"/><child link="b"/></joint>'
-    text = read(f'\n{above}<link name="a"/>\n\n<!-- within it -->\n\n<link name="b"/>{joint}')
+    text = read(f'{above}<link name="a"/>\n\n<!-- within it -->\n\n<link name="b"/>{joint}')
     head, _, links = text.partition("\n\njoints:")[0].partition("links:\n")
     assert head == "# Arm of our lab\n# made of steel\n"
     assert links == f"{below}  a: {{}}\n  # within it\n  b: {{}}"
