@@ -56,10 +56,8 @@ __all__ = [
 ]
 
 Parameters: TypeAlias = Mapping[str, object] | Iterable[str]
-"""Values by name, as Python values or text with units; or `name=value` pairs as the command line has them.
-
-Diagnostics say how one that is missing is set as the others are: as the command line does where these are pairs.
-"""
+"""Values by name, as Python values or text with units; or `name=value` pairs as the command line has them, which
+diagnostics then say of a missing one as well."""
 
 Packages: TypeAlias = Mapping[str, str | Path]
 """The folder that `package://NAME/` stands for, by name; they come before every other place to look."""
@@ -246,10 +244,8 @@ class Settings(NamedTuple):
 
     def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:
         """Return the parameters; the loader may read the files that they name."""
-        if self.parameters is None or isinstance(self.parameters, Mapping):
-            arguments = arguments_from_values(self.parameters or {})
-        else:
-            arguments = arguments_from_text(tuple(self.parameters), sink)
+        said = {} if self.parameters is None else self.parameters
+        arguments = arguments_from_values(said) if isinstance(said, Mapping) else arguments_from_text(tuple(said), sink)
         loader.roots = loader.roots.naming(arguments.named_files)
         return arguments
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator
 from operator import methodcaller
-from typing import TypeAlias
+from typing import TypeAlias, TypeGuard
 
 from linkforge_compile.backends.marks import is_recording, mark
 from linkforge_compile.core.exceptions import RobotGeneratorError
@@ -58,7 +58,12 @@ Spellable: TypeAlias = str | float | bool | Iterable[float]
 """What an attribute or a text may be: words, a number, yes or no, or numbers with spaces between them."""
 
 _item: Callable[[object], float | bool] = methodcaller("item")
-"""Makes of a number or a truth of NumPy, alone or as an array without dimensions, that of Python."""
+"""Makes of a value of NumPy that of Python."""
+
+
+def is_of_numpy(value: object) -> TypeGuard[float]:
+    """Whether it is a number or a truth of NumPy, alone or as an array without dimensions."""
+    return getattr(value, "ndim", None) == 0
 
 
 def spelled(value: Spellable) -> str:
@@ -67,7 +72,7 @@ def spelled(value: Spellable) -> str:
         return number_text(value)
     if isinstance(value, str):
         return value
-    if getattr(value, "ndim", None) == 0:
+    if is_of_numpy(value):
         value = _item(value)
     if isinstance(value, bool):
         return "true" if value else "false"

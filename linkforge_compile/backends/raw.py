@@ -10,6 +10,7 @@ from linkforge_compile.backends.marks import is_recording, mark, mark_of_line
 from linkforge_compile.backends.markup import (
     Xml,
     escaped,
+    is_of_numpy,
     is_writable,
     is_xml_name,
     require_writable,
@@ -137,7 +138,7 @@ def _node(tag: str, value: object, source: SourceRef | None, path: Path) -> Node
 
 
 def _text(value: object) -> str:
-    return spelled(value) if isinstance(value, float | int) else str(value)
+    return spelled(value) if isinstance(value, float | int) or is_of_numpy(value) else str(value)
 
 
 def _require_name(name: str) -> None:

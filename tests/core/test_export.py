@@ -1,10 +1,14 @@
 """Exporting is a method of the robot: checked first, unless one says not to."""
 
+import re
+
 import numpy as np
 import pytest
 
 from linkforge_compile.core import (
     CameraInfo,
+    GazeboElement,
+    GazeboPlugin,
     GroupState,
     Inertial,
     Joint,
@@ -66,6 +70,12 @@ def test_a_truth_of_numpy_is_written_as_a_truth(true):
     sensor = Sensor("eye", "camera", "base", always_on=true, camera_info=CameraInfo())
     urdf = Robot("arm", links=[Link("base")], sensors=[sensor]).export_urdf(validate=False)
     assert "<always_on>true</always_on>" in urdf
+
+
+def test_values_of_numpy_in_a_free_part_are_written_as_those_of_python():
+    plugin = GazeboPlugin("light", "light.so", {"on": np.True_, "gain": [np.asarray(0.5), np.int8(3)]})
+    urdf = Robot("arm", links=[Link("base")], gazebo_elements=[GazeboElement(plugins=[plugin])]).export_urdf()
+    assert re.findall("<(on|gain)>(.*)</", urdf) == [("on", "true"), ("gain", "0.5"), ("gain", "3")]
 
 
 def test_a_version_that_was_set_later_is_written():
