@@ -24,6 +24,8 @@ _MINUS_SIGNS = ("\u2212", "\u2013", "\u2014")
 _ZEROS_FIRST = re.compile(r"0\d+")
 _MOST_ITEMS = 100
 """A list that is longer is not written anew in a message."""
+_LONGEST_ROW = 2000
+"""A text of so many characters is no row that somebody wrote; a hostile one is not read word by word."""
 _ANY_LENGTH = range(2, sys.maxsize)
 
 
@@ -58,7 +60,7 @@ def row_meant(text: str, lengths: Sequence[range] = (_ANY_LENGTH,)) -> Sequence[
 
     Where spaces part them, the commas within are decimal ones, unless too few remain.
     """
-    if _DECIMAL_COMMA.fullmatch(text):
+    if len(text) > _LONGEST_ROW or _DECIMAL_COMMA.fullmatch(text):
         return ()
     spaced = [word.strip(",") for word in text.split()]
     rows = (_numbers(words) for words in (spaced, re.split(r"[\s,]+", text.strip())))
