@@ -200,6 +200,14 @@ def test_equal_materials_may_share_a_name():
     assert robot.materials == {"skin": Material("skin", RED)}
 
 
+@pytest.mark.parametrize(("own", "added"), [(True, True), (True, False), (False, True), (False, False)])
+def test_a_material_that_two_robots_have_stands_behind_the_links_if_both_say_so(own: bool, added: bool):
+    robot = Robot("own", materials={"skin": Material("skin", RED, after_links=own), "bone": Material("bone", RED)})
+    robot.merge(Robot("added", materials={"skin": Material("skin", RED, after_links=added)}), None, None)
+    assert list(robot.materials) == ["skin", "bone"]
+    assert robot.materials["skin"].after_links is (own and added)
+
+
 def test_the_connecting_joint_may_not_take_a_name_from_either_robot():
     robot = station().merge(gripper(), "table", "mount", prefix="a_")
     for taken in ("mount", "a_close", "b_close"):

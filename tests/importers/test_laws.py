@@ -10,6 +10,10 @@ from hypothesis import given, settings
 from linkforge_compile import import_urdf, render_srdf, render_urdf
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.importers.orders import named_colors
+from linkforge_compile.importers.xml import read_xml
+from linkforge_compile.source import SourceFile
 from tests.writers.test_laws import compiled, robots
 
 few = settings(max_examples=25, deadline=None)
@@ -60,6 +64,7 @@ def test_an_imported_robot_has_all_its_elements(robot: Robot):
     assert elements(render_urdf(again)) == elements(render_urdf(robot))
     assert elements(render_srdf(again)) == elements(render_srdf(robot))
     assert shapes(render_urdf(again)) == shapes(render_urdf(robot))
+    assert colors(render_urdf(again)) == colors(render_urdf(robot))
 
 
 def shapes(document: str) -> dict[str, list[str]]:
@@ -68,10 +73,25 @@ def shapes(document: str) -> dict[str, list[str]]:
     return {link.get("name", ""): [one.tag for one in link if one.tag in {"visual", "collision"}] for link in links}
 
 
+def colors(document: str) -> list[tuple[str, tuple[float | None, ...]]]:
+    """Return the names of materials with their colors, in their order."""
+    read = read_xml(SourceFile("r.urdf", document), Diagnostics())
+    assert read
+    return [(name, color) for _, name, color in named_colors(read.root)]
+
+
+def first_of_each(
+    colors: list[tuple[str, tuple[float | None, ...]]],
+) -> dict[str, tuple[float | None, ...]]:
+    """Return the first color of each name: what MuJoCo takes for all who only name it."""
+    return dict(reversed(colors))
+
+
 @few
 @given(robots.filter(is_writable))
 def test_what_came_in_once_stays_as_it_is(robot: Robot):
     first = compiled(imported(robot))
+    assert first_of_each(colors(render_urdf(first))) == first_of_each(colors(render_urdf(robot)))
     spec = imported(first)
     second = compiled(spec)
     assert (render_urdf(second), render_srdf(second)) == (render_urdf(first), render_srdf(first))

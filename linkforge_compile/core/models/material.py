@@ -65,7 +65,7 @@ class Material(Element):
 
     `texture` is the file of the image, as a URI or a path: `<texture filename>`; None for none. `after_links` says that
     the robot's document has it behind the links: of two colors of one name, MuJoCo takes the first in the document for
-    all who only name it. It is not compared.
+    all who only name it. It is not compared: of equal ones that share a name it holds if all say it.
 
     Raises:
         RobotValidationError: VALUE_EMPTY if it has neither color nor texture.

@@ -62,7 +62,9 @@ class PrefixedParts:
         )
 
     def materials_beside(self, own: Mapping[str, Material]) -> dict[str, Material]:
-        """Return those of the materials that are new to a robot with its own.
+        """Return those of the materials that are new to a robot with its own, and those of its own that move.
+
+        A material that both have stands behind the links if both say so: else it would depend on which comes first.
 
         Raises:
             RobotValidationError: DUPLICATE_NAME for two different materials of one name.
@@ -76,7 +78,11 @@ class PrefixedParts:
                     target="Material",
                     value=name,
                 )
-        return {name: material for name, material in self.materials.items() if name not in own}
+        return {
+            name: replace(own[name], after_links=False) if name in own else material
+            for name, material in self.materials.items()
+            if name not in own or own[name].after_links > material.after_links
+        }
 
     def hung_by(self, connecting: Joint, *, like: Joint | None) -> PrefixedParts:
         """Return them with the connecting joint, which has from `like` what merging has no argument for."""
