@@ -30,12 +30,13 @@ def check_joint_ends(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     URDF readers refuse the whole robot when one link is missing. Declare the link, or correct the name;
     a link of a module bears the module's prefix.
     """
-    ends = (
-        Use(name, f"joint '{joint.name}'", joint.source, (end,))
-        for joint in robot.joints
-        for end, name in (("parent", joint.parent), ("child", joint.child))
-    )
-    yield from unknown(ends, UNKNOWN_LINK, robot.links.names, gaps)
+    known = robot.links.names
+    parents = (Use(joint.parent, f"joint '{joint.name}'", joint.source, ("parent",)) for joint in robot.joints)
+    yield from unknown(parents, UNKNOWN_LINK, known, gaps)
+    children = (Use(joint.child, f"joint '{joint.name}'", joint.source, ("child",)) for joint in robot.joints)
+    # A link that hangs on a joint already can be no other's child, however like its name.
+    hanging = {joint.child for joint in robot.joints}
+    yield from unknown(children, UNKNOWN_LINK, known, gaps, offered=[name for name in known if name not in hanging])
 
 
 def check_second_parents(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
