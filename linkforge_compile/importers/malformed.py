@@ -11,6 +11,7 @@ from linkforge_compile.named_tuple import NamedTuple
 _CONFLICT = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 _REFERENCE = re.compile(r"&[\w.-]*\Z")
 _NAME = re.compile(r"[^\s/<>\"']+")
+_MOST_SHOWN = 40
 _BEFORE_VALUE = re.compile(r"<[^\s<>!?/][^<>]*=\s*")
 
 
@@ -29,16 +30,16 @@ def malformed(code: int, text: str, at: int, open_tags: Sequence[str]) -> Malfor
     """
     if not text.strip():
         return Malformed("the file is empty", 0)
-    known = ErrorString(code)
+    known, innermost = ErrorString(code), _shown(open_tags[-1]) if open_tags else None
     if known == errors.XML_ERROR_INVALID_TOKEN and (found := _of_invalid_token(text, at)):
         return found
-    if known == errors.XML_ERROR_TAG_MISMATCH and open_tags:
+    if known == errors.XML_ERROR_TAG_MISMATCH and innermost:
         name = _NAME.match(text, at)
-        closed = f"</{name[0]}>" if name else "an end"
-        return Malformed(f"expected </{open_tags[-1]}>, found {closed}", at, is_open=True)
+        closed = f"</{_shown(name[0])}>" if name else "an end"
+        return Malformed(f"expected </{innermost}>, found {closed}", at, is_open=True)
     if known == errors.XML_ERROR_NO_ELEMENTS:
-        if open_tags:
-            return Malformed(f"it ends before </{open_tags[-1]}>", at, is_open=True)
+        if innermost:
+            return Malformed(f"it ends before </{innermost}>", at, is_open=True)
         return Malformed("there is no element in it", at)
     if known == errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
         return Malformed("it has one element, behind which nothing but comments may stand", at)
@@ -61,5 +62,11 @@ def _of_invalid_token(text: str, at: int) -> Malformed | None:
         return Malformed(found, at) if text.startswith("<", at) else None
     value = _NAME.match(text, at)
     if value and _BEFORE_VALUE.fullmatch(tag):
-        return Malformed(f"the value of an attribute stands in quotes; write '\"{value[0].strip('“”‘’')}\"'", at)
+        return Malformed(
+            f"the value of an attribute stands in quotes; write '\"{_shown(value[0].strip('“”‘’'))}\"'", at
+        )
     return None
+
+
+def _shown(name: str) -> str:
+    return name if len(name) <= _MOST_SHOWN else f"{name[:_MOST_SHOWN]}..."

@@ -165,7 +165,7 @@ class _Parse:
         at = self._offset(self._parser.ErrorByteIndex)
         found = malformed(error.code, self._parsed, at, [element.tag for element in around])
         notes = [
-            Note(f"<{element.tag}> begins here", self._span(element.start, len(element.tag) + 1))
+            Note("the element that is open begins here", self._span(element.start, len(element.tag) + 1))
             for element in around[-1:]
             if found.is_open
         ]

@@ -69,7 +69,7 @@ def test_the_child_of_a_joint_at_fault_is_no_second_root():
 
 
 def test_limits_that_vendors_leave_open_are_raw():
-    """urdfdom 1.0 took them, and MuJoCo does."""
+    """Older versions of urdfdom take them, and MuJoCo does."""
     limited = _joint('<axis xyz="0 0 1"/><limit effort="inf" velocity="1"/>', "continuous")
     compilation = compile_text(f'<robot name="r">{limited}</robot>')
     assert [one.code.id for one in compilation.diagnostics] == ["LF8021"]

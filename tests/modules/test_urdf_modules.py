@@ -95,7 +95,7 @@ def test_what_is_wrong_with_it_is_told_in_it_with_its_use(tmp_path):
 def test_what_is_no_xml_is_told_in_it_with_its_use(tmp_path):
     [diagnostic] = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", "<robot name='g'>").diagnostics
     assert diagnostic.code.id == "LF8001"
-    assert [note.message for note in diagnostic.notes] == ["<robot> begins here", "used here"]
+    assert [note.message for note in diagnostic.notes] == ["the element that is open begins here", "used here"]
 
 
 def test_what_the_language_refuses_stays_raw(tmp_path):

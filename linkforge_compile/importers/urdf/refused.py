@@ -23,9 +23,7 @@ from linkforge_compile.importers.xml import XmlAttribute, XmlElement
 from linkforge_compile.named_tuple import NamedTuple
 
 _UNBOUNDED = re.compile(r"[+-]?(?:inf|infinity|nan)", re.IGNORECASE)
-"""No finite numbers, that urdfdom took up to its version 1, and MuJoCo takes: vendors write such limits."""
-
-_THREE = 3
+"""No finite numbers: older versions of urdfdom take them, and MuJoCo does; vendors write such limits."""
 
 
 class Refused(NamedTuple):
@@ -43,24 +41,24 @@ class _Part(NamedTuple):
 
 
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-_ORIGIN = _Part({"xyz": _THREE, "rpy": _THREE})
+_ORIGIN = _Part({"xyz": 3, "rpy": 3})
 _INERTIAL = {
     "origin": _ORIGIN,
     "mass": _Part({"value": 1}, ("value",)),
     "inertia": _Part(dict.fromkeys(_MOMENTS, 1), _MOMENTS),
 }
 _SHAPES = {
-    "box": _Part({"size": _THREE}, ("size",)),
+    "box": _Part({"size": 3}, ("size",)),
     "sphere": _Part({"radius": 1}, ("radius",)),
     "cylinder": _Part({"radius": 1, "length": 1}, ("radius", "length")),
     "capsule": _Part({"radius": 1, "length": 1}, ("radius", "length")),
-    "mesh": _Part({"scale": _THREE}, ("filename",)),
+    "mesh": _Part({"scale": 3}, ("filename",)),
 }
 _JOINT = {
     "parent": _Part(needed=("link",)),
     "child": _Part(needed=("link",)),
     "origin": _ORIGIN,
-    "axis": _Part({"xyz": _THREE}),
+    "axis": _Part({"xyz": 3}),
     "limit": _Part(dict.fromkeys(("lower", "upper", "effort", "velocity"), 1), ("effort", "velocity")),
     "safety_controller": _Part(
         dict.fromkeys(("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"), 1), ("k_velocity",)
