@@ -145,6 +145,10 @@ def as_float(value: float) -> float:
         return math.inf if value > 0 else -math.inf
 
 
+_LONGEST_ROW = 200
+"""So many characters has a row of numbers that is written anew as a whole."""
+
+
 def doubted(node: YamlNode, number: float) -> dict[str, str]:
     """Return the facts of what `doubt` returns; those but `found` are for a file that can say no unit.
 
@@ -162,7 +166,11 @@ def doubted(node: YamlNode, number: float) -> dict[str, str]:
 
 def _row_at(node: YamlNode) -> tuple[float, ...]:
     """Return the numbers of the attribute in which a node stands; none where it is no XML, or holds anything else."""
-    words = (node.span.text or "").split() if node.span.file.is_xml else []
+    span = node.span
+    # Each number of a row asks for the whole of it: a hostile one of thousands is not read as often.
+    if not span.file.is_xml or span.end_column - span.column > _LONGEST_ROW:
+        return ()
+    words = (span.text or "").split()
     values = [scalar_value(word) for word in words]
     numbers = [as_float(value) for value in values if isinstance(value, int | float) and not isinstance(value, bool)]
     return tuple(numbers) if len(numbers) == len(words) and all(map(math.isfinite, numbers)) else ()
