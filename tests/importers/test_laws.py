@@ -6,6 +6,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from linkforge_compile import import_urdf, render_srdf, render_urdf
 from linkforge_compile.core.exceptions import RobotGeneratorError
@@ -96,3 +97,44 @@ def test_what_came_in_once_stays_as_it_is(robot: Robot):
     second = compiled(spec)
     assert (render_urdf(second), render_srdf(second)) == (render_urdf(first), render_srdf(first))
     assert imported(second) == spec
+
+
+PAINT = '<material name="a"><color rgba="{} 0 0 1"/></material>'
+LOOKS = ("", '<material name="a"/>', PAINT.format(1), PAINT.format(0.5))
+SHAPES = st.lists(
+    st.tuples(st.sampled_from(("visual", "collision")), st.sampled_from(LOOKS), st.booleans()), max_size=6
+)
+
+
+@few
+@given(SHAPES, st.sampled_from(LOOKS[2:]), st.booleans())
+def test_an_import_tells_exactly_where_mujoco_shows_another_color(
+    shapes: list[tuple[str, str, bool]], own: str, own_comes_first: bool
+):
+    """What holds text in its geometry stays raw, and comes behind what does not."""
+    link = "".join(
+        f'<{kind}><geometry><sphere radius="{size}"/>{"text" if raw else ""}</geometry>'
+        f"{look if kind == 'visual' else ''}</{kind}>"
+        for size, (kind, look, raw) in enumerate(shapes, start=1)
+    )
+    parts = [own, f'<link name="l">{link}</link>']
+    document = f'<robot name="r">{"".join(parts if own_comes_first else reversed(parts))}</robot>'
+    read = import_urdf("r.urdf", text=document)
+    is_told = bool({"LF8140", "LF8141"} & {loss.code.id for loss in read.losses})
+    assert is_told == (seen_in_mujoco(render_urdf(compiled(read.text or ""))) != seen_in_mujoco(document))
+
+
+def seen_in_mujoco(document: str) -> dict[float, str]:
+    """Return the color of each sphere by its radius: as its reader of URDF goes on with the last color that it met."""
+    robot, color, seen = ElementTree.fromstring(document), "", dict[float, str]()
+    first = {one.get("name"): one for one in reversed(list(robot.iter("material"))) if one.find("color") is not None}
+    for shape in robot.findall("link/*"):
+        material = shape.find("material")
+        if material is not None:
+            color = words_of(first[material.get("name")] if material.find("color") is None else material)
+        seen[float(shape.find("geometry/sphere").get("radius"))] = color
+    return seen
+
+
+def words_of(material: ElementTree.Element) -> str:
+    return " ".join(f"{float(word):g}" for word in material.find("color").get("rgba").split())
