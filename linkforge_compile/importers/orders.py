@@ -74,13 +74,15 @@ def _shown(link: Said, named: Mapping[str, _Color]) -> Iterator[_Shown]:
 
 
 def _own_color(shape: XmlElement, named: Mapping[str, _Color]) -> _Color | None:
-    material = _material_of(shape) if shape.tag == VISUAL else None
+    material = _material_of(shape)
     if material is None:
         return None
     return _color_of(material) or named.get(material.get("name") or "")
 
 
 def _material_of(shape: XmlElement) -> XmlElement | None:
+    if shape.tag != VISUAL:
+        return None
     return next((child for child in shape.children if child.tag == "material"), None)
 
 
