@@ -45,7 +45,7 @@ def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
     require_dialect(gazebo)
     parts = worded_parts_of_urdf(robot)
     yield from check_texts(robot, parts)
-    yield from check_raw_seconds(parts)
+    yield from check_written_twice(parts)
     yield from check_attributes(parts, robot, partial(render_urdf, robot, gazebo=gazebo))
     yield from check_capsules(robot)
     yield from check_version(robot)
@@ -103,12 +103,12 @@ def _is_extended(part: Part) -> bool:
     return not isinstance(part, Inside) and bool(part.extra_attributes or inside_of(part))
 
 
-def check_raw_seconds(parts: Sequence[Held]) -> Iterator[Diagnostic]:
+def check_written_twice(parts: Sequence[Held]) -> Iterator[Diagnostic]:
     """An element of which there can be one is written by its field or as raw XML, and not twice."""
     if any(part.extra_elements for part, *_ in parts):
-        from linkforge_compile.backends.seconds import raw_seconds
+        from linkforge_compile.backends.written_twice import written_twice
 
-        yield from raw_seconds(parts)
+        yield from written_twice(parts)
 
 
 def check_capsules(robot: Robot) -> Iterator[Diagnostic]:

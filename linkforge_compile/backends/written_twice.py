@@ -1,4 +1,4 @@
-"""Raw XML that writes a second of what there can be one of: beside the one of a field, or beside more raw XML."""
+"""What raw XML writes a second time of which there can be one: beside the field that writes it, or beside raw XML."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ _ONE_OF: Mapping[type[Part], Mapping[str, str]] = {
 """The tags of which a part has one at most, and the field that writes it."""
 
 
-def raw_seconds(parts: Iterable[Held]) -> Iterator[Diagnostic]:
+def written_twice(parts: Iterable[Held]) -> Iterator[Diagnostic]:
     """Yield a warning for each such element that raw XML of parts says again."""
     for part, where, *_ in parts:
         if part.extra_elements and (fields := _ONE_OF.get(type(part))):
-            yield from _seconds_in(part, where, fields)
+            yield from _written_again(part, where, fields)
 
 
-def _seconds_in(part: Part, where: SourceRef | None, fields: Mapping[str, str]) -> Iterator[Diagnostic]:
+def _written_again(part: Part, where: SourceRef | None, fields: Mapping[str, str]) -> Iterator[Diagnostic]:
     first = {tag: _place(where, field) for tag, field in fields.items() if _is_written(part, field, where)}
     for text, source, path in raw_texts(part, where):
         for tag in _tags_of(text):
