@@ -177,6 +177,8 @@ def _colon_not_expected(trouble: _Trouble) -> Diagnostic:
 
 def _faulty_key_above(trouble: _Trouble) -> Diagnostic | None:
     above = trouble.line_above()
+    if not above:
+        return None
     if stuck := trouble.found(_KEY_STUCK_TO_VALUE, above):
         return codes.SPACE_AFTER_COLON.at(stuck, text=stuck.text)
     said = _said(trouble.marks.file.line(above))

@@ -196,6 +196,8 @@ def test_merged_entries_keep_their_own_places():
         ("a: - b\n", "1:4 a list with dashes begins on a line of its own; on one line: [a, b]"),
         ("a: 'x\nb: c\n", "1:4 no closing quote for the text that begins here"),
         ('a: "x\\qy"\n', "1:6 '\\q' means nothing in double quotes; use single quotes"),
+        ("'a' b\n", "1:5 the value ended before this; put the whole text in quotes"),
+        ("{a: 1} b\n", "1:8 the value ended before this; put the whole text in quotes"),
         ("a: 'x' y\n", "1:8 the value ended before this; put the whole text in quotes"),
         ("a: [1, 2\nb: 3\n", "2:2 expected ',' or ']' before this"),
         ("a: {b: 1]\n", "1:9 expected ',' or '}' before this"),
