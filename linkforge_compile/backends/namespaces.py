@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 
 from linkforge_compile.backends.element import Extended, place_of_attribute, raw_texts
 from linkforge_compile.backends.parts import Held
-from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.backends import UNDECLARED_PREFIX
@@ -40,7 +39,7 @@ def _names(part: Extended) -> list[str]:
 
 def _in_xml(text: str, known: frozenset[str]) -> Iterator[str]:
     """Yield the prefixes of raw XML that nothing declares; nothing for XML that cannot be read, which is told."""
-    from linkforge_compile.backends.raw import Node, nodes_of
+    from linkforge_compile.backends.raw import Node, well_formed_nodes
 
     def unknown(node: Node, known: frozenset[str]) -> Iterator[str]:
         names = [name for name, _ in node.attributes]
@@ -50,11 +49,7 @@ def _in_xml(text: str, known: frozenset[str]) -> Iterator[str]:
             if isinstance(child, Node):
                 yield from unknown(child, known)
 
-    try:
-        nodes = nodes_of(text)
-    except RobotGeneratorError:
-        return
-    for node in nodes:
+    for node in well_formed_nodes(text):
         yield from unknown(node, known)
 
 

@@ -93,6 +93,14 @@ def nodes_of(text: str) -> list[Node]:
     return [item for item in _parse(text, None, ()) if isinstance(item, Node)]
 
 
+def well_formed_nodes(text: str) -> list[Node]:
+    """Return the elements of raw XML; none where it is not well-formed, which is told by what looks at the texts."""
+    try:
+        return nodes_of(text)
+    except RobotGeneratorError:
+        return []
+
+
 def parameter_elements(parameters: Mapping[str, object], source: SourceRef | None = None, *path: str | int) -> Xml:
     """Return the parameters of a free part as child elements.
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.element import raw_texts
-from linkforge_compile.backends.raw import nodes_of
-from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.backends.raw import well_formed_nodes
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.backends import RAW_NAME_IS_TAKEN
 
@@ -20,16 +19,18 @@ if TYPE_CHECKING:
 
 def check_raw_names(robot: Robot) -> Iterator[Diagnostic]:
     """No two links, joints or materials of a URDF have one name: urdfdom refuses the robot."""
-    named: tuple[tuple[str, Iterable[Link | Joint | Material]], ...] = (
-        ("link", robot.links),
-        ("joint", robot.joints),
-        ("material", robot.materials.values()),
-    )
-    taken = {(tag, part.name): part.source.span if part.source else None for tag, parts in named for part in parts}
+    named: Mapping[str, Iterable[Link | Joint | Material]] = {
+        "link": robot.links,
+        "joint": robot.joints,
+        "material": robot.materials.values(),
+    }
+    taken = {
+        (tag, part.name): part.source.span if part.source else None for tag, parts in named.items() for part in parts
+    }
     for text, source, path in raw_texts(robot, robot.source):
         place = source.at(*path) if source else None
         for tag, name in _named_in(text):
-            if tag not in dict(named):
+            if tag not in named:
                 continue
             if (tag, name) not in taken:
                 taken[tag, name] = place
@@ -41,9 +42,5 @@ def check_raw_names(robot: Robot) -> Iterator[Diagnostic]:
 
 def _named_in(text: str) -> Iterator[tuple[str, str]]:
     """Yield the tag and name of each element of raw XML that has one."""
-    try:
-        nodes = nodes_of(text)
-    except RobotGeneratorError:
-        return  # told by what looks at the texts
-    for node in nodes:
+    for node in well_formed_nodes(text):
         yield from ((node.tag, value) for key, value in node.attributes if key == "name")

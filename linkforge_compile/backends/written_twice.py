@@ -6,8 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from linkforge_compile.backends.element import raw_texts
 from linkforge_compile.backends.parts import Held, Part
-from linkforge_compile.backends.raw import nodes_of
-from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.backends.raw import well_formed_nodes
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Collision, Inertial, Link, Visual
@@ -51,7 +50,7 @@ def written_twice(parts: Iterable[Held]) -> Iterator[Diagnostic]:
 def _written_again(part: Part, where: SourceRef | None, fields: Mapping[str, str]) -> Iterator[Diagnostic]:
     first = {tag: _place(where, field) for tag, field in fields.items() if _is_written(part, field, where)}
     for text, source, path in raw_texts(part, where):
-        for tag in _tags_of(text):
+        for tag in (node.tag for node in well_formed_nodes(text)):
             if tag not in fields:
                 continue
             if tag not in first:
@@ -70,10 +69,3 @@ def _is_written(part: Part, field: str, where: SourceRef | None) -> bool:
 
 def _place(source: SourceRef | None, *path: str | int) -> Span | None:
     return source.at(*path) if source else None
-
-
-def _tags_of(text: str) -> list[str]:
-    try:
-        return [node.tag for node in nodes_of(text)]
-    except RobotGeneratorError:
-        return []  # told by what looks at the texts
