@@ -39,10 +39,6 @@ def read_ros2_control(control: Reading) -> YamlMap:
     )
 
 
-def _commands(component: YamlNode | None) -> bool:
-    return isinstance(component, YamlMap) and component.get("command_interfaces") is not None
-
-
 def _hardware(hardware: Reading) -> YamlMap:
     node = hardware.draft.map_of(
         {"hardware_plugin": hardware.needed("plugin", read_word), "parameters": _parameters(hardware)}, hardware.span
