@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.checks import check
+from linkforge_compile.collector import resting
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.frozen import dataclass
@@ -273,6 +274,7 @@ def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation
     return with_room(lambda: _compiled(read, place, settings))
 
 
+@resting()
 def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilation:
     require_dialect(settings.gazebo)
     sink = Diagnostics()
@@ -292,8 +294,7 @@ def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilatio
         ignores = loader.ignores
     except BeyondLimitError as beyond:
         sink.end(beyond)
-    is_whole = not any(diagnostic.code is NOT_JUDGED for diagnostic in sink)
-    if sink.has_errors or not is_whole:
+    if sink.has_errors or any(diagnostic.code is NOT_JUDGED for diagnostic in sink):
         robot = None
     report = sink.sorted()
     if ignores:

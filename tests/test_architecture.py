@@ -21,6 +21,7 @@ MAY_IMPORT = {
     "roots": "",
     "shape_order": "",
     "stack": "",
+    "collector": "",
     "stamps": "",
     "_version": "",
     "diagnostics": "source",
@@ -36,7 +37,9 @@ MAY_IMPORT = {
     "backends": "bytecode source diagnostics bounds units core resources shape_order",
     "writers": "source units syntax core modules shape_order",
     "compare": "core backends shape_order",
-    "pipeline": "source diagnostics units syntax schema importers modules lowering checks backends core roots stack",
+    "pipeline": (
+        "source diagnostics units syntax schema importers modules lowering checks backends core roots stack collector"
+    ),
     "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
     "launch": "diagnostics backends core modules pipeline stamps",
     "editor": "diagnostics syntax schema modules lowering core roots stack resources",
