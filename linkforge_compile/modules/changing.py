@@ -2,8 +2,21 @@
 
 from __future__ import annotations
 
+from linkforge_compile.pattern import pattern
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
+
+# Nearly every robot has an effort.
+_FOR = pattern(r"for\b")
+_SIGNS = ("$(", "\\", *(word for word in WORDS if word != "for"))
+
+
+def may_change(text: str) -> bool:
+    """Whether computing may change anything in the tree of a YAML text: most texts have none of the signs of it.
+
+    They are an expression, the words of repetition, and a backslash, which may spell each of these otherwise.
+    """
+    return any(sign in text for sign in _SIGNS) or _FOR.search(text) is not None
 
 
 class Changing:

@@ -13,7 +13,7 @@ from typing import TypeAlias
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.frozen import dataclass
-from linkforge_compile.modules.changing import Changing
+from linkforge_compile.modules.changing import Changing, may_change
 from linkforge_compile.modules.telltale import SIGNS, TELLTALE
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile
@@ -36,7 +36,7 @@ class _Read:
 
     @cached_property
     def is_computed(self) -> bool:
-        return _is_computed(self.tree)
+        return _is_computed(self.source, self.tree)
 
 
 class _Whole:
@@ -123,10 +123,13 @@ def tree_of(source: SourceFile, sink: Diagnostics, budget: Budget) -> YamlMap | 
 def is_computed(source: SourceFile, tree: YamlMap) -> bool:
     """Whether what a file says is computed or repeated, its author's own keys aside; remembered with its text."""
     known = _faultless.find(source)
-    return known.is_computed if known and known.tree is tree else _is_computed(tree)
+    return known.is_computed if known and known.tree is tree else _is_computed(source, tree)
 
 
-def _is_computed(tree: YamlMap) -> bool:
+def _is_computed(source: SourceFile, tree: YamlMap) -> bool:
+    # To look at the text takes no time at all beside the walk through its tree.
+    if not (source.is_xml or may_change(source.text)):
+        return False
     said = {name: entry for name, entry in tree.entries.items() if not name.startswith("x-")}
     return Changing().change(YamlMap(said, tree.span))
 

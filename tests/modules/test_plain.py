@@ -57,6 +57,10 @@ def test_a_plain_file_is_its_own_assembly(name: str):
         "metadata: {$(1): 2}",
         "metadata: {a: $$(1)}",
         "links: {base: {when: yes}}",
+        "metadata: {for}",
+        "metadata: {value: 1}",
+        r'metadata: {a: "\x24(1)"}',
+        r'metadata: {"f\x6fr": 1}',
         "include: [nowhere.yaml]",
     ],
 )
@@ -64,6 +68,13 @@ def test_what_computes_or_may_lack_a_file_is_not_plain(said: str):
     spec = Loader().parse(f"linkforge: 1\nname: r\n{said}\n", "r.robot.yaml", Path(), Diagnostics())
     assert spec
     assert not computes_nothing(spec)
+
+
+def test_words_of_repetition_that_are_no_keys_compute_nothing():
+    text = "linkforge: 1\nname: for\nlinks: {base: }  # a value for when there is effort\n"
+    spec = Loader().parse(text, "r.robot.yaml", Path(), Diagnostics())
+    assert spec
+    assert computes_nothing(spec)
 
 
 def test_what_its_author_keeps_for_himself_computes_nothing():
