@@ -11,36 +11,34 @@ import os
 import sys
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from importlib.util import cache_from_source
+from importlib.util import MAGIC_NUMBER, cache_from_source
 from pathlib import Path
 from typing import TypeVar
 
 T = TypeVar("T")
 
-BROKEN = (OSError, EOFError, ValueError, LookupError, TypeError)
+# Two pre-releases of Python may have one tag and two kinds of bytecode.
+_FOR = f"{sys.implementation.cache_tag}-{MAGIC_NUMBER[:2].hex()}"
+
+_BROKEN = (OSError, EOFError, ValueError, LookupError, TypeError)
 """What reading a file raises that is not there, or that is not whole."""
 
 
-def folder_beside(module: str) -> Path:
-    """Return the folder in which Python keeps the bytecode of a module, given its `__file__`."""
-    return Path(cache_from_source(module)).parent
-
-
-def stamp(files: Iterable[str | Path]) -> str:
+def _stamp(files: Iterable[Path]) -> str:
     """Return what changes when one of the files does, or its name; OSError where one is not there."""
-    seen = [(Path(file).name, Path(file).stat()) for file in files]
+    seen = [(file.name, file.stat()) for file in files]
     return " ".join(f"{name}:{file.st_mtime_ns}:{file.st_size}" for name, file in seen)
 
 
 def kept(module: str, name: str, files: Iterable[Path], make: Callable[[], T]) -> T:
-    """Return what `make` makes of plain values, from the file beside a module where an earlier process left it.
+    """Return what `make` makes of plain values or code, from the file beside a module where an earlier process left it.
 
     `files` are all that it is made from, the modules that make it among them. What changes while it is made is made
     again by the next process.
     """
-    place = folder_beside(module) / f"{name}.{sys.implementation.cache_tag}.marshal"
+    place = Path(cache_from_source(module)).with_name(f"{name}.{_FOR}.marshal")
     try:
-        made_from = stamp(files)
+        made_from = _stamp(files)
     except OSError:
         return make()  # somebody is replacing them
     try:
@@ -48,7 +46,7 @@ def kept(module: str, name: str, files: Iterable[Path], make: Callable[[], T]) -
         if left_from == made_from:
             value: T = left
             return value
-    except BROKEN:
+    except _BROKEN:
         pass  # made anew
     made = make()
     if not sys.dont_write_bytecode:

@@ -8,7 +8,7 @@ a document can be indented, or not, without touching what it says.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from operator import methodcaller
 from typing import TypeAlias, TypeGuard
 
@@ -46,9 +46,6 @@ class Xml(str):
     """Text that is XML already; templates write it as it stands."""
 
     __slots__ = ()
-
-    def __html__(self) -> Xml:
-        return self
 
 
 NOTHING = Xml()
@@ -162,35 +159,67 @@ def harmless_in_comment(text: str) -> str:
     return _UNWRITABLE.sub("?", text).replace("--", "- -").replace("--", "- -")
 
 
-def lay_out(text: str, *, pretty: bool) -> str:
-    """Indent a rendered document by two spaces a level, or put it on one line.
+INDENT = "  "
+"""What a line of a document stands further in than the one around it."""
 
-    An element without content closes itself.
-    A line is an opening tag, a closing tag, or something whole; blank lines are what a template left out. Comments
-    and texts of raw XML keep their lines either way; while a map is recorded, whoever takes its marks out breaks them.
+
+def ready(value: object) -> str:
+    """Return a string escaped, unless it is XML already; that is all that templates place."""
+    if value.__class__ is Xml:  # nine of ten
+        return value
+    if isinstance(value, str):
+        return escaped(value)
+    raise TypeError(f"templates place strings that are ready, found {value!r}")
+
+
+def lay(lines: list[str], indent: str, value: object) -> None:
+    """Append a value that stands on a line of its own, or is several: what it begins, it ends. Nothing is no line."""
+    text = value if value.__class__ is Xml else ready(value)
+    if "\n" in text:
+        lines += laid_out(text, indent)
+    elif text:
+        lines.append(indent + text)
+
+
+def end(lines: list[str], begun: int, closing: str) -> None:
+    """Append the closing tag of an element whose first tag was the last of so many lines; an empty one ends there."""
+    if len(lines) == begun:
+        lines[-1] = f"{lines[-1][:-1]}/>"
+    else:
+        lines.append(closing)
+
+
+def document_text(lines: list[str], *, pretty: bool) -> str:
+    """Return a document of indented lines, or put it on one line.
+
+    Comments and texts of raw XML keep their lines either way; while a map is recorded, whoever takes its marks out
+    breaks them.
     """
+    text = "\n".join(lines)
     if MARK in text:
         from linkforge_compile.backends.inside import with_insides
 
-        text = with_insides(text)
+        lines = laid_out(with_insides(text))
+    if "></" in text:
+        lines = [_EMPTY.sub(r"<\1/>", line) if "></" in line else line for line in lines]
+    if not pretty:
+        lines = [line.lstrip(INDENT) for line in lines]
+    text = ("\n" if pretty else "").join(lines)
+    return text if is_recording() else restored(text)
+
+
+def laid_out(text: str, indent: str = "") -> list[str]:
+    """Return the lines of a text, each an opening tag, a closing tag, or something whole, indented."""
     lines: list[str] = []
-    depth = 0
-    opened = False
-    for line in _lines(text):
+    begun: list[int] = []
+    for line in filter(None, map(str.strip, text.split("\n"))):
         if is_closing(line):
-            depth -= 1
-            if opened:
-                lines[-1] = f"{lines[-1][:-1]}/>"
-            else:
-                lines.append("  " * depth + line if pretty else line)
-            opened = False
+            end(lines, begun.pop(), indent + INDENT * len(begun) + line)
             continue
-        whole = _EMPTY.sub(r"<\1/>", line) if "></" in line else line
-        lines.append("  " * depth + whole if pretty else whole)
-        opened = is_opening(line)
-        depth += opened
-    whole_text = ("\n" if pretty else "").join(lines)
-    return whole_text if is_recording() else restored(whole_text)
+        lines.append(indent + INDENT * len(begun) + line)
+        if is_opening(line):
+            begun.append(len(lines))
+    return lines
 
 
 def is_closing(line: str) -> bool:
@@ -200,8 +229,4 @@ def is_closing(line: str) -> bool:
 
 def is_opening(line: str) -> bool:
     """Whether a line begins an element that a later one ends."""
-    return line[1] not in "!?" and line[-2] != "/" and "</" not in line
-
-
-def _lines(text: str) -> Iterator[str]:
-    return filter(None, map(str.strip, text.split("\n")))
+    return line[0] == "<" and line[1] not in "!?" and line[-2] != "/" and "</" not in line

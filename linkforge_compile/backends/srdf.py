@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkforge_compile.backends.environment import render
+from linkforge_compile.backends.document import render
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from linkforge_compile.backends.document import render
 from linkforge_compile.backends.element import attributes, elements
-from linkforge_compile.backends.environment import render
 from linkforge_compile.backends.markup import Xml
 from linkforge_compile.backends.urdf.joint import JointView, joint_views
 from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS, LinkView, MaterialView, link_views, material_view

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields
-from types import MappingProxyType
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from linkforge_compile.backends.element import attributes, elements, whole
@@ -77,7 +77,7 @@ class InfoView(NamedTuple):
     kind: str
     tag: str
     attributes: Xml
-    values: Mapping[str, Value]
+    values: SimpleNamespace
     elements: Xml
 
 
@@ -132,7 +132,7 @@ def _info(sensor: Sensor, gazebo: Gazebo) -> InfoView | None:
     names = [field.name for field in fields(info) if field.name not in _EVERYWHERE]
     values = {name: _ready(getattr(info, name), info.source, name) for name in names}
     tag = _INFO_TAGS[gazebo].get(kind, kind)
-    return InfoView(kind, tag, attributes(info), MappingProxyType(values), elements(info))
+    return InfoView(kind, tag, attributes(info), SimpleNamespace(**values), elements(info))
 
 
 _EVERYWHERE = frozenset(field.name for field in fields(Element))
