@@ -166,7 +166,7 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     whole, compiled = both
     sink.report_all(compiled.faults)
     if compiled.robot is not None:
-        sink.report_all(check_written_twice(worded_parts_of_urdf(compiled.robot)))
+        sink.report_all(check_written_twice(worded_parts_of_urdf(compiled.robot).with_extras))
         sink.report_all(_losses(whole, compiled.robot, sink.places_of(LOSSES)))
         if settings.output is not None:
             sink.report_all(lost_on_the_way(compiled.robot, settings.output, MESH_BESIDE_THE_URDF))

@@ -13,6 +13,7 @@ from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.part import Element
+from linkforge_compile.core.part import Part as BasePart
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
 
@@ -35,7 +36,14 @@ class Held(NamedTuple):
     said: list[tuple[str, object]]
 
 
-def worded_parts_of_urdf(robot: Robot) -> list[Held]:
+class Worded(NamedTuple):
+    """The parts that hold more than numbers, and those of them that hold what no field says."""
+
+    parts: list[Held]
+    with_extras: list[Held]
+
+
+def worded_parts_of_urdf(robot: Robot) -> Worded:
     """Return the parts with more than numbers in them that the URDF of a robot writes."""
     return worded_parts_in(
         (
@@ -50,23 +58,23 @@ def worded_parts_of_urdf(robot: Robot) -> list[Held]:
     )
 
 
-def worded_parts_in(value: object) -> list[Held]:
+def worded_parts_in(value: object) -> Worded:
     """Return a part, or those in collections of them, and what is in these, `extra_inside` among them.
 
     Those that hold numbers alone, which are most, are left out: XML can write every one of these.
     """
-    found: list[Held] = []
+    found = Worded([], [])
     _gather(value, None, (), found)
     return found
 
 
-def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], found: list[Held]) -> None:
+def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], found: Worded) -> None:
     if isinstance(value, _PARTS):
         _gather_part(value, where, around, found)
     elif isinstance(value, tuple):  # before what is asked of base classes, which takes long
         for inner in value:
             _gather(inner, where, around, found)
-    elif isinstance(value, str):
+    elif isinstance(value, _HOLD_NONE):
         return
     elif isinstance(value, Mapping):
         for inner in value.values():
@@ -76,20 +84,22 @@ def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], fo
             _gather(inner, where, around, found)
 
 
-def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], found: list[Held]) -> None:
+def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], found: Worded) -> None:
     kind: type = part.__class__
-    names, values_of = _fields_of(kind)
+    names, values_of, extras_of = _ways_into(kind)
     values = values_of(part)
     # Asked of all at once, which most parts end with.
     said = [] if _NUMBERS.issuperset(map(type, values)) else _said(names, values)
-    inside = inside_of(part)
-    if not (said or inside or part.extra_attributes or part.extra_elements):
+    has_extras = any(extras_of(part))
+    if not (said or has_extras):
         return
     where = part.source or where
-    found.append(Held(part, where, around, said))
+    held = Held(part, where, around, said)
+    found.parts.append(held)
     around = (*around, part)
-    if inside:
-        _gather(inside, where, around, found)
+    if has_extras:
+        found.with_extras.append(held)
+        _gather(inside_of(part), where, around, found)
     for _, inner in said:
         if inner.__class__ is not str:
             _gather(inner, where, around, found)
@@ -106,13 +116,28 @@ _NUMBERS = frozenset({float, int, bool, Vector3, type(None)})
 # A union takes three times as long to ask.
 _PARTS = (Element, Link, Interface)
 
+# What is neither one of them nor a collection.
+_HOLD_NONE = (str, BasePart)
+
+_Values: TypeAlias = Callable[[Part], tuple[object, ...]]
+
 
 @cache
-def _fields_of(kind: type) -> tuple[tuple[str, ...], Callable[[Part], tuple[object, ...]]]:
-    """Return the names of the fields of a class that it has for itself, and what gets their values."""
+def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
+    """Return the names of the fields of a class that it has for itself, what gets their values, and those of the rest.
+
+    The rest is what no field says.
+    """
     own = (field.name for field in fields(kind)) if is_dataclass(kind) else ("parameters",)
     names = tuple(name for name in own if name not in _EVERYWHERE)
-    return names, attrgetter(*names) if len(names) > 1 else lambda part: tuple([getattr(part, name) for name in names])
+    extras = tuple(name for name in _EXTRAS if hasattr(kind, name))
+    return names, _getter(names), _getter(extras)
 
+
+def _getter(names: tuple[str, ...]) -> _Values:
+    return attrgetter(*names) if len(names) > 1 else lambda part: tuple([getattr(part, name) for name in names])
+
+
+_EXTRAS = ("extra_attributes", "extra_elements", "extra_inside")
 
 _EVERYWHERE = frozenset(field.name for field in fields(Element))
