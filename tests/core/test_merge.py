@@ -386,6 +386,17 @@ def test_nothing_of_a_robot_is_kept_when_it_is_gone(use):
     assert kept() is None
 
 
+@pytest.mark.parametrize("name", ["left wrist", "", "wrist!"])
+def test_a_link_that_was_renamed_to_what_is_no_name_is_refused_under_a_prefix(name: str):
+    arm, station = Robot("arm", links=[Link("base"), Link("wrist")]), Robot("station")
+    arm.links[1].name = name
+    found = name and f"left_{name}"
+    with pytest.raises(RobotModelError, match=f"found '{found}'") as refused:
+        station.merge(arm, None, None, prefix="left_")
+    assert refused.value.code is Code.INVALID_NAME
+    assert station.links == ()
+
+
 def test_a_prefix_that_no_name_may_have_is_refused():
     for joint in (Joint("j", "fixed", "a", "b"), Rated("j", "fixed", "a", "b")):
         with pytest.raises(RobotModelError) as refused:

@@ -91,6 +91,17 @@ def test_a_prefix_keeps_where_a_part_was_written(part, prefix):
     assert marked.with_prefix(prefix).source is WRITTEN
 
 
+@given(st.one_of(*PREFIXED), prefixes)
+def test_a_copy_under_a_prefix_is_as_frozen_as_the_part(part, prefix):
+    if isinstance(part, Link):
+        return
+    copied = part.with_prefix(prefix)
+    assert type(copied) is type(part)
+    for field in dataclasses.fields(part):
+        with pytest.raises(dataclasses.FrozenInstanceError):
+            setattr(copied, field.name, None)
+
+
 @pytest.mark.parametrize("cls", sorted(PART_CLASSES, key=lambda cls: cls.__name__), ids=lambda cls: cls.__name__)
 def test_what_is_ours_stands_behind_the_contract_and_only_by_keyword(cls):
     parameters = inspect.signature(cls).parameters

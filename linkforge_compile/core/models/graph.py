@@ -18,15 +18,20 @@ if TYPE_CHECKING:
 def refuse_loose_joints(link_names: Collection[str], joints: Iterable[Joint]) -> None:
     """Raise NOT_FOUND for the first joint whose parent or child is none of the links."""
     for joint in joints:
-        for end, name in (("Parent", joint.parent), ("Child", joint.child)):
-            if name not in link_names:
-                raise RobotValidationError(
-                    ValidationErrorCode.NOT_FOUND,
-                    f"{end} link '{name}' unknown",
-                    target=f"{end}Link",
-                    value=name,
-                    field=(end.lower(),),
-                )
+        if joint.parent not in link_names:
+            raise _loose("Parent", joint.parent)
+        if joint.child not in link_names:
+            raise _loose("Child", joint.child)
+
+
+def _loose(end: str, link: str) -> RobotValidationError:
+    return RobotValidationError(
+        ValidationErrorCode.NOT_FOUND,
+        f"{end} link '{link}' unknown",
+        target=f"{end}Link",
+        value=link,
+        field=(end.lower(),),
+    )
 
 
 def single_root(links: Iterable[Link], joints: Collection[Joint]) -> Link:
@@ -38,8 +43,7 @@ def single_root(links: Iterable[Link], joints: Collection[Joint]) -> Link:
     """
     by_name = {link.name: link for link in links}
     refuse_loose_joints(by_name, joints)
-    children = {joint.child for joint in joints}
-    roots = sorted(name for name in by_name if name not in children)
+    roots = sorted(by_name.keys() - {joint.child for joint in joints})
     if not roots:
         raise RobotValidationError(
             ValidationErrorCode.NO_ROOT, "No root link found in the kinematic tree", target="Roots", value=0
@@ -54,11 +58,13 @@ def single_root(links: Iterable[Link], joints: Collection[Joint]) -> Link:
     return by_name[roots[0]]
 
 
-def refuse_cycles(joints: Iterable[Joint]) -> None:
+def refuse_cycles(joints: Collection[Joint]) -> None:
     """Raise HAS_CYCLE if some link is its own ancestor.
 
     Merging asks this of every component, so it does without networkx, whose import costs more than the merge.
     """
+    if _lead_down(joints):
+        return
     children: dict[str, list[str]] = defaultdict(list)
     ways_in: dict[str, int] = defaultdict(int)
     for joint in joints:
@@ -72,6 +78,12 @@ def refuse_cycles(joints: Iterable[Joint]) -> None:
                 reached.append(child)
     if any(ways_in.values()):
         raise _cyclic()
+
+
+def _lead_down(joints: Collection[Joint]) -> bool:
+    """Whether no joint comes before one that leads to its parent, as people write them: then there is no cycle."""
+    last_way_in = {joint.child: place for place, joint in enumerate(joints)}
+    return all(last_way_in.get(joint.parent, -1) < place for place, joint in enumerate(joints))
 
 
 def _cyclic() -> RobotValidationError:

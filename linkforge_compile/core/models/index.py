@@ -99,11 +99,11 @@ class _Shelf(Generic[T]):
             self._file(key, self.items, 0)
         return self._places[key]
 
-    def extend(self, items: Sequence[T]) -> None:
+    def extend(self, items: Sequence[T], names: Iterable[Hashable]) -> None:
         start = len(self.items)
         self.items.extend(items)
         if self._first is not None:
-            for place, name in enumerate(map(self._name, items), start):
+            for place, name in enumerate(names, start):
                 self._first.setdefault(name, place)
         for key in self._places:
             self._file(key, items, start)
@@ -130,9 +130,11 @@ class Index(Sequence[T]):
     __slots__ = ("_filing", "_length", "_shelf")
 
     def __init__(self, items: Iterable[T] = (), filing: Filing[T] | None = None) -> None:
-        self._filing: Filing[T] = filing or Filing("part")
-        self._shelf = _Shelf(items, self._filing.key)
-        self._length = len(self._shelf.items)
+        filing = filing or Filing("part")
+        self._stand(_Shelf(items, filing.key), filing)
+
+    def _stand(self, shelf: _Shelf[T], filing: Filing[T]) -> None:
+        self._shelf, self._filing, self._length = shelf, filing, len(shelf.items)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -158,29 +160,31 @@ class Index(Sequence[T]):
             RobotValidationError: DUPLICATE_NAME where repeats are refused; nothing is changed by then.
 
         """
-        added = self._without_repeats(tuple(items))
+        items = tuple(items)
+        added, names = self._without_repeats(items) if items else (items, items)
         if not added:
             return self
-        longer: Index[T] = Index((), self._filing)
         # Somebody else may have gone on from here already, or tried to: then the two part company.
-        longer._shelf = self._shelf if len(self._shelf.items) == self._length else _Shelf(self, self._filing.key)
-        longer._shelf.extend(added)
-        longer._length = self._length + len(added)
+        shelf = self._shelf if len(self._shelf.items) == self._length else _Shelf(self, self._filing.key)
+        shelf.extend(added, names)
+        longer: Index[T] = Index.__new__(Index)
+        longer._stand(shelf, self._filing)
         return longer
 
-    def _without_repeats(self, items: Sequence[T]) -> Sequence[T]:
-        if not items or self._filing.repeats is Repeats.KEPT:
-            return items
-        taken, keys = self._shelf.first(), [self._filing.key(item) for item in items]
+    def _without_repeats(self, items: Sequence[T]) -> tuple[Sequence[T], Iterable[Hashable]]:
+        """Return those of the items that are to be added, and the name of each."""
+        if self._filing.repeats is Repeats.KEPT:
+            return items, map(self._filing.key, items)
+        taken, keys = self._shelf.first(), list(map(self._filing.key, items))
         if taken.keys().isdisjoint(keys) and len(set(keys)) == len(keys):
-            return items
+            return items, keys
         added: dict[Hashable, T] = {}
         for key, item in zip(keys, items, strict=True):
             if key not in added and taken.get(key, self._length) >= self._length:
                 added[key] = item
             elif self._filing.repeats is Repeats.REFUSED:
                 raise self._filing.duplicate(key)
-        return list(added.values())
+        return list(added.values()), added
 
     def grown_from(self, other: Index[T]) -> bool:
         """Tell whether this is `other`, possibly with more items, all filed by its rules."""

@@ -19,9 +19,9 @@ from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidation
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
 from linkforge_compile.core.models.index import Renamable
 from linkforge_compile.core.models.material import Material
-from linkforge_compile.core.naming import prefixed
+from linkforge_compile.core.naming import is_valid_name, prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
-from linkforge_compile.core.prefixing import Copies, prefixed_copies
+from linkforge_compile.core.prefixing import Copies, harmless_copies, is_harmless, prefixed_copies
 from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
@@ -224,28 +224,37 @@ class Link(Renamable):
 
     def with_prefix(self, prefix: str) -> Link:
         """Return a new link with its name and those of its visuals and collisions prefixed."""
-        return self._with_prefix(prefix, {})
-
-    def _with_prefix(self, prefix: str, shared: Copies) -> Link:
         name = prefixed(prefix, self.name)
         require_valid_characters(name, "link name", "LinkName")
-        link = object.__new__(type(self))
-        vars(link).update(
-            vars(self),
-            name=name,
-            visuals=tuple(prefixed_copies(self.visuals, prefix, shared)),
-            collisions=tuple(prefixed_copies(self.collisions, prefix, shared)),
+        shared: Copies = {}
+        return self._copy(
+            name, prefixed_copies(self.visuals, prefix, shared), prefixed_copies(self.collisions, prefix, shared)
         )
+
+    def _copy(self, name: str, visuals: Iterable[Visual], collisions: Iterable[Collision]) -> Link:
+        link = object.__new__(type(self))
+        attributes = vars(link)
+        attributes.update(vars(self))
+        attributes["name"] = name
+        attributes["visuals"], attributes["collisions"] = tuple(visuals), tuple(collisions)
         return link
 
 
-def prefixed_links(links: Iterable[Link], prefix: str) -> list[Link]:
-    """Return links as `with_prefix` of each gives them; materials that they share stay shared."""
-    shared: Copies = {}
+def prefixed_links(links: Sequence[Link], prefix: str) -> list[Link]:
+    """Return links as `with_prefix` of each gives them; what they share stays shared, if all are plain Links."""
     # Somebody else's class may have a way of its own.
+    if not is_harmless(prefix) or not all(type(link) is Link for link in links):
+        return [link.with_prefix(prefix) for link in links]
+    names = [prefixed(prefix, link.name) for link in links]
+    if not (all(names) and is_valid_name("".join(names))):  # a link that was renamed in place may have any name
+        for name in names:
+            require_valid_characters(name, "link name", "LinkName")
+    shared: Copies = {}
     return [
-        link._with_prefix(prefix, shared) if type(link).with_prefix is Link.with_prefix else link.with_prefix(prefix)
-        for link in links
+        link._copy(
+            name, harmless_copies(link.visuals, prefix, shared), harmless_copies(link.collisions, prefix, shared)
+        )
+        for name, link in zip(names, links, strict=True)
     ]
 
 

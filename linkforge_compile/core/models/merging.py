@@ -83,23 +83,3 @@ class PrefixedParts:
             for name, material in self.materials.items()
             if name not in own or own[name].after_links > material.after_links
         }
-
-    def hung_by(self, connecting: Joint, *, like: Joint | None) -> PrefixedParts:
-        """Return them with the connecting joint, which has from `like` what merging has no argument for."""
-        return replace(self, joints=(*self.joints, _with_rest_of(like, connecting)))
-
-
-def _with_rest_of(joint: Joint | None, connecting: Joint) -> Joint:
-    """Return the connecting joint with those fields of `joint`, if any, for which merging has no argument."""
-    if joint is None:
-        return connecting
-    return replace(
-        joint,
-        name=connecting.name,
-        type=connecting.type,
-        parent=connecting.parent,
-        child=connecting.child,
-        origin=connecting.origin,
-        axis=connecting.axis,
-        limits=connecting.limits,
-    )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from copy import deepcopy
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
@@ -146,20 +147,21 @@ class Robot(SemanticRobot):
             _require(self.links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
         parts = _parts_under(component, prefix)
         links = self.links.extended(parts.links)  # of two links of one name, nobody could say which one a joint means
+        joints = parts.joints
         if at_link is None:
             refuse_loose_joints({link.name for link in parts.links}, parts.joints)
         else:
             root = single_root(parts.links, parts.joints).name
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
-            parts = parts.hung_by(connecting, like=joint)
-        refuse_cycles(parts.joints)
-        self._take_in(parts, links)
+            joints = (*joints, _with_rest_of(joint, connecting) if joint else connecting)
+        refuse_cycles(parts.joints)  # the connecting one comes from a link that is none of theirs
+        self._take_in(parts, links, joints)
         return self
 
-    def _take_in(self, parts: PrefixedParts, links: Index[Link]) -> None:
+    def _take_in(self, parts: PrefixedParts, links: Index[Link], joints: Sequence[Joint]) -> None:
         materials = parts.materials_beside(self.materials)
         add_materials = self.materials.update
-        joints = self.joints.extended(parts.joints)
+        longer_joints = self.joints.extended(joints)
         sensors = self.sensors.extended(parts.sensors)
         transmissions = self.transmissions.extended(parts.transmissions)
         ros2_controls = self.ros2_controls.extended(parts.ros2_controls)
@@ -170,7 +172,7 @@ class Robot(SemanticRobot):
         semantic = self._semantic.joined(parts.semantic) if parts.semantic else self._semantic
         # From here on the robot changes. Links come first: they alone can still be refused, had two been renamed alike.
         self.links = links
-        self.joints = joints
+        self.joints = longer_joints
         add_materials(materials)
         self.sensors, self.transmissions, self.ros2_controls = sensors, transmissions, ros2_controls
         self.gazebo_elements, self.extra_elements = gazebo_elements, extra_elements
@@ -262,6 +264,20 @@ def _parts_under(robot: Robot, prefix: str) -> PrefixedParts:
     from linkforge_compile.core.models.merging import PrefixedParts
 
     return PrefixedParts.of(robot, prefix)
+
+
+def _with_rest_of(joint: Joint, connecting: Joint) -> Joint:
+    """Return the connecting joint with those fields of `joint` for which merging has no argument."""
+    return replace(
+        joint,
+        name=connecting.name,
+        type=connecting.type,
+        parent=connecting.parent,
+        child=connecting.child,
+        origin=connecting.origin,
+        axis=connecting.axis,
+        limits=connecting.limits,
+    )
 
 
 def _require(parts: Index[Link] | Index[Joint], name: str, what: str, target: str, *field: str) -> None:
