@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from enum import StrEnum
 from typing import TypeVar
 
-from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
 from linkforge_compile.core.naming import is_valid_name
-from linkforge_compile.diagnostics import Code, Diagnostics, notes_of_changes
 from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT
 from linkforge_compile.diagnostics.codes.model import (
-    MISSING_FIELD,
-    REFUSED,
     UNKNOWN_CHOICE,
     WRONG_COUNT,
     WRONG_KIND,
 )
 from linkforge_compile.diagnostics.codes.names import INVALID_NAME, NAME_TWICE
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.quantities import (
-    Bound,
+    ANGLE,
+    BARE,
+    LENGTH,
     Measure,
     Refusal,
     doubt,
@@ -34,27 +31,17 @@ from linkforge_compile.lowering.quantities import (
     plain_numbers,
     si_number,
 )
+from linkforge_compile.lowering.spec_object import SpecObject
 from linkforge_compile.source import SourceRef, Span
-from linkforge_compile.syntax import leaves_in
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.syntax.xacro import xacro_facts
-from linkforge_compile.units import Dimension
-
-_NEEDED_IN_XML = {
-    "axis": """an <axis>; write '<axis xyz="0 0 1"/>'""",
-    "limits": """a <limit>; write '<limit lower="-1" upper="1" effort="50" velocity="1"/>'""",
-    "limits.effort": """an effort in its <limit>; write 'effort="50"'""",
-    "limits.velocity": """a velocity in its <limit>; write 'velocity="1"'""",
-}
-"""What a URDF lacks that has none of a required field, and how it says it; by the field."""
 
 T = TypeVar("T")
 Choice = TypeVar("Choice", bound=StrEnum)
 
 
-@dataclass(frozen=True, slots=True)
-class Fields:
+class Fields(SpecObject):
     """One object of the tree, ready to be read.
 
     Every reader returns None where nothing is said, where the fault has been told already (YamlFault), and where
@@ -62,40 +49,33 @@ class Fields:
     So None from a required read always means: told, drop the object.
     """
 
-    node: YamlMap
-    owner: str
-    """The named thing whose fields these are, as messages say it: "joint 'elbow'"."""
-    sink: Diagnostics
-    trail: tuple[Span, ...] = ()
-    key: Span | None = None
-    """Where the object's name stands, None for one without a name."""
-    path: str = ""
-    """The way from the owner to this object: "limits", "inertial.inertia", empty for the owner itself."""
-
-    @property
-    def title(self) -> str:
-        """How messages name this very object: "limits of joint 'elbow'"."""
-        return f"{self.path} of {self.owner}" if self.path else self.owner
-
-    @property
-    def ref(self) -> SourceRef:
-        """What the IR object made of these fields has as its `source`."""
-        return SourceRef(self.node, self.key, self.trail)
+    __slots__ = ()
 
     # Reading one field
 
-    def number(self, key: str, *dimensions: Dimension, bound: Bound | None = None, required: str = "") -> float | None:
-        """Read a number in SI units: bare, or a quantity of one of the dimensions."""
+    def said(self, key: str, required: str = "") -> YamlNode | None:
+        """Return what is said under a key; with an example of what to write, nothing said is told."""
+        entry = self.node.entries.get(key)
+        if entry is not None:
+            node = entry.value
+            if not isinstance(node, YamlScalar) or node.value is not None:
+                return node
+        if required:
+            self.tell_missing(key, required)
+        return None
+
+    def number(self, key: str, measure: Measure = BARE, *, required: str = "") -> float | None:
+        """Read a number in SI units."""
         node = self.said(key, required)
         if node is None:
             return None
-        plain = plain_number(node, bound)
-        return self.number_at(node, key, Measure(dimensions, bound)) if plain is None else plain
+        plain = plain_number(node, measure)
+        return self.number_at(node, key, measure) if plain is None else plain
 
-    def integer(self, key: str, *, bound: Bound | None = None, required: str = "") -> int | None:
+    def integer(self, key: str, measure: Measure = BARE, *, required: str = "") -> int | None:
         """Read a whole number without a unit; 3.0 is one."""
         node = self.said(key, required)
-        value = None if node is None else self.number_at(node, key, Measure((), bound))
+        value = None if node is None else self.number_at(node, key, measure)
         if node is None or value is None:
             return None
         if not value.is_integer():
@@ -127,15 +107,10 @@ class Fields:
         text = None if node is None else self.text_at(node, key)
         return text if node is not None and text is not None and self.name_is_valid(text, kind, node) else None
 
-    def vector3(
-        self, key: str, *dimensions: Dimension, bound: Bound | None = None, required: str = ""
-    ) -> Vector3 | None:
+    def vector3(self, key: str, measure: Measure = BARE, *, required: str = "") -> Vector3 | None:
         """Read a list of three numbers in SI units."""
         node = self.said(key, required)
-        if node is None:
-            return None
-        plain = plain_numbers(node, bound)
-        return Vector3(*plain) if len(plain) == 3 else self.vector3_at(node, key, Measure(dimensions, bound))
+        return None if node is None else self.vector3_at(node, key, measure)
 
     def choice(self, key: str, choices: type[Choice], *, required: str = "") -> Choice | None:
         """Read one word of an enumeration."""
@@ -152,16 +127,18 @@ class Fields:
 
     def origin(self) -> Transform:
         """Read `origin`, a pose in the parent's frame: `[x, y, z]` or `{xyz, rpy}`; what is unsaid or faulty is 0."""
-        node = self.node.get("origin")
+        node = self.said("origin")
+        if node is None:
+            return IDENTITY
         if isinstance(node, YamlList):
-            xyz = self.vector3_at(node, "origin", Measure((Dimension.LENGTH,)))
+            xyz = self.vector3_at(node, "origin", LENGTH)
             ref = SourceRef(node, None, self.trail)
             return Transform(xyz, is_stated=True, source=ref) if xyz else IDENTITY
-        pose = self.map("origin")
+        pose = self.map_at(node, "origin")
         if pose is None:
             return IDENTITY
-        xyz, rpy = pose.vector3("xyz", Dimension.LENGTH), pose.vector3("rpy", Dimension.ANGLE)
-        is_stated = pose.node.get("xyz") is not None or pose.node.get("rpy") is not None
+        xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
+        is_stated = bool(xyz or rpy) or pose.said("xyz") is not None or pose.said("rpy") is not None
         return Transform(
             xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, source=pose.ref, **extras_of(pose)
         )
@@ -177,7 +154,7 @@ class Fields:
         """Open an object that stands at a node, such as an item of a list."""
         if isinstance(node, YamlMap):
             path = f"{self.path}.{field}" if self.path else field
-            return Fields(node, self.owner, self.sink, self.trail, path=path)
+            return Fields(node, self.owner, self.sink, self.trail, None, path)
         self.tell_kind(node, field, "a map")
         return None
 
@@ -185,14 +162,15 @@ class Fields:
         """Lower each entry of a map keyed by names, None for a faulty one; an entry with no value is an empty one."""
         section = self.map(key)
         for entry in section.node if section else ():
-            node, owner = entry.value, f"{kind} '{entry.name}'"
+            node, name = entry.value, entry.name
+            owner = f"{kind} '{name}'"
             if is_null(node):
                 node = YamlMap({}, entry.key.span)
             if isinstance(node, YamlMap):
-                yield entry.name, lower(Fields(node, owner, self.sink, self.trail, entry.key.span), entry.name)
+                yield name, lower(Fields(node, owner, self.sink, self.trail, entry.key.span), name)
                 continue
             self.tell_kind(node, owner, "a map")
-            yield entry.name, None
+            yield name, None
 
     def nested(self, key: str) -> Iterator[tuple[YamlScalar, YamlEntry]]:
         """Yield the outer key and the inner entry of every `{outer: {inner: value}}` under a key."""
@@ -254,7 +232,7 @@ class Fields:
 
     def numbers_at(self, node: YamlNode, field: str, measure: Measure, *counts: int) -> tuple[float, ...] | None:
         """Read a list of as many numbers as one of `counts` says."""
-        plain = plain_numbers(node, measure.bound)
+        plain = plain_numbers(node, measure)
         if len(plain) in counts:
             return plain
         expected = f"{' or '.join(map(str, counts))} numbers"
@@ -291,58 +269,6 @@ class Fields:
         reason = "it is empty" if wrong is None else f"{wrong!r} may not stand in one"
         self.tell(INVALID_NAME, where, name=name, kind=kind, reason=reason)
         return False
-
-    # Telling, and making the IR's objects
-
-    def tell(self, code: Code, where: YamlNode | SourceRef, *, near: Iterable[str] = (), **facts: object) -> None:
-        """Report a fault at a node of this object, or at what a reference points to."""
-        if isinstance(where, SourceRef):
-            self.sink.report(code.at(where, near=near, notes=(), **facts))
-            return
-        changed = notes_of_changes(self.node.span.changes, where.span) if where is not self.node else ()
-        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=changed, **facts))
-
-    @property
-    def is_faulty(self) -> bool:
-        """Whether a fault in this object has been told: what it seems to lack may be that, misspelt."""
-        return any(isinstance(entry.value, YamlFault) for entry in self.node)
-
-    def tell_lack(self, code: Code, **facts: object) -> None:
-        """Report what this object lacks; silent where something in it is faulty."""
-        if not self.is_faulty:
-            self.tell(code, self.ref, near=(), **facts)
-
-    def build(self, make: Callable[[], T]) -> T | None:
-        """Make an object of the IR; what its constructor refuses is told at the field it names.
-
-        Where a fault in this object has been told, it may refuse what stands in for that, or its lack: silently.
-        """
-        try:
-            return make()
-        except RobotModelError as error:
-            if not self._has_told_faults:
-                reason = error.message.removeprefix(f"{self.title} ")
-                self.sink.report(REFUSED.at(self.ref, *error.field, owner=self.title, reason=reason))
-            return None
-
-    @property
-    def _has_told_faults(self) -> bool:
-        """Whether something in this object, however deep, is known to be wrong."""
-        return any(isinstance(node, YamlFault) or self.sink.has_error_in(node.span) for node in leaves_in(self.node))
-
-    def said(self, key: str, required: str = "") -> YamlNode | None:
-        """Return what is said under a key; with an example of what to write, nothing said is told."""
-        node = self.node.get(key)
-        if node is None and required:
-            field = f"{self.path}.{key}" if self.path else key
-            element = _NEEDED_IN_XML.get(field, f"a '{key}'")
-            self.tell_lack(MISSING_FIELD, owner=self.owner, field=field, key=key, example=required, element=element)
-        return node
-
-    def tell_kind(self, node: YamlNode, field: str, expected: str) -> None:
-        """Report a node of another kind than its field takes; silent where that has been done."""
-        if not isinstance(node, YamlFault):
-            self.tell(WRONG_KIND, node, field=field, expected=expected, found=found(node))
 
 
 def or_default(said: T | None, default: T) -> T:

@@ -13,10 +13,12 @@ from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_elements, is_unsaid
 from linkforge_compile.lowering.joint import joints_of, positions_of_type
-from linkforge_compile.lowering.quantities import NOT_NEGATIVE, ZERO_TO_ONE
+from linkforge_compile.lowering.quantities import AMOUNT, ANGLE_OR_LENGTH, BARE, LENGTH, ZERO_TO_ONE, Measure
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension, is_in_full, number_text
+
+_SHARE = Measure(bound=ZERO_TO_ONE)
 
 
 def lower_gazebo_elements(file: Fields) -> Iterator[GazeboElement]:
@@ -54,7 +56,7 @@ def lower_plugin(plugin: Fields) -> GazeboPlugin | None:
     return _plugin(plugin, plugin.text("name", required="controller"))
 
 
-def _element(block: Fields, reference: str | None, position: tuple[Dimension, ...]) -> GazeboElement | None:
+def _element(block: Fields, reference: str | None, position: Measure) -> GazeboElement | None:
     return block.build(
         lambda: GazeboElement(
             reference,
@@ -62,8 +64,8 @@ def _element(block: Fields, reference: str | None, position: tuple[Dimension, ..
             [plugin for plugin in _plugins(block) if plugin],
             block.text("material"),
             block.flag("static"),
-            block.number("stop_cfm", bound=NOT_NEGATIVE),
-            block.number("stop_erp", bound=ZERO_TO_ONE),
+            block.number("stop_cfm", AMOUNT),
+            block.number("stop_erp", _SHARE),
             block.flag("provide_feedback"),
             block.flag("implicit_spring_damper"),
             source=block.ref,
@@ -72,10 +74,10 @@ def _element(block: Fields, reference: str | None, position: tuple[Dimension, ..
     )
 
 
-def _known_properties(block: Fields, position: tuple[Dimension, ...]) -> Iterator[tuple[str, FreePart]]:
+def _known_properties(block: Fields, position: Measure) -> Iterator[tuple[str, FreePart]]:
     """Yield the tags that have keys of their own, in the order written; `position` is what the joint goes by."""
     for entry in block.node:
-        read = _of(*position) if entry.name == "springReference" else _READ.get(entry.name)
+        read = _of(position) if entry.name == "springReference" else _READ.get(entry.name)
         text = read(block, entry.name) if read else None
         if text is not None:
             yield entry.name, text
@@ -125,17 +127,17 @@ def _tags_of_block(block: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
             yield entry.name, entry
 
 
-def _number(block: Fields, key: str, *dimensions: Dimension) -> str | None:
+def _number(block: Fields, key: str, measure: Measure = BARE) -> str | None:
     """Read a number of Gazebo's as text: in the spelling of its author where that is written out, as URDFs have it."""
-    number = block.number(key, *dimensions)
+    number = block.number(key, measure)
     if number is None:
         return None
     node = block.said(key)
     return node.text if isinstance(node, YamlScalar) and is_in_full(node.text) else number_text(number)
 
 
-def _of(*dimensions: Dimension) -> Callable[[Fields, str], str | None]:
-    return lambda block, key: _number(block, key, *dimensions)
+def _of(measure: Measure) -> Callable[[Fields, str], str | None]:
+    return lambda block, key: _number(block, key, measure)
 
 
 def _whole_number(block: Fields, key: str) -> str | None:
@@ -159,8 +161,8 @@ _READ: dict[str, Callable[[Fields, str], str | None]] = {
     "fdir1": _vector,
     "kp": _number,
     "kd": _number,
-    "maxVel": _of(Dimension.VELOCITY),
-    "minDepth": _of(Dimension.LENGTH),
+    "maxVel": _of(Measure((Dimension.VELOCITY,))),
+    "minDepth": _of(LENGTH),
     "maxContacts": _whole_number,
     "selfCollide": _flag,
     "gravity": _flag,
@@ -168,7 +170,7 @@ _READ: dict[str, Callable[[Fields, str], str | None]] = {
     "dampingFactor": _number,
     "laserRetro": _number,
     "springStiffness": _number,
-    "springReference": _of(Dimension.ANGLE, Dimension.LENGTH),
+    "springReference": _of(ANGLE_OR_LENGTH),
     "fudgeFactor": _number,
     "preserveFixedJoint": _flag,
     "disableFixedJointLumping": _flag,

@@ -8,13 +8,12 @@ from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geome
 from linkforge_compile.diagnostics.codes.model import NO_GEOMETRY, NO_MESH_FILE, SEVERAL_GEOMETRIES
 from linkforge_compile.lowering.extra import NO_EXTRAS, Extras, extras_of
 from linkforge_compile.lowering.fields import Fields
-from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_ZERO, Measure
+from linkforge_compile.lowering.quantities import EXTENT, NOT_ZERO, Measure
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode
-from linkforge_compile.units import Dimension
 
-_SIZE = Measure((Dimension.LENGTH,), ABOVE_ZERO)
+_FACTOR = Measure(bound=NOT_ZERO)
 
 
 def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
@@ -35,11 +34,11 @@ def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "box") if isinstance(node, YamlMap) else None
     if body:
         size, extras = (
-            body.vector3("size", Dimension.LENGTH, bound=ABOVE_ZERO, required="[0.1, 0.1, 0.1]"),
+            body.vector3("size", EXTENT, required="[0.1, 0.1, 0.1]"),
             extras_of(body),
         )
     else:
-        size, extras = shape.vector3_at(node, "box", _SIZE), NO_EXTRAS
+        size, extras = shape.vector3_at(node, "box", EXTENT), NO_EXTRAS
     return None if size is None else shape.build(lambda: Box(size, source=_ref(shape, node), **extras))
 
 
@@ -54,9 +53,9 @@ def _capsule(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | Non
 def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "sphere") if isinstance(node, YamlMap) else None
     if body:
-        radius, extras = body.number("radius", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.1"), extras_of(body)
+        radius, extras = body.number("radius", EXTENT, required="0.1"), extras_of(body)
     else:
-        radius, extras = shape.number_at(node, "sphere", _SIZE), NO_EXTRAS
+        radius, extras = shape.number_at(node, "sphere", EXTENT), NO_EXTRAS
     if radius is None:
         return None
     return shape.build(lambda: Sphere(radius, source=_ref(shape, node), **extras))
@@ -97,18 +96,17 @@ def _scale(mesh: Fields) -> Vector3 | None:
     node = mesh.node.get("scale")
     if node is None:
         return Vector3(1.0, 1.0, 1.0)
-    factor = Measure((), NOT_ZERO)
     if isinstance(node, YamlList):
-        return mesh.vector3_at(node, "scale", factor)
-    number = mesh.number_at(node, "scale", factor)
+        return mesh.vector3_at(node, "scale", _FACTOR)
+    number = mesh.number_at(node, "scale", _FACTOR)
     return None if number is None else Vector3(number, number, number)
 
 
 def _round(kind: type[Cylinder | Capsule], body: Fields | None) -> Geometry | None:
     if body is None:
         return None
-    radius = body.number("radius", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.1")
-    length = body.number("length", Dimension.LENGTH, bound=ABOVE_ZERO, required="0.5")
+    radius = body.number("radius", EXTENT, required="0.1")
+    length = body.number("length", EXTENT, required="0.5")
     if radius is None or length is None:
         return None
     return body.build(lambda: kind(radius, length, source=body.ref, **extras_of(body)))

@@ -26,7 +26,16 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
-from linkforge_compile.lowering.quantities import NOT_NEGATIVE, Measure, found
+from linkforge_compile.lowering.quantities import (
+    AMOUNT,
+    ANGLE,
+    ANGLE_OR_LENGTH,
+    BARE,
+    LENGTH,
+    NOT_NEGATIVE,
+    Measure,
+    found,
+)
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
@@ -34,17 +43,23 @@ from linkforge_compile.units import Dimension
 
 
 class _Motion(NamedTuple):
-    """The dimensions of a joint's position, effort and velocity; empty where only bare numbers will do."""
+    """What a joint's position, effort and velocity are measured in, and what the latter look like where they lack."""
 
-    position: tuple[Dimension, ...] = ()
-    effort: tuple[Dimension, ...] = ()
-    velocity: tuple[Dimension, ...] = ()
+    position: Measure = BARE
+    effort: Measure = AMOUNT
+    velocity: Measure = AMOUNT
+    some_effort: str = "1"
+    some_velocity: str = "1"
     limits: str = ""
     """What limits look like, to offer where they are required; empty where they are not."""
 
 
-_TURNING = _Motion((Dimension.ANGLE,), (Dimension.TORQUE,), (Dimension.ANGULAR_VELOCITY,))
-_SLIDING = _Motion((Dimension.LENGTH,), (Dimension.FORCE,), (Dimension.VELOCITY,))
+def _amount(*dimensions: Dimension) -> Measure:
+    return Measure(dimensions, NOT_NEGATIVE)
+
+
+_TURNING = _Motion(ANGLE, _amount(Dimension.TORQUE), _amount(Dimension.ANGULAR_VELOCITY), "50 N*m", "90 deg/s")
+_SLIDING = _Motion(LENGTH, _amount(Dimension.FORCE), _amount(Dimension.VELOCITY), "50 N", "0.2 m/s")
 _MOTIONS = {
     JointType.REVOLUTE: _TURNING._replace(limits="{lower: -90 deg, upper: 90 deg, effort: 50 N*m, velocity: 90 deg/s}"),
     JointType.CONTINUOUS: _TURNING,
@@ -54,16 +69,16 @@ _MOTIONS = {
     JointType.PLANAR: _Motion(),
 }
 _MOTIONS_BY_NAME = {str(kind): motion for kind, motion in _MOTIONS.items()}
-_ANY_MOTION = _Motion(
-    _TURNING.position + _SLIDING.position, _TURNING.effort + _SLIDING.effort, _TURNING.velocity + _SLIDING.velocity
+_ANY_MOTION = _TURNING._replace(
+    position=ANGLE_OR_LENGTH,
+    effort=_amount(Dimension.TORQUE, Dimension.FORCE),
+    velocity=_amount(Dimension.ANGULAR_VELOCITY, Dimension.VELOCITY),
 )
 # What stands in for what is faulty, which has been told: the joint stays, so that its ends and the tree are judged.
 # Nothing of it is ever written: a compile that told an error gives no robot.
 _STAND_IN_TYPE = JointType.REVOLUTE
 _STAND_IN_AXIS = Vector3(0.0, 0.0, 1.0)
 _STAND_IN_LIMITS = JointLimits(-UNKNOWN, UNKNOWN, 1.0, 1.0)
-
-_EXAMPLES = {Dimension.TORQUE: "50 N*m", Dimension.FORCE: "50 N", Dimension.ANGULAR_VELOCITY: "90 deg/s"}
 
 _AXES = {
     "x": Vector3(1.0, 0.0, 0.0),
@@ -75,15 +90,12 @@ _AXES = {
 }
 
 
-_SOME_POSITION = Measure((Dimension.ANGLE, Dimension.LENGTH))
-
-
 def position_measure(joint: Joint | None) -> Measure:
     """Return what a position of a joint is measured in: an angle, a length, or either where its type is not known."""
     if joint is None or joint.limits == _STAND_IN_LIMITS:
-        return _SOME_POSITION
-    dimensions = _MOTIONS[joint.type].position
-    return Measure(dimensions) if dimensions else _SOME_POSITION
+        return ANGLE_OR_LENGTH
+    position = _MOTIONS[joint.type].position
+    return position if position.dimensions else ANGLE_OR_LENGTH
 
 
 def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
@@ -93,11 +105,11 @@ def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
     return {entry.name: entry.value for entry in entries if isinstance(entry.value, YamlMap)}
 
 
-def positions_of_type(joint: Located | None) -> tuple[Dimension, ...]:
+def positions_of_type(joint: Located | None) -> Measure:
     """Return what a joint that is written somewhere goes by: an angle, a length, or either where nobody knows."""
     kind = joint.child("type") if joint else None
     motion = _MOTIONS_BY_NAME.get(kind.text) if isinstance(kind, YamlScalar) else None
-    return (motion and motion.position) or _SOME_POSITION.dimensions
+    return motion.position if motion and motion.position.dimensions else ANGLE_OR_LENGTH
 
 
 class Ends(NamedTuple):
@@ -198,7 +210,7 @@ def _axis(fields: Fields, joint_type: JointType | None) -> tuple[Vector3 | None,
         if axis is None:
             fields.tell(UNKNOWN_AXIS, node, found=found(node))
         return axis or _STAND_IN_AXIS, None
-    written = fields.vector3_at(node, "axis", Measure())
+    written = fields.vector3_at(node, "axis", BARE)
     if written is None:
         return _STAND_IN_AXIS, None
     length = math.hypot(*written)
@@ -217,9 +229,9 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: _Motion) -> Jo
     limits = fields.map("limits", required=motion.limits)
     if limits is None:
         return _STAND_IN_LIMITS if motion.limits else None
-    lower, upper = limits.number("lower", *motion.position), limits.number("upper", *motion.position)
-    effort = limits.number("effort", *motion.effort, bound=NOT_NEGATIVE, required=_example(motion.effort))
-    velocity = limits.number("velocity", *motion.velocity, bound=NOT_NEGATIVE, required=_example(motion.velocity))
+    lower, upper = limits.number("lower", motion.position), limits.number("upper", motion.position)
+    effort = limits.number("effort", motion.effort, required=motion.some_effort)
+    velocity = limits.number("velocity", motion.velocity, required=motion.some_velocity)
     are_crossed = lower is not None and upper is not None and lower > upper
     if are_crossed:
         _tell_crossed(limits)
@@ -249,8 +261,8 @@ def _dynamics(fields: Fields, motion: _Motion) -> JointDynamics | None:
     dynamics = fields.map("dynamics")
     if dynamics is None:
         return None
-    damping = dynamics.number("damping", bound=NOT_NEGATIVE) or 0.0
-    friction = dynamics.number("friction", *motion.effort, bound=NOT_NEGATIVE) or 0.0
+    damping = dynamics.number("damping", AMOUNT) or 0.0
+    friction = dynamics.number("friction", motion.effort) or 0.0
     return dynamics.build(lambda: JointDynamics(damping, friction, source=dynamics.ref, **extras_of(dynamics)))
 
 
@@ -259,7 +271,7 @@ def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:
     if mimic is None:
         return None
     joint = mimic.text("joint", required="left_finger")
-    multiplier, offset = mimic.number("multiplier"), mimic.number("offset", *motion.position)
+    multiplier, offset = mimic.number("multiplier"), mimic.number("offset", motion.position)
     if joint is None:
         return None
     if multiplier is None:
@@ -276,8 +288,8 @@ def _safety_controller(fields: Fields, motion: _Motion) -> JointSafetyController
     safety = fields.map("safety_controller")
     if safety is None:
         return None
-    lower = safety.number("soft_lower_limit", *motion.position)
-    upper = safety.number("soft_upper_limit", *motion.position)
+    lower = safety.number("soft_lower_limit", motion.position)
+    upper = safety.number("soft_upper_limit", motion.position)
     if lower is None and _is_lost(safety, "soft_lower_limit"):
         lower = -UNKNOWN
     if upper is None and _is_lost(safety, "soft_upper_limit"):
@@ -292,7 +304,7 @@ def _calibration(fields: Fields, motion: _Motion) -> JointCalibration | None:
     calibration = fields.map("calibration")
     if calibration is None:
         return None
-    rising, falling = calibration.number("rising", *motion.position), calibration.number("falling", *motion.position)
+    rising, falling = calibration.number("rising", motion.position), calibration.number("falling", motion.position)
     return calibration.build(
         lambda: JointCalibration(rising, falling, source=calibration.ref, **extras_of(calibration))
     )
@@ -302,7 +314,3 @@ def _refuse(fields: Fields, key: str, joint_type: JointType) -> None:
     node = fields.node.get(key)
     if node is not None and not isinstance(node, YamlFault):
         fields.tell(NOT_OF_THIS_TYPE, node, owner=fields.title, field=key, type=joint_type)
-
-
-def _example(dimensions: tuple[Dimension, ...]) -> str:
-    return _EXAMPLES.get(dimensions[0], "0.2 m/s") if dimensions else "1"

@@ -30,7 +30,7 @@ from linkforge_compile.lowering.extra import extras_of, outer_extras_of
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.geometry import lower_geometry
 from linkforge_compile.lowering.material import lower_visual_material
-from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_NEGATIVE, found
+from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_NEGATIVE, Measure, found
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar
@@ -38,6 +38,9 @@ from linkforge_compile.units import Dimension
 
 _MOMENTS = ("ixx", "iyy", "izz")
 _PRODUCTS = ("ixy", "ixz", "iyz")
+
+_MASS, _MASS_TO_SPREAD = Measure((Dimension.MASS,), NOT_NEGATIVE), Measure((Dimension.MASS,), ABOVE_ZERO)
+_DENSITY, _INERTIA = Measure((Dimension.DENSITY,), ABOVE_ZERO), Measure((Dimension.INERTIA,))
 
 _UNSAID_PHYSICS = LinkPhysics()
 
@@ -160,8 +163,8 @@ def _inertial(link: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None
 
 def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
     written = inertial.node.get("inertia") is not None
-    mass = inertial.number("mass", Dimension.MASS, bound=NOT_NEGATIVE if written else ABOVE_ZERO)
-    density = inertial.number("density", Dimension.DENSITY, bound=ABOVE_ZERO)
+    mass = inertial.number("mass", _MASS if written else _MASS_TO_SPREAD)
+    density = inertial.number("density", _DENSITY)
     origin = inertial.origin()
     if written:
         return _written(inertial, mass, origin)
@@ -188,8 +191,8 @@ def _tensor(inertial: Fields) -> InertiaTensor | None:
     inertia = inertial.map("inertia")
     if inertia is None:
         return None
-    moments = [inertia.number(key, Dimension.INERTIA, required="0.01") for key in _MOMENTS]
-    products = [inertia.number(key, Dimension.INERTIA) or 0.0 for key in _PRODUCTS]
+    moments = [inertia.number(key, _INERTIA, required="0.01") for key in _MOMENTS]
+    products = [inertia.number(key, _INERTIA) or 0.0 for key in _PRODUCTS]
     known = [moment for moment in moments if moment is not None]
     if len(known) < len(moments):
         return None

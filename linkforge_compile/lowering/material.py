@@ -15,6 +15,8 @@ from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 
+_SHARE = Measure(bound=ZERO_TO_ONE)
+
 _BYTE = 255
 _LEAST_BYTE = 16
 """The brightest part of a color that was meant in bytes is at least so large; 2 is a slip for 0.2."""
@@ -77,7 +79,7 @@ def _color(fields: Fields) -> Color | None:
         return None
     if isinstance(numbers, YamlList) and _tell_bytes(fields, numbers):
         return None
-    rgba = None if numbers is None else fields.numbers_at(numbers, "color", Measure((), ZERO_TO_ONE), 3, 4)
+    rgba = None if numbers is None else fields.numbers_at(numbers, "color", _SHARE, 3, 4)
     if node is None or rgba is None:
         return None
     extras = extras_of(long) if long else NO_EXTRAS

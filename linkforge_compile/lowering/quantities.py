@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable
 from dataclasses import field
 
@@ -51,36 +52,51 @@ _LONGEST_LENGTH = 100.0
 
 _MOST_TURNED, _UNBOUNDED = 8 * math.pi, 1e4
 """A URDF has no unit to say that an angle is meant so [rad]: vendors write limits of 10, and of 1e16 for none."""
-_SURE = min(WIDEST_ANGLE, _LONGEST_LENGTH)
-"""Numbers of less than this, either way, are doubted of no dimension."""
+_LARGEST, _SMALLEST = sys.float_info.max, math.ulp(0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class Bound:
-    """A range that a number must keep to, and its words in "must be …"."""
+    """A range that a number must keep to, and its words in "must be …"; all from `least` to `most` keep to it."""
 
     words: str
     holds: Callable[[float], bool]
+    least: float = -_LARGEST
+    most: float = _LARGEST
 
 
-ABOVE_ZERO = Bound("above 0", lambda value: value > 0)
-NOT_NEGATIVE = Bound("0 or above", lambda value: value >= 0)
-NOT_ZERO = Bound("other than 0", lambda value: value != 0)
-BEYOND_EPSILON = Bound("further than 1e-9 from 0", lambda value: abs(value) >= EPSILON)
-UP_TO_HALF_A_TURN = Bound("above 0 and at most pi", lambda value: 0 < value <= math.pi * (1 + 1e-9))
-ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1)
+ABOVE_ZERO = Bound("above 0", lambda value: value > 0, least=_SMALLEST)
+NOT_NEGATIVE = Bound("0 or above", lambda value: value >= 0, least=0.0)
+NOT_ZERO = Bound("other than 0", lambda value: value != 0, least=_SMALLEST)
+BEYOND_EPSILON = Bound("further than 1e-9 from 0", lambda value: abs(value) >= EPSILON, least=EPSILON)
+UP_TO_HALF_A_TURN = Bound(
+    "above 0 and at most pi", lambda value: 0 < value <= math.pi * (1 + 1e-9), least=_SMALLEST, most=math.pi
+)
+ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1, least=0.0, most=1.0)
+
+_DOUBTED_BEYOND: dict[tuple[Dimension, ...], float] = {
+    (Dimension.ANGLE,): WIDEST_ANGLE,
+    (Dimension.LENGTH,): _LONGEST_LENGTH,
+}
+"""How far from 0 those numbers lie, by what is measured, that are likely meant in degrees or millimetres."""
 
 
-@dataclass(frozen=True, slots=True)
 class Measure:
     """What a number field takes: a bare number or a quantity of one of `dimensions`, none for bare numbers only.
 
-    A length of more than 100 m is doubted, unless it is how far something sees.
+    A length of more than 100 m is doubted, unless it is how far something sees. Bare numbers from `least` to `most`
+    are neither refused nor doubted, so that nearly all are taken without another look.
     """
 
-    dimensions: tuple[Dimension, ...] = ()
-    bound: Bound | None = None
-    may_be_far: bool = False
+    __slots__ = ("bound", "dimensions", "least", "may_be_far", "most")
+
+    def __init__(
+        self, dimensions: tuple[Dimension, ...] = (), bound: Bound | None = None, *, may_be_far: bool = False
+    ) -> None:
+        self.dimensions, self.bound, self.may_be_far = dimensions, bound, may_be_far
+        reach = _LARGEST if may_be_far else _DOUBTED_BEYOND.get(dimensions, _LARGEST)
+        self.least = max(-reach, bound.least) if bound else -reach
+        self.most = min(reach, bound.most) if bound else reach
 
     @property
     def words(self) -> str:
@@ -95,6 +111,13 @@ class Measure:
         return f" [{self.dimensions[0].si_unit}]" if len(self.dimensions) == 1 else ""
 
 
+BARE = Measure()
+AMOUNT = Measure(bound=NOT_NEGATIVE)
+COUNT = Measure(bound=ABOVE_ZERO)
+LENGTH, EXTENT = Measure((Dimension.LENGTH,)), Measure((Dimension.LENGTH,), ABOVE_ZERO)
+ANGLE, ANGLE_OR_LENGTH = Measure((Dimension.ANGLE,)), Measure((Dimension.ANGLE, Dimension.LENGTH))
+
+
 @dataclass(frozen=True, slots=True)
 class Refusal:
     """Why a node is not the number that its field takes; the field's name is the one fact that is missing."""
@@ -104,23 +127,29 @@ class Refusal:
     near: tuple[str, ...] = ()
 
 
-def plain_number(node: YamlNode, bound: Bound | None) -> float | None:
-    """Return the number that a node says, where it is one that no measure of this bound refuses or doubts.
+def plain_number(node: YamlNode, measure: Measure) -> float | None:
+    """Return the number that a node says bare, where the measure neither refuses nor doubts it.
 
     That is nine of ten; None for one that has to be looked at.
     """
-    value = node.value if isinstance(node, YamlScalar) else None
-    if (value.__class__ is float or value.__class__ is int) and -_SURE < value < _SURE:
-        return float(value) if bound is None or bound.holds(value) else None
+    if isinstance(node, YamlScalar):
+        value = node.value
+        if (value.__class__ is float or value.__class__ is int) and measure.least <= value <= measure.most:
+            return float(value)
     return None
 
 
-def plain_numbers(node: YamlNode, bound: Bound | None) -> tuple[float, ...]:
+def plain_numbers(node: YamlNode, measure: Measure) -> tuple[float, ...]:
     """Return the numbers that a list says where each is one for `plain_number`; none for anything else."""
     if not isinstance(node, YamlList):
         return ()
-    numbers = [number for item in node.items if (number := plain_number(item, bound)) is not None]
-    return tuple(numbers) if len(numbers) == len(node.items) else ()
+    numbers: list[float] = []
+    for item in node.items:
+        number = plain_number(item, measure)
+        if number is None:
+            return ()
+        numbers.append(number)
+    return tuple(numbers)
 
 
 def si_number(node: YamlNode, measure: Measure) -> float | Refusal:

@@ -22,7 +22,16 @@ from linkforge_compile.core.models.sensor import (
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.gazebo import lower_plugin
-from linkforge_compile.lowering.quantities import ABOVE_ZERO, UP_TO_HALF_A_TURN, Measure
+from linkforge_compile.lowering.quantities import (
+    ABOVE_ZERO,
+    ANGLE,
+    BARE,
+    COUNT,
+    EXTENT,
+    LENGTH,
+    UP_TO_HALF_A_TURN,
+    Measure,
+)
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.units import Dimension
 
@@ -30,6 +39,12 @@ T = TypeVar("T")
 
 _OWN_INFO = {kind: field.removesuffix("_info") for kind, field in REQUIRED_INFO.items()}
 """The key of what a sensor of each type says about itself."""
+
+_RATE = Measure((Dimension.FREQUENCY,), ABOVE_ZERO)
+_FIELD_OF_VIEW = Measure((Dimension.ANGLE,), UP_TO_HALF_A_TURN)
+_SIGHT = Measure((Dimension.LENGTH,), may_be_far=True)
+_MOVING, _TURNING = Measure((Dimension.VELOCITY,)), Measure((Dimension.ANGULAR_VELOCITY,))
+_LOAD = Measure((Dimension.FORCE, Dimension.TORQUE))
 
 
 class _Infos(NamedTuple):
@@ -63,7 +78,7 @@ def lower_sensors(file: Fields) -> Iterator[Sensor]:
 
 def _sensor(fields: Fields, name: str) -> Sensor | None:
     sensor_type, link = fields.choice("type", SensorType, required="camera"), fields.text("link", required="head")
-    update_rate = fields.number("update_rate", Dimension.FREQUENCY, bound=ABOVE_ZERO)
+    update_rate = fields.number("update_rate", _RATE)
     always_on, visualize = fields.flag("always_on"), fields.flag("visualize")
     origin, topic, frame = fields.origin(), fields.text("topic"), fields.text("frame")
     plugin = fields.map("plugin")
@@ -116,11 +131,11 @@ def _camera(info: Fields) -> CameraInfo | None:
     unsaid = CameraInfo()
     return info.build(
         lambda: CameraInfo(
-            or_default(info.number("horizontal_fov", Dimension.ANGLE, bound=UP_TO_HALF_A_TURN), unsaid.horizontal_fov),
-            or_default(info.integer("width", bound=ABOVE_ZERO), unsaid.width),
-            or_default(info.integer("height", bound=ABOVE_ZERO), unsaid.height),
+            or_default(info.number("horizontal_fov", _FIELD_OF_VIEW), unsaid.horizontal_fov),
+            or_default(info.integer("width", COUNT), unsaid.width),
+            or_default(info.integer("height", COUNT), unsaid.height),
             or_default(info.text("format"), unsaid.format),
-            or_default(info.number("near_clip", Dimension.LENGTH, bound=ABOVE_ZERO), unsaid.near_clip),
+            or_default(info.number("near_clip", EXTENT), unsaid.near_clip),
             or_default(_sight(info, "far_clip"), unsaid.far_clip),
             _noise(info, "noise"),
             source=info.ref,
@@ -132,25 +147,25 @@ def _camera(info: Fields) -> CameraInfo | None:
 def _sight(info: Fields, key: str) -> float | None:
     """Read how far a sensor sees [m]."""
     node = info.said(key)
-    return None if node is None else info.number_at(node, key, Measure((Dimension.LENGTH,), may_be_far=True))
+    return None if node is None else info.number_at(node, key, _SIGHT)
 
 
 def _lidar(info: Fields) -> LidarInfo | None:
     unsaid = LidarInfo()
     return info.build(
         lambda: LidarInfo(
-            or_default(info.integer("horizontal_samples", bound=ABOVE_ZERO), unsaid.horizontal_samples),
+            or_default(info.integer("horizontal_samples", COUNT), unsaid.horizontal_samples),
             or_default(info.number("horizontal_resolution"), unsaid.horizontal_resolution),
-            or_default(info.number("horizontal_min_angle", Dimension.ANGLE), unsaid.horizontal_min_angle),
-            or_default(info.number("horizontal_max_angle", Dimension.ANGLE), unsaid.horizontal_max_angle),
+            or_default(info.number("horizontal_min_angle", ANGLE), unsaid.horizontal_min_angle),
+            or_default(info.number("horizontal_max_angle", ANGLE), unsaid.horizontal_max_angle),
             or_default(info.integer("vertical_samples"), unsaid.vertical_samples),
             or_default(info.number("vertical_resolution"), unsaid.vertical_resolution),
-            or_default(info.number("vertical_min_angle", Dimension.ANGLE), unsaid.vertical_min_angle),
-            or_default(info.number("vertical_max_angle", Dimension.ANGLE), unsaid.vertical_max_angle),
-            or_default(info.number("range_min", Dimension.LENGTH, bound=ABOVE_ZERO), unsaid.range_min),
+            or_default(info.number("vertical_min_angle", ANGLE), unsaid.vertical_min_angle),
+            or_default(info.number("vertical_max_angle", ANGLE), unsaid.vertical_max_angle),
+            or_default(info.number("range_min", EXTENT), unsaid.range_min),
             or_default(_sight(info, "range_max"), unsaid.range_max),
-            or_default(info.number("range_resolution", Dimension.LENGTH, bound=ABOVE_ZERO), unsaid.range_resolution),
-            _noise(info, "noise", Dimension.LENGTH),
+            or_default(info.number("range_resolution", EXTENT), unsaid.range_resolution),
+            _noise(info, "noise", LENGTH),
             source=info.ref,
             **extras_of(info),
         )
@@ -160,7 +175,7 @@ def _lidar(info: Fields) -> LidarInfo | None:
 def _imu(info: Fields) -> IMUInfo | None:
     return info.build(
         lambda: IMUInfo(
-            _noise(info, "angular_velocity_noise", Dimension.ANGULAR_VELOCITY),
+            _noise(info, "angular_velocity_noise", _TURNING),
             _noise(info, "linear_acceleration_noise"),
             source=info.ref,
             **extras_of(info),
@@ -171,10 +186,10 @@ def _imu(info: Fields) -> IMUInfo | None:
 def _gps(info: Fields) -> GPSInfo | None:
     return info.build(
         lambda: GPSInfo(
-            _noise(info, "position_sensing_horizontal_noise", Dimension.LENGTH),
-            _noise(info, "position_sensing_vertical_noise", Dimension.LENGTH),
-            _noise(info, "velocity_sensing_horizontal_noise", Dimension.VELOCITY),
-            _noise(info, "velocity_sensing_vertical_noise", Dimension.VELOCITY),
+            _noise(info, "position_sensing_horizontal_noise", LENGTH),
+            _noise(info, "position_sensing_vertical_noise", LENGTH),
+            _noise(info, "velocity_sensing_horizontal_noise", _MOVING),
+            _noise(info, "velocity_sensing_vertical_noise", _MOVING),
             source=info.ref,
             **extras_of(info),
         )
@@ -193,20 +208,20 @@ def _force_torque(info: Fields) -> ForceTorqueInfo | None:
         lambda: ForceTorqueInfo(
             or_default(info.choice("frame", _Frame), _Frame.CHILD).value,
             or_default(info.choice("measure_direction", _Direction), _Direction.CHILD_TO_PARENT).value,
-            _noise(info, "noise", Dimension.FORCE, Dimension.TORQUE),
+            _noise(info, "noise", _LOAD),
             source=info.ref,
             **extras_of(info),
         )
     )
 
 
-def _noise(info: Fields, key: str, *dimensions: Dimension) -> SensorNoise | None:
-    """Read a noise in the dimensions of what is measured; without any, in bare numbers."""
+def _noise(info: Fields, key: str, measure: Measure = BARE) -> SensorNoise | None:
+    """Read a noise in the measure of what is sensed."""
     noise = info.map(key)
     if noise is None:
         return None
     names = ("mean", "stddev", "bias_mean", "bias_stddev")
-    said = {name: number for name in names if (number := noise.number(name, *dimensions)) is not None}
+    said = {name: number for name in names if (number := noise.number(name, measure)) is not None}
     return noise.build(
         lambda: SensorNoise(
             or_default(noise.text("type"), default.NOISE_GAUSSIAN),

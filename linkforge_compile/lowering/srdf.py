@@ -23,12 +23,14 @@ from linkforge_compile.lowering.duplicates import tell_duplicate
 from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import is_unsaid
-from linkforge_compile.lowering.quantities import NOT_NEGATIVE
+from linkforge_compile.lowering.quantities import LENGTH, NOT_NEGATIVE, Measure
 from linkforge_compile.lowering.srdf_states import WrittenState, written_states
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode
 from linkforge_compile.units import Dimension
+
+_RADIUS = Measure((Dimension.LENGTH,), NOT_NEGATIVE)
 
 
 class Semantic(NamedTuple):
@@ -175,8 +177,8 @@ def _sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
     sphere = approximation.map_at(node, "sphere")
     if sphere is None:
         return None
-    center = sphere.vector3("center", Dimension.LENGTH, required="[0, 0, 0.1]")
-    radius = sphere.number("radius", Dimension.LENGTH, bound=NOT_NEGATIVE, required="0.1")
+    center = sphere.vector3("center", LENGTH, required="[0, 0, 0.1]")
+    radius = sphere.number("radius", _RADIUS, required="0.1")
     if center is None or radius is None:
         return None
     return sphere.build(

@@ -12,12 +12,13 @@ from linkforge_compile.lowering.extra import extras_of
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_elements
 from linkforge_compile.lowering.joint import joints_of, positions_of_type
-from linkforge_compile.lowering.quantities import BEYOND_EPSILON
+from linkforge_compile.lowering.quantities import BEYOND_EPSILON, Measure
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlList, YamlNode
-from linkforge_compile.units import Dimension
 
 End = TypeVar("End", TransmissionJoint, TransmissionActuator)
+
+_REDUCTION = Measure(bound=BEYOND_EPSILON)
 
 
 def lower_transmissions(file: Fields) -> Iterator[Transmission]:
@@ -51,12 +52,12 @@ def _actuator(end: Fields, name: str) -> TransmissionActuator | None:
     return _end(TransmissionActuator, end, name, positions_of_type(None))
 
 
-def _end(kind: type[End], end: Fields, name: str, position: tuple[Dimension, ...]) -> End | None:
+def _end(kind: type[End], end: Fields, name: str, position: Measure) -> End | None:
     said = end.node.get("hardware_interfaces")
     are_stated = not _is_empty_list(said)
     interfaces = end.names("hardware_interfaces") if said and are_stated else (HW_IF_POSITION,)
-    reduction = end.number("mechanical_reduction", bound=BEYOND_EPSILON)
-    offset = end.number("offset", *position)
+    reduction = end.number("mechanical_reduction", _REDUCTION)
+    offset = end.number("offset", position)
     make = partial(kind, name, interfaces, reduction, offset or 0.0, stated=("offset",) if offset == 0 else ())
     finish = partial(make, interfaces_stated=are_stated, source=end.ref)
     return end.build(lambda: finish(**extras_of(end)))

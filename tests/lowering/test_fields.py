@@ -6,7 +6,7 @@ import pytest
 from linkforge_compile.core import Box, Transform, Vector3
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.lowering.fields import Fields
-from linkforge_compile.lowering.quantities import ABOVE_ZERO
+from linkforge_compile.lowering.quantities import EXTENT, Measure
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar, read
 from linkforge_compile.units import Dimension
@@ -42,7 +42,7 @@ def test_what_is_required_and_missing_is_told_at_the_object_with_what_to_write()
     assert fields.text("parent", required="base") is None
     limits = fields.map("limits")
     assert limits is not None
-    assert limits.number("effort", Dimension.TORQUE, required="50 N*m") is None
+    assert limits.number("effort", Measure((Dimension.TORQUE,)), required="50 N*m") is None
     assert told(fields) == [
         "spec.yaml:1:1: error: joint 'elbow' has no 'parent'; write 'parent: base' [LF5005]",
         "spec.yaml:1:9: error: joint 'elbow' has no 'limits.effort'; write 'effort: 50 N*m' [LF5005]",
@@ -116,7 +116,7 @@ def test_an_origin_is_three_lengths_or_a_map_of_xyz_and_rpy():
 
 def test_each_number_of_a_vector_is_told_at_its_place():
     fields = fields_of("box: [1, 2 kg, 0]")
-    assert fields.vector3("box", Dimension.LENGTH, bound=ABOVE_ZERO) is None
+    assert fields.vector3("box", EXTENT) is None
     assert told(fields) == [
         "spec.yaml:1:10: error: box takes a length such as '25 mm', found '2 kg', which is a mass [LF5002]",
         "spec.yaml:1:16: error: box must be above 0 [m], found 0 [LF5006]",

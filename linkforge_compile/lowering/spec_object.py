@@ -1,0 +1,105 @@
+"""One object of the tree: where it stands, how messages name it, and what there is to tell of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TypeVar
+
+from linkforge_compile.core.exceptions import RobotModelError
+from linkforge_compile.diagnostics import Code, Diagnostics, notes_of_changes
+from linkforge_compile.diagnostics.codes.model import MISSING_FIELD, REFUSED, WRONG_KIND
+from linkforge_compile.lowering.quantities import found
+from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.syntax import leaves_in
+from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlNode
+
+_NEEDED_IN_XML = {
+    "axis": """an <axis>; write '<axis xyz="0 0 1"/>'""",
+    "limits": """a <limit>; write '<limit lower="-1" upper="1" effort="50" velocity="1"/>'""",
+    "limits.effort": """an effort in its <limit>; write 'effort="50"'""",
+    "limits.velocity": """a velocity in its <limit>; write 'velocity="1"'""",
+}
+"""What a URDF lacks that has none of a required field, and how it says it; by the field."""
+
+T = TypeVar("T")
+
+
+class SpecObject:
+    """A map of the tree that an object of the IR is made of.
+
+    `owner` is the named thing whose fields these are, as messages say it: "joint 'elbow'"; `key` is where the object's
+    name stands, None for one without a name; `path` is the way from the owner to this object: "limits",
+    "inertial.inertia", empty for the owner itself.
+    """
+
+    # There is one for every map of a spec: to make a frozen one takes four times as long.
+    __slots__ = ("key", "node", "owner", "path", "sink", "trail")
+
+    def __init__(  # noqa: PLR0917 as above: arguments by name take longer
+        self,
+        node: YamlMap,
+        owner: str,
+        sink: Diagnostics,
+        trail: tuple[Span, ...] = (),
+        key: Span | None = None,
+        path: str = "",
+    ) -> None:
+        self.node, self.owner, self.sink = node, owner, sink
+        self.trail, self.key, self.path = trail, key, path
+
+    @property
+    def title(self) -> str:
+        """How messages name this very object: "limits of joint 'elbow'"."""
+        return f"{self.path} of {self.owner}" if self.path else self.owner
+
+    @property
+    def ref(self) -> SourceRef:
+        """What the IR object made of these fields has as its `source`."""
+        return SourceRef(self.node, self.key, self.trail)
+
+    def tell(self, code: Code, where: YamlNode | SourceRef, *, near: Iterable[str] = (), **facts: object) -> None:
+        """Report a fault at a node of this object, or at what a reference points to."""
+        if isinstance(where, SourceRef):
+            self.sink.report(code.at(where, near=near, notes=(), **facts))
+            return
+        changed = notes_of_changes(self.node.span.changes, where.span) if where is not self.node else ()
+        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=changed, **facts))
+
+    @property
+    def is_faulty(self) -> bool:
+        """Whether a fault in this object has been told: what it seems to lack may be that, misspelt."""
+        return any(isinstance(entry.value, YamlFault) for entry in self.node)
+
+    def tell_lack(self, code: Code, **facts: object) -> None:
+        """Report what this object lacks; silent where something in it is faulty."""
+        if not self.is_faulty:
+            self.tell(code, self.ref, near=(), **facts)
+
+    def tell_missing(self, key: str, example: str) -> None:
+        """Report that a required field says nothing, with an example of what to write."""
+        field = f"{self.path}.{key}" if self.path else key
+        element = _NEEDED_IN_XML.get(field, f"a '{key}'")
+        self.tell_lack(MISSING_FIELD, owner=self.owner, field=field, key=key, example=example, element=element)
+
+    def build(self, make: Callable[[], T]) -> T | None:
+        """Make an object of the IR; what its constructor refuses is told at the field it names.
+
+        Where a fault in this object has been told, it may refuse what stands in for that, or its lack: silently.
+        """
+        try:
+            return make()
+        except RobotModelError as error:
+            if not self._has_told_faults:
+                reason = error.message.removeprefix(f"{self.title} ")
+                self.sink.report(REFUSED.at(self.ref, *error.field, owner=self.title, reason=reason))
+            return None
+
+    @property
+    def _has_told_faults(self) -> bool:
+        """Whether something in this object, however deep, is known to be wrong."""
+        return any(isinstance(node, YamlFault) or self.sink.has_error_in(node.span) for node in leaves_in(self.node))
+
+    def tell_kind(self, node: YamlNode, field: str, expected: str) -> None:
+        """Report a node of another kind than its field takes; silent where that has been done."""
+        if not isinstance(node, YamlFault):
+            self.tell(WRONG_KIND, node, field=field, expected=expected, found=found(node))
