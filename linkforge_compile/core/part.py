@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import Field, field
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar, Final, Self
 
 from linkforge_compile.core.frozen_map import FrozenMap, frozen
 from linkforge_compile.core.prefixing import prefixed_copy
@@ -53,6 +53,26 @@ class Part(Sourced):
         def __hash__(self) -> int: ...
 
 
+_NOTHING: Final = ()
+
+
+def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) -> None:
+    """Make tuples of the named sequences and FrozenMaps of the named mappings, all the way down; extras are tuples.
+
+    For `__post_init__` only. An element without collections of its own inherits it; one that has them calls it.
+    """
+    for name in sequences:
+        set_field(element, name, tuple(getattr(element, name)))
+    for name in mappings:
+        set_field(element, name, frozen(FrozenMap(getattr(element, name))))
+    has_no_elements, has_no_attributes = element.extra_elements is _NOTHING, element.extra_attributes is _NOTHING
+    if has_no_elements and has_no_attributes and element.extra_inside is _NOTHING:
+        return  # nearly all, of which a robot has many
+    set_field(element, "extra_elements", tuple(element.extra_elements))
+    set_field(element, "extra_attributes", attribute_pairs(element.extra_attributes))
+    set_field(element, "extra_inside", tuple(element.extra_inside))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Element(Part):
     """A part that becomes an XML element.
@@ -87,25 +107,10 @@ class Inside(Element):
     name: str | None = None
 
 
-def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) -> None:
-    """Make tuples of the named sequences and FrozenMaps of the named mappings, all the way down; extras are tuples.
-
-    For `__post_init__` only. An element without collections of its own inherits it; one that has them calls it.
-    """
-    for name in sequences:
-        set_field(element, name, tuple(getattr(element, name)))
-    for name in mappings:
-        set_field(element, name, frozen(FrozenMap(getattr(element, name))))
-    if element.extra_elements != ():
-        set_field(element, "extra_elements", tuple(element.extra_elements))
-    if element.extra_attributes != ():
-        set_field(element, "extra_attributes", attribute_pairs(element.extra_attributes))
-    if element.extra_inside != ():
-        set_field(element, "extra_inside", tuple(element.extra_inside))
-
-
 def attribute_pairs(attributes: Sequence[tuple[str, str]] | Mapping[str, str]) -> tuple[tuple[str, str], ...]:
     """Return (name, value) pairs in the order given."""
+    if not attributes:
+        return ()
     pairs = attributes.items() if isinstance(attributes, Mapping) else attributes
     return tuple((name, value) for name, value in pairs)
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterable
 from typing import Protocol
 
 from linkforge_compile.core.exceptions import FieldPath, RobotMathError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.naming import is_valid_name
+
+_LARGEST = sys.float_info.max
 
 
 class Named(Protocol):
@@ -115,6 +118,8 @@ def require_finite(part: object, *names: str) -> None:
     """
     for name in names:
         value: float | None = getattr(part, name)
+        if value.__class__ is float and -_LARGEST <= value <= _LARGEST:
+            continue  # nearly all, without a call
         if value is not None and not is_finite(value):
             raise not_finite(value, name, f"{type(part).__name__}.{name}", (name,))
 

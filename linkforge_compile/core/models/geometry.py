@@ -9,7 +9,7 @@ from math import isfinite
 from typing import TypeAlias
 
 from linkforge_compile.core.constants import PI
-from linkforge_compile.core.exceptions import FieldPath, RobotPhysicsError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
 from linkforge_compile.core.part import Element, Part, freeze
 from linkforge_compile.core.rules import is_finite, not_finite, require_finite
 from linkforge_compile.frozen import dataclass
@@ -48,9 +48,7 @@ class Vector3(Part):
                 raise not_finite(value, name, f"Vector3.{name}", (position,))
 
     def __iter__(self) -> Iterator[float]:
-        yield self.x
-        yield self.y
-        yield self.z
+        return iter((self.x, self.y, self.z))
 
     def to_tuple(self) -> tuple[float, float, float]:
         """Return (x, y, z)."""
@@ -142,9 +140,7 @@ class Cylinder(Element):
 
     def __post_init__(self) -> None:
         freeze(self)
-        _require_extent(self.radius, "cylinder radius", "CylinderRadius", ("radius",))
-        _require_extent(self.length, "cylinder length", "CylinderLength", ("length",))
-        require_finite(self, "radius", "length")
+        _require_extents(self, "radius", "length")
 
     @property
     def type(self) -> GeometryType:
@@ -170,8 +166,7 @@ class Sphere(Element):
 
     def __post_init__(self) -> None:
         freeze(self)
-        _require_extent(self.radius, "sphere radius", "SphereRadius", ("radius",))
-        require_finite(self, "radius")
+        _require_extents(self, "radius")
 
     @property
     def type(self) -> GeometryType:
@@ -200,9 +195,7 @@ class Capsule(Element):
 
     def __post_init__(self) -> None:
         freeze(self)
-        _require_extent(self.radius, "capsule radius", "CapsuleRadius", ("radius",))
-        _require_extent(self.length, "capsule length", "CapsuleLength", ("length",))
-        require_finite(self, "radius", "length")
+        _require_extents(self, "radius", "length")
 
     @property
     def type(self) -> GeometryType:
@@ -258,12 +251,15 @@ Geometry: TypeAlias = Box | Cylinder | Sphere | Capsule | Mesh
 """Any shape; the one child of `<geometry>`."""
 
 
-def _require_extent(extent: float, what: str, target: str, field: FieldPath) -> None:
-    if extent <= 0:
-        raise RobotPhysicsError(
-            ValidationErrorCode.PHYSICS_VIOLATION,
-            f"{what} must be positive [m], found {extent}",
-            target=target,
-            value=extent,
-            field=field,
-        )
+def _require_extents(shape: Cylinder | Sphere | Capsule, *names: str) -> None:
+    for name in names:
+        extent: float = getattr(shape, name)
+        if extent <= 0:
+            raise RobotPhysicsError(
+                ValidationErrorCode.PHYSICS_VIOLATION,
+                f"{shape.type} {name} must be positive [m], found {extent}",
+                target=f"{shape.type.title()}{name.title()}",
+                value=extent,
+                field=(name,),
+            )
+    require_finite(shape, *names)

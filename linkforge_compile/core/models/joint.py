@@ -230,7 +230,7 @@ class Joint(Element):
             raise self._invalid(f"limits not allowed for joint type '{kind}'", "JointLimits", kind, "limits")
 
     def _check_axis(self, axis: Vector3) -> None:
-        length = math.hypot(*axis)
+        length = math.hypot(axis.x, axis.y, axis.z)
         if length < EPSILON:
             raise self._invalid("joint axis cannot be a zero vector", "JointAxis", axis, "axis")
         if abs(length - 1) > EPSILON:
