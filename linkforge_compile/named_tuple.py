@@ -1,7 +1,7 @@
 """`NamedTuple`, quick to define: what `typing` makes of a named tuple, in a fifth of the time.
 
 The standard library compiles the text of each annotation and of each class's `__new__`. Here annotations stay the texts
-that they are, `__new__` is compiled once for all classes with as many fields, and the other methods are those of one
+that they are, `__new__` has its code from `constructors.py`, and the other methods are those of one
 base, without docstrings. Nothing else differs: order, unpacking, `match`, `pickle`, `_replace` and type checkers see
 what they saw.
 
@@ -14,10 +14,11 @@ from __future__ import annotations
 import collections
 import sys
 import typing
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache
-from types import CellType, CodeType, FunctionType, new_class
+from collections.abc import Iterable, Mapping, Sequence
+from types import CellType, FunctionType, new_class
 from typing import TYPE_CHECKING, Final, Self
+
+from linkforge_compile.constructors import new_code
 
 __all__ = ["NamedTuple"]
 
@@ -108,7 +109,7 @@ def _shown(name: str, fields: Sequence[str]) -> dict[str, object]:
 
 def _made(body: Mapping[str, object], fields: tuple[str, ...], annotations: dict[str, object]) -> dict[str, object]:
     defaults = {field: body[field] for field in fields if field in body}
-    code = _code(len(fields)).replace(co_varnames=("_cls", *fields), co_qualname=f"{body['__qualname__']}.__new__")
+    code = new_code(len(fields)).replace(co_varnames=("_cls", *fields), co_qualname=f"{body['__qualname__']}.__new__")
     module = sys.modules.get(str(body["__module__"]))
     new = FunctionType(code, vars(module) if module else {}, argdefs=tuple(defaults.values()), closure=_CLOSURE)
     new.__annotations__ = annotations
@@ -117,15 +118,6 @@ def _made(body: Mapping[str, object], fields: tuple[str, ...], annotations: dict
 
 
 _CLOSURE: Final = (CellType(tuple.__new__),)
-
-
-@cache
-def _code(count: int) -> CodeType:
-    """Return the code of a `__new__` that takes so many fields."""
-    fields = "".join(f"field_{number}, " for number in range(count))
-    names: dict[str, Callable[[None], FunctionType]] = {}
-    exec(f"def outer(new):\n def __new__(_cls, {fields}):\n  return new(_cls, ({fields}))\n return __new__", names)
-    return names["outer"](None).__code__
 
 
 if TYPE_CHECKING:

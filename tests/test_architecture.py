@@ -10,11 +10,13 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "linkforge_compile"
 
 MAY_IMPORT = {
-    "frozen": "",
-    "named_tuple": "",
+    "bytecode": "",
+    "constructors": "bytecode",
+    "field": "",
+    "frozen": "constructors field",
+    "named_tuple": "constructors",
     "pattern": "",
     "banner": "",
-    "bytecode": "",
     "source": "",
     "units": "",
     "resources": "",

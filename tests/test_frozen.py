@@ -9,23 +9,24 @@ import pickle
 import sys
 import typing
 from collections.abc import Callable
+from dataclasses import KW_ONLY
 from typing import ClassVar
 
 import pytest
 
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field, fields, replace
 
 NAN = float("nan")
 
 
-def _of(decorator: Callable) -> tuple[type, type, type]:
+def _of(decorator: Callable, field: Callable) -> tuple[type, type, type]:
     """Return a class with all kinds of fields, one that inherits, and one of a single field, made by a decorator."""
 
     @decorator(frozen=True, slots=True, kw_only=True)
     class Sourced:
         """Remembers where."""
 
-        place: str | None = dataclasses.field(default=None, compare=False, repr=False)
+        place: str | None = field(default=None, compare=False, repr=False)
 
     @decorator(frozen=True, slots=True)
     class Joint(Sourced):
@@ -34,8 +35,8 @@ def _of(decorator: Callable) -> tuple[type, type, type]:
         moves: ClassVar[bool] = True
         name: str
         axis: tuple[float, ...] = (1.0, 0.0, 0.0)
-        limits: dict[str, float] = dataclasses.field(default_factory=dict, hash=None)
-        mimic: object = dataclasses.field(default=None, kw_only=True)
+        limits: dict[str, float] = field(default_factory=dict)
+        mimic: object = field(default=None, kw_only=True)
 
         def __post_init__(self) -> None:
             if not self.name:
@@ -50,7 +51,7 @@ def _of(decorator: Callable) -> tuple[type, type, type]:
     return Sourced, Joint, Mass
 
 
-OURS, THEIRS = _of(dataclass), _of(dataclasses.dataclass)
+OURS, THEIRS = _of(dataclass, field), _of(dataclasses.dataclass, dataclasses.field)
 Sourced, Joint, Mass = OURS
 # For pickle, which looks classes up by their names.
 for one in OURS:
@@ -93,10 +94,16 @@ def test_it_takes_the_same_arguments(positional, named):
 
 
 def test_its_signature_is_the_same():
-    ours, theirs = (inspect.signature(cls).parameters.values() for cls in (Joint, THEIRS[1]))
+    _same_signature(Joint, THEIRS[1])
+    _same_signature(CHANGING, THEIRS_CHANGING)
+
+
+def _same_signature(*classes: type) -> None:
+    ours, theirs = (inspect.signature(cls).parameters.values() for cls in classes)
     assert [(one.name, one.kind, one.annotation) for one in ours] == [
         (one.name, one.kind, one.annotation) for one in theirs
     ]
+    assert [str(one.default) for one in ours] == [str(one.default) for one in theirs]
 
 
 @pytest.mark.parametrize("classes", [OURS, THEIRS])
@@ -272,11 +279,99 @@ def test_a_base_that_may_be_changed_is_refused():
         dataclass(frozen=True, slots=True)(type("Faulty", (Base,), {}))
 
 
-def test_what_is_not_frozen_is_the_standard_librarys():
+def test_what_has_slots_and_is_not_frozen_is_the_standard_librarys():
     @dataclass(slots=True)
     class Counter:
-        count: int = 0
+        count: int = field(default=0)
 
     counter = Counter()
     counter.count += 1
     assert counter == Counter(1)
+    assert not is_quick(Counter)
+
+
+def _that_changes(decorator: Callable, field: Callable) -> type:
+    @decorator
+    class Link:
+        """Is rigid."""
+
+        name: str
+        shapes: list[str] = field(default_factory=list)
+        _: KW_ONLY
+        mass: float = 1.0
+        source: str | None = field(default=None, compare=False, repr=False)
+        drawn: str | None = field(default=None, init=False, compare=False)
+        number: int = field(init=False, repr=False)
+
+        def __post_init__(self) -> None:
+            self.number = len(self.name)
+
+    Link.__qualname__ = "Link"
+    return Link
+
+
+CHANGING, THEIRS_CHANGING = _that_changes(dataclass, field), _that_changes(dataclasses.dataclass, dataclasses.field)
+
+
+def test_what_changes_and_has_no_slots_is_made_quickly():
+    assert is_quick(CHANGING)
+    assert not is_quick(THEIRS_CHANGING)
+
+
+@pytest.mark.parametrize("cls", [CHANGING, THEIRS_CHANGING])
+def test_what_changes_is_what_the_standard_library_makes_of_it(cls):
+    link = cls("arm", ["box"], source="here")
+    assert repr(link) == "Link(name='arm', shapes=['box'], mass=1.0, drawn=None)"
+    assert (link.number, cls.drawn, hasattr(cls, "number")) == (3, None, False)
+    link.mass = 2.0
+    assert link == cls("arm", ["box"], mass=2.0)
+    assert cls("arm").shapes is not cls("arm").shapes
+    assert cls.__match_args__ == ("name", "shapes")
+    assert [one.name for one in dataclasses.fields(link)] == ["name", "shapes", "mass", "source", "drawn", "number"]
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(link)
+    with pytest.raises(TypeError, match="positional"):
+        cls("arm", [], 2.0)
+
+
+@pytest.mark.parametrize("cls", [CHANGING, THEIRS_CHANGING, Joint, THEIRS[1]])
+def test_either_replaces_fields_of_both(cls):
+    for function in (replace, dataclasses.replace):
+        assert function(cls("arm"), name="leg") == cls("leg")
+        with pytest.raises(TypeError, match="unexpected keyword argument 'nme'"):
+            function(cls("arm"), nme="leg")
+
+
+@pytest.mark.parametrize("cls", [CHANGING, THEIRS_CHANGING])
+def test_what_no_argument_sets_is_not_replaced(cls):
+    for function in (replace, dataclasses.replace):
+        with pytest.raises((ValueError, TypeError), match="field number is declared with init=False"):
+            function(cls("arm"), number=2)
+
+
+@pytest.mark.parametrize("cls", [CHANGING, THEIRS_CHANGING, Joint, THEIRS[1]])
+def test_either_gives_the_fields_of_both(cls):
+    class Motor(cls):
+        pass
+
+    for asked in (cls, Motor, Motor("arm")):
+        ours, theirs = (function(asked) for function in (fields, dataclasses.fields))
+        for name in ("name", "type", "init", "repr", "compare", "kw_only"):
+            assert [getattr(one, name) for one in ours] == [getattr(one, name) for one in theirs]
+        assert all(isinstance(one, dataclasses.Field) for one in theirs)
+
+
+def test_with_a_field_of_the_standard_library_it_is_the_standard_librarys():
+    @dataclass(frozen=True, slots=True)
+    class Mass:
+        kilograms: float = dataclasses.field(default=1.0)
+
+    assert Mass().kilograms == 1.0
+    assert not is_quick(Mass)
+
+
+def test_more_fields_than_usual_are_set_all_the_same():
+    names = [f"x{number}" for number in range(40)]
+    many = dataclass(frozen=True, slots=True)(type("Many", (), {"__annotations__": dict.fromkeys(names, "int")}))
+    assert dataclasses.astuple(many(*range(40))) == tuple(range(40))
+    assert is_quick(many)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields, is_dataclass
 from functools import cache
 from operator import attrgetter
 from typing import TYPE_CHECKING, TypeAlias
@@ -14,6 +13,7 @@ from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.part import Element
 from linkforge_compile.core.part import Part as BasePart
+from linkforge_compile.frozen import fields
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
 
@@ -128,7 +128,7 @@ def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
 
     The rest is what no field says.
     """
-    own = (field.name for field in fields(kind)) if is_dataclass(kind) else ("parameters",)
+    own = (field.name for field in fields(kind)) if issubclass(kind, Element | Link) else ("parameters",)
     names = tuple(name for name in own if name not in _EVERYWHERE)
     extras = tuple(name for name in _EXTRAS if hasattr(kind, name))
     return names, _getter(names), _getter(extras)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Gaps, Note
+from linkforge_compile.frozen import replace
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import Key, SourceRef, Span
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import Field, fields, replace
 from functools import lru_cache
 from typing import Any, TypeAlias, TypeVar
 
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.naming import is_valid_name
+from linkforge_compile.frozen import fields, replace
 
 P = TypeVar("P")
 
@@ -121,7 +121,7 @@ def _written_copier(kind: type[Any]) -> _Copier:
     scope |= {"direct": _DIRECT.get, "ask": _ask, "copies": harmless_copies}
     for field in fields(kind):
         if field.name in kind.PREFIXED:
-            lines += [f"    value = part.{field.name}", f"    copy.{field.name} = {_prefixed(field)}"]
+            lines += [f"    value = part.{field.name}", f"    copy.{field.name} = {_prefixed(str(field.type))}"]
         else:
             lines.append(f"    copy.{field.name} = part.{field.name}")
     exec("\n".join([*lines, "    copy.__class__ = kind", "    return copy"]), scope)
@@ -138,9 +138,8 @@ def _opened(kind: type[Any]) -> type[Any]:
     return type(f"Opened{kind.__name__}", (kind,), {"__slots__": (), **plain})
 
 
-def _prefixed(field: Field[Any]) -> str:
-    """Return the Python for a field's value under a prefix; what is empty or None stays so."""
-    kind = str(field.type)
+def _prefixed(kind: str) -> str:
+    """Return the Python for the value of a field of a kind under a prefix; what is empty or None stays so."""
     if kind.startswith("str"):
         return "value and prefix + value"
     if kind == "Sequence[str]":

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 
 from linkforge_compile.diagnostics.codes.ignoring import NOTHING_TO_IGNORE
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note
+from linkforge_compile.frozen import replace
 
 
 def told_once(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...]:

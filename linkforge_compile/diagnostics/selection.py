@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
+from linkforge_compile.frozen import replace
 from linkforge_compile.named_tuple import NamedTuple
 
 

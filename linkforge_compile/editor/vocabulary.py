@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import field, replace
 from pathlib import Path
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field, replace
 from linkforge_compile.lowering import lower
 from linkforge_compile.modules import (
     Arguments,

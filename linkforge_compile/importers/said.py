@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import field
 from typing import TypeAlias
 
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.importers.draft import number_of
 from linkforge_compile.importers.xml import XmlElement
 

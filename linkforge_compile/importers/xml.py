@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping
-from dataclasses import field
 from typing import TypeAlias
 from xml.parsers import expat
 
@@ -20,7 +19,7 @@ from linkforge_compile.diagnostics.codes.importing import (
     TOO_MANY_ELEMENTS,
     TOO_MUCH_INSIDE,
 )
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from linkforge_compile.core.constants import DEFAULT_LINK_MASS
 from linkforge_compile.core.models.geometry import Geometry, Mesh, Transform
@@ -26,6 +25,7 @@ from linkforge_compile.diagnostics.codes.model import (
     ORIGIN_WITHOUT_INERTIA,
     WRONG_KIND,
 )
+from linkforge_compile.frozen import replace
 from linkforge_compile.lowering.extra import extras_of, outer_extras_of
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.geometry import lower_geometry

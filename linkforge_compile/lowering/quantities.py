@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable
-from dataclasses import field
 
 from linkforge_compile.core.constants import EPSILON
 from linkforge_compile.diagnostics import Code
@@ -18,7 +17,7 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_DIMENSION,
     WRONG_KIND,
 )
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.pattern import pattern
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import scalar_value

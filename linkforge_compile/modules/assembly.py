@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import field
 from pathlib import Path
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Removed
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.modules.mesh_files import FindMesh, no_mesh
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile, SourceRef, Span

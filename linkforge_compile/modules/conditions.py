@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Diagnostics
@@ -18,6 +17,7 @@ from linkforge_compile.diagnostics.codes.repetition import (
     RESERVED_KEY,
 )
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression
+from linkforge_compile.frozen import replace
 from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.values import describe
 from linkforge_compile.named_tuple import NamedTuple

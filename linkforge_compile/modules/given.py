@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from linkforge_compile.bounds import Limit
@@ -15,7 +14,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     UNKNOWN_PARAMETER,
 )
 from linkforge_compile.expressions import FAULT, Fault, Value
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, replace
 from linkforge_compile.modules.arguments import COMMAND_LINE, Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.kinds import Kind, kind_of

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Mapping
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from linkforge_compile.bounds import Limit
@@ -21,7 +20,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     UNFIT_CONSTRAINT,
 )
 from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_expression
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.kinds import KINDS, Kind
 from linkforge_compile.modules.values import describe

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.frozen import replace
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package

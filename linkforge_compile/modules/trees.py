@@ -12,7 +12,6 @@ from typing import TypeAlias
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.changing import Changing, may_change
 from linkforge_compile.modules.telltale import SIGNS, TELLTALE
 from linkforge_compile.schema import validate
@@ -26,13 +25,11 @@ _Place: TypeAlias = tuple[str, Path | None, int]
 """The name of a file, its path, and how many were read before it."""
 
 
-@dataclass(frozen=True)
 class _Read:
     """A text that was read without a fault, its tree, and how much of the budget it took."""
 
-    source: SourceFile
-    tree: YamlMap
-    values: int
+    def __init__(self, source: SourceFile, tree: YamlMap, values: int) -> None:
+        self.source, self.tree, self.values = source, tree, values
 
     @cached_property
     def is_computed(self) -> bool:

@@ -6,13 +6,12 @@ import os
 import posixpath
 import re
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, USE_OF_NOWHERE
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, replace
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.named_tuple import NamedTuple

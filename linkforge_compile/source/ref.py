@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Protocol
 
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field
 
 if TYPE_CHECKING:
     from linkforge_compile.source.span import Change, Span

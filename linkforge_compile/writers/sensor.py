@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import Field, fields
+from typing import TYPE_CHECKING
 
 from linkforge_compile.core.constants import DEFAULT_UPDATE_RATE
 from linkforge_compile.core.models.sensor import LidarInfo, Sensor, SensorNoise
 from linkforge_compile.core.part import Element
+from linkforge_compile.frozen import fields
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 from linkforge_compile.writers.gazebo import written_plugin
 from linkforge_compile.writers.geometry import written_origin
 from linkforge_compile.writers.pen import Pen
+
+if TYPE_CHECKING:
+    from dataclasses import Field
 
 _INFOS = ("camera", "lidar", "imu", "gps", "contact", "force_torque")
 _NOT_SAID = frozenset((*(field.name for field in fields(Element)), "stated"))

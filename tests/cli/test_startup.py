@@ -92,7 +92,10 @@ UNSAID_BY_TWO = {
     "syntax.ignore_comments",
 }
 
-NEEDLESS = {"jinja2", "networkx", "lxml", "difflib", "jsonschema", "fractions", "decimal"}
+NEEDLESS = {
+    *("jinja2", "networkx", "lxml", "difflib", "jsonschema"),
+    *("copy", "dataclasses", "decimal", "fractions", "inspect"),
+}
 """Packages that no robot without faults needs."""
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import field
 from enum import StrEnum
 
 from linkforge_compile.core.constants import (
@@ -23,7 +22,7 @@ from linkforge_compile.core.rules import (
     require_not_negative,
     require_valid_characters,
 )
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field
 
 
 class JointType(StrEnum):

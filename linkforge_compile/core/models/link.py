@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
 from itertools import islice
 
 from linkforge_compile.core.constants import (
@@ -23,7 +22,7 @@ from linkforge_compile.core.naming import is_valid_name, prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
 from linkforge_compile.core.prefixing import Copies, harmless_copies, is_harmless, prefixed_copies
 from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
 from linkforge_compile.source import SourceRef
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.link import prefixed_links
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.core.prefixing import prefixed_copies
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, replace
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from copy import deepcopy
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
@@ -15,6 +13,7 @@ from linkforge_compile.core.models.inventory import require_robot_name
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.semantic_parts import SemanticParts
 from linkforge_compile.core.models.semantic_robot import SemanticRobot
+from linkforge_compile.frozen import replace
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement
@@ -204,6 +203,8 @@ class Robot(SemanticRobot):
 
     def clone(self) -> Robot:
         """Return a robot of its own with equal parts, metadata and resolver."""
+        from copy import deepcopy
+
         return deepcopy(self)
 
     def normalized(self) -> Robot:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field, replace
 from operator import attrgetter
 from typing import ClassVar, Self
 
@@ -13,7 +12,7 @@ from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import require_name, require_unique_names
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field, replace
 
 __all__ = ["Interface", "Ros2Control", "Ros2ControlGpio", "Ros2ControlJoint", "Ros2ControlSensor"]
 

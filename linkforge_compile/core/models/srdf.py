@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from operator import attrgetter
 from typing import Any, TypeVar
 
@@ -18,7 +17,7 @@ from linkforge_compile.core.models.planning import (
     VirtualJoint,
 )
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, replace
 
 __all__ = [
     "Chain",

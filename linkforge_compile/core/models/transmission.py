@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field, replace
 from enum import StrEnum
 from operator import attrgetter
 from typing import ClassVar, Self
@@ -18,7 +17,7 @@ from linkforge_compile.core.rules import (
     require_unique_names,
     require_valid_characters,
 )
-from linkforge_compile.frozen import dataclass
+from linkforge_compile.frozen import dataclass, field, replace
 
 
 class TransmissionType(StrEnum):

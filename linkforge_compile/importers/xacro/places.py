@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import replace
 
+from linkforge_compile.frozen import replace
 from linkforge_compile.importers.xacro.process import MARK
 from linkforge_compile.importers.xacro.run import Place, place_of
 from linkforge_compile.importers.xml import XmlComment, XmlContent, XmlDocument, XmlElement
