@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.references import SHOWN, Use, listed
@@ -47,8 +47,11 @@ def check_massless_bodies(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """
     if gaps:
         return
-    above, below = parent_joints(robot), _joints_below(robot)
-    weights, loaded = _merged_weights(robot, above), _links_that_carry_mass(robot, above)
+    above = parent_joints(robot)
+    weights = _merged_weights(robot, above)
+    if all(weights.values()):
+        return
+    below, loaded = _joints_below(robot), _links_that_carry_mass(robot, above)
     is_for_gazebo = bool(robot.gazebo_elements or robot.sensors)
     pending = [link.name for link in reversed(robot.links) if link.name not in above]
     while pending:
@@ -90,7 +93,7 @@ def check_merged_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     It merges the links of a fixed joint into one, and what was to be set for the joint is lost with it. Say
     `preserveFixedJoint: true` in the block, or take the block out.
     """
-    merged = {joint.name for joint in _merged_joints(robot)}
+    merged = {joint.name for joint in _merged_joints(robot)} if robot.gazebo_elements else set()
     for block in robot.gazebo_elements:
         if block.reference in merged and block.reference not in robot.links and _says_something(block):
             yield BLOCK_OF_MERGED_JOINT.at(block.source, joint=block.reference)
@@ -102,13 +105,13 @@ def check_merged_links(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     It merges a link that hangs on a fixed joint into the link above, and a plugin that looks for it by name finds
     nothing. Name the link above, or say `preserveFixedJoint: true` in the `gazebo` of the joint.
     """
-    merged = {joint.child: joint for joint in _merged_joints(robot)}
-    for block in robot.gazebo_elements if merged else ():
-        for plugin in block.plugins:
-            for path, name in _named_links(plugin.parameters):
-                if joint := merged.get(name):
-                    use = Use(name, f"plugin '{plugin.name}'", plugin.source or block.source, ("parameters", *path))
-                    yield use.told(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
+    plugins = [(block, plugin) for block in robot.gazebo_elements for plugin in block.plugins]
+    merged = {joint.child: joint for joint in _merged_joints(robot)} if plugins else {}
+    for block, plugin in plugins if merged else ():
+        for path, name in _named_links(plugin.parameters):
+            if joint := merged.get(name):
+                use = Use(name, f"plugin '{plugin.name}'", plugin.source or block.source, ("parameters", *path))
+                yield use.told(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
 
 
 class _Tag(NamedTuple):
@@ -143,7 +146,7 @@ def check_tags_of_several_blocks(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     said: dict[tuple[str, str], _Tag] = {}
     for tag in (*_tags_of_physics(robot), *_tags_of_blocks(robot)):
         first = said.setdefault((tag.reference, tag.name), tag)
-        if not tag.is_as(first) and not tag.is_told_with(first):
+        if first is not tag and not tag.is_as(first) and not tag.is_told_with(first):
             notes = [Note("the other block is here", first.source.at(*first.path))] if first.source else []
             facts = {"tag": tag.name, "owner": tag.reference, "found": tag.text, "first": first.text}
             yield TAG_OF_TWO_BLOCKS.at(tag.source, *tag.path, notes=notes, **facts)
@@ -196,20 +199,21 @@ def _as_gazebo_reads(text: str) -> str | float:
 _TRUTHS = {"true": 1.0, "yes": 1.0, "false": 0.0, "no": 0.0}
 
 
-def _merged_joints(robot: Robot) -> Iterator[Joint]:
-    kept = _kept_joints(robot)
-    for joint in robot.joints:
-        if joint.type == JointType.FIXED and joint.parent != WORLD and joint.name not in kept:
-            yield joint
+def _merged_joints(robot: Robot) -> Sequence[Joint]:
+    """Return the fixed joints that no block keeps."""
+    fixed = [joint for joint in robot.joints if joint.type == JointType.FIXED and joint.parent != WORLD]
+    kept = _kept(robot, {joint.name for joint in fixed})
+    return [joint for joint in fixed if joint.name not in kept]
 
 
-def _kept_joints(robot: Robot) -> set[str | None]:
-    """Return the fixed joints, among other names, that a block keeps."""
-    if not robot.gazebo_elements:
+def _kept(robot: Robot, fixed_joints: Set[str]) -> set[str | None]:
+    """Return those of the fixed joints that a block keeps."""
+    blocks = [block for block in robot.gazebo_elements if block.reference in fixed_joints]
+    if not blocks:
         return set()
     from linkforge_compile.core.models.gazebo import keeps_fixed_joint
 
-    return {block.reference for block in robot.gazebo_elements if keeps_fixed_joint([block])}
+    return {block.reference for block in blocks if keeps_fixed_joint([block])}
 
 
 def _merged_weights(robot: Robot, above: Mapping[str, Joint]) -> Mapping[str, float]:
@@ -217,14 +221,23 @@ def _merged_weights(robot: Robot, above: Mapping[str, Joint]) -> Mapping[str, fl
     into = {joint.child: joint.parent for joint in _merged_joints(robot) if above[joint.child] is joint}
     weights = {link.name: 0.0 for link in robot.links if link.name not in into}
     for link in robot.links:
-        name, way = link.name, dict[str, None]()
-        while name in into and name not in way:
-            way[name] = None
-            name = into[name]
-        into.update(dict.fromkeys(way, name))  # so that no way is gone twice, nor round a circle
+        name = _end_of_way(link.name, into) if link.name in into else link.name
         if name in weights:
             weights[name] += link.mass
     return weights
+
+
+def _end_of_way(link: str, into: dict[str, str]) -> str:
+    """Return what a link is merged into in the end, and let all on the way lead there at once.
+
+    So no way is gone twice, nor round a circle.
+    """
+    way = dict[str, None]()
+    while link in into and link not in way:
+        way[link] = None
+        link = into[link]
+    into.update(dict.fromkeys(way, link))
+    return link
 
 
 def _links_that_carry_mass(robot: Robot, above: Mapping[str, Joint]) -> set[str]:

@@ -69,7 +69,7 @@ def check_gazebo_references(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
         for element in robot.gazebo_elements
         if element.reference is not None
     )
-    known = (*robot.links.names, *robot.joints.names)
+    known = (*robot.links.names, *robot.joints.names) if robot.gazebo_elements else ()
     yield from unknown(references, UNKNOWN_GAZEBO_REFERENCE, known, gaps)
 
 

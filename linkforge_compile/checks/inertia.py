@@ -74,5 +74,5 @@ def principal_moments(inertia: InertiaTensor) -> tuple[float, float, float]:
         xz, yz = cosine * xz + sine * yz, cosine * yz - sine * xz
         xx, yy, zz, xy, xz, yz = yy, zz, xx, yz, 0.0, xz
     scale = ROUNDED_AWAY * max(abs(xx), abs(yy), abs(zz))
-    small, middle, large = sorted(moment if abs(moment) > scale else 0.0 for moment in (xx, yy, zz))
+    small, middle, large = sorted([moment if abs(moment) > scale else 0.0 for moment in (xx, yy, zz)])
     return small, middle, large

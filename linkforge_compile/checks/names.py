@@ -57,14 +57,16 @@ def check_reserved_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     end with two underscores, such as `__model__`.
     """
     hanging = {joint.child for joint in robot.joints}
-    named = (
-        *(Use(link.name, "link", link.source) for link in robot.links if link.name != "world" or "world" in hanging),
-        *(Use(joint.name, "joint", joint.source) for joint in robot.joints),
-    )
-    for use in named:
-        name = use.name
-        if name == "world" or (len(name) >= len("____") and name.startswith("__") and name.endswith("__")):
-            yield use._replace(user="").told(RESERVED_NAME, kind=use.user, name=name)
+    for link in robot.links:
+        if _is_reserved(link.name) and (link.name != "world" or "world" in hanging):
+            yield Use(link.name, "", link.source).told(RESERVED_NAME, kind="link", name=link.name)
+    for joint in robot.joints:
+        if _is_reserved(joint.name):
+            yield Use(joint.name, "", joint.source).told(RESERVED_NAME, kind="joint", name=joint.name)
+
+
+def _is_reserved(name: str) -> bool:
+    return name == "world" or (len(name) >= len("____") and name.startswith("__") and name.endswith("__"))
 
 
 def check_frame_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
@@ -73,11 +75,12 @@ def check_frame_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     Each is a frame to tf2, which strips the slash where a transform is published and refuses it where one is
     asked for. Leave it out.
     """
-    frames = [Use(link.name, "", link.source) for link in robot.links]
-    frames += [Use(sensor.frame, "", sensor.source, ("frame",)) for sensor in robot.sensors if sensor.frame]
-    for use in frames:
-        if use.name.startswith("/"):
-            yield use.told(FRAME_WITH_SLASH, name=use.name)
+    for link in robot.links:
+        if link.name.startswith("/"):
+            yield Use(link.name, "", link.source).told(FRAME_WITH_SLASH, name=link.name)
+    for sensor in robot.sensors:
+        if sensor.frame and sensor.frame.startswith("/"):
+            yield Use(sensor.frame, "", sensor.source, ("frame",)).told(FRAME_WITH_SLASH, name=sensor.frame)
 
 
 def _borne_twice(kind: str, bearers: Iterable[Use]) -> Iterator[Diagnostic]:

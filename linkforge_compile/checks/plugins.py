@@ -32,8 +32,9 @@ def check_plugin_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     bears the module's prefix, which `$(joint('name'))` adds. Nothing is wrong if the joint is one of another
     model in the simulator.
     """
-    below = _joints_below(robot)
-    for plugin in _plugins(robot):
+    plugins = [*_plugins(robot)]
+    below = _joints_below(robot) if plugins else {}
+    for plugin in plugins:
         uses, offered = _named_joints(plugin), below.get(_trail(plugin), ())
         yield from unknown(uses, UNKNOWN_PLUGIN_JOINT, robot.joints.names, gaps, offered=offered, plugin=plugin.name)
 

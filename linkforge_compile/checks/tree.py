@@ -30,13 +30,17 @@ def check_joint_ends(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     URDF readers refuse the whole robot when one link is missing. Declare the link, or correct the name;
     a link of a module bears the module's prefix.
     """
-    known = robot.links.names
-    parents = (Use(joint.parent, f"joint '{joint.name}'", joint.source, ("parent",)) for joint in robot.joints)
+    known = dict.fromkeys(robot.links.names)
+    # To find a name takes a fifth of the time of making the use of it.
+    without_parent = [joint for joint in robot.joints if joint.parent not in known]
+    parents = (Use(joint.parent, f"joint '{joint.name}'", joint.source, ("parent",)) for joint in without_parent)
     yield from unknown(parents, UNKNOWN_LINK, known, gaps)
-    children = (Use(joint.child, f"joint '{joint.name}'", joint.source, ("child",)) for joint in robot.joints)
-    # A link that hangs on a joint already can be no other's child, however like its name.
-    hanging = {joint.child for joint in robot.joints}
-    yield from unknown(children, UNKNOWN_LINK, known, gaps, offered=[name for name in known if name not in hanging])
+    without_child = [joint for joint in robot.joints if joint.child not in known]
+    if without_child:
+        # A link that hangs on a joint already can be no other's child, however like its name.
+        taken = {joint.child for joint in robot.joints}
+        offered = [name for name in known if name not in taken]
+        yield from unknown(map(hanging, without_child), UNKNOWN_LINK, known, gaps, offered=offered)
 
 
 def check_second_parents(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

@@ -139,7 +139,7 @@ class Index(Sequence[T]):
     @property
     def names(self) -> tuple[str, ...]:
         """What the items are filed under, in their order: their names, or what serves as such."""
-        return tuple(str(self._filing.key(item)) for item in self)
+        return tuple(map(str, map(self._filing.key, self)))
 
     def get(self, name: Hashable) -> T | None:
         """Return the item of that name, None if there is none."""
