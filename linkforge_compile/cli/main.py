@@ -7,13 +7,9 @@ import errno
 import gc
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from linkforge_compile._version import __version__
 from linkforge_compile.cli.exits import FAULTY_SPEC, INTERRUPTED, OK, WRONG_USAGE, UsageError
-
-if TYPE_CHECKING:
-    import argparse
 
 _COMMANDS = {
     "init": "begin a robot: a folder with a first spec, and what editors, git and builds want beside it",
@@ -72,13 +68,11 @@ def _run(words: list[str]) -> int:
     name, *rest = words
     # `import` is a word of Python, and no name of a module.
     command = import_module(f"linkforge_compile.cli.commands.{name.replace('import', 'import_')}")
-    from linkforge_compile.cli.options import Once
+    from linkforge_compile.cli.parser import Parser
 
-    parser = _parser(f"linkforge {name}", _COMMANDS[name])
-    parser.register("action", None, Once)
+    parser = Parser(f"linkforge {name}", _COMMANDS[name])
     command.add_arguments(parser)
-    # Intermixed, so that `linkforge compile arm.robot.yaml -o build/ reach:=0.7` works as it does with ROS's tools.
-    arguments = parser.parse_intermixed_args(rest)
+    arguments = parser.parse(rest)
     try:
         code: int = command.run(arguments)
     except UsageError as error:
@@ -102,10 +96,12 @@ def _shown(name: str) -> str:
 
 def _no_command(words: list[str]) -> int:
     """Answer `--help`, and tell of words that begin with no command."""
-    parser = _parser("linkforge", "a declarative compiler for robots: YAML specs in, URDF and SRDF out")
-    parser.usage = "linkforge [-h] [-V] COMMAND ..."
+    from linkforge_compile.cli.parser import Parser
+
+    declared = Parser("linkforge", "a declarative compiler for robots: YAML specs in, URDF and SRDF out")
+    declared.usage = "linkforge [-h] [-V] COMMAND ..."
     width = max(map(len, _COMMANDS))
-    parser.epilog = "\n".join(
+    declared.epilog = "\n".join(
         (
             "commands:",
             *(f"  {name:{width}}  {summary}" for name, summary in _COMMANDS.items()),
@@ -114,7 +110,8 @@ def _no_command(words: list[str]) -> int:
             "70 a fault of linkforge itself.",
         )
     )
-    parser.add_argument("-V", "--version", action="version", version=f"linkforge {__version__}")
+    declared.add_argument("-V", "--version", action="version", version=f"linkforge {__version__}")
+    parser = declared.argument_parser()
     parser.parse_known_args(words)
     if not words:
         parser.print_help(sys.stderr)
@@ -122,16 +119,6 @@ def _no_command(words: list[str]) -> int:
     from linkforge_compile.diagnostics.suggest import did_you_mean
 
     return parser.error(f"'{words[0]}' is no command{did_you_mean(words[0], _COMMANDS)}")
-
-
-def _parser(program: str, summary: str) -> argparse.ArgumentParser:
-    import argparse
-
-    return argparse.ArgumentParser(
-        prog=program,
-        description=f"{summary[0].upper()}{summary[1:]}.",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
 
 
 def _silence_stdout() -> None:

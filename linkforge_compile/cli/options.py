@@ -2,39 +2,22 @@
 
 from __future__ import annotations
 
-import argparse
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import UsageError
 
-
-class Once(argparse.Action):
-    """Takes the value of an option that may be given once, as every one is that collects nothing.
-
-    Of two values, none is forgotten in silence.
-    """
-
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: str | Sequence[object] | None,
-        option_string: str | None = None,
-    ) -> None:
-        given: dict[str, object] = namespace.__dict__.setdefault("given", {})
-        if option_string is not None and self.dest in given:
-            raise argparse.ArgumentError(self, f"may be given once, found '{given[self.dest]}' and '{values}'")
-        given[self.dest] = values
-        setattr(namespace, self.dest, values)
+if TYPE_CHECKING:
+    from linkforge_compile.cli.parser import Arguments, Parser
 
 
-def add_spec_and_values(parser: argparse.ArgumentParser) -> None:
+def add_spec_and_values(parser: Parser) -> None:
     """Add the one spec of a command and the values of its parameters, which `split_assignments` tells apart."""
     parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
 
 
-def add_spec_options(parser: argparse.ArgumentParser) -> None:
+def add_spec_options(parser: Parser) -> None:
     add_parameter_option(parser, "set a parameter of the spec, such as reach=0.7m")
     parser.add_argument(
         "--variant",
@@ -51,7 +34,7 @@ def add_spec_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_parameter_option(parser: argparse.ArgumentParser, what: str) -> None:
+def add_parameter_option(parser: Parser, what: str) -> None:
     parser.add_argument(
         "-p",
         "--parameter",
@@ -63,7 +46,7 @@ def add_parameter_option(parser: argparse.ArgumentParser, what: str) -> None:
     )
 
 
-def add_package_option(parser: argparse.ArgumentParser) -> None:
+def add_package_option(parser: Parser) -> None:
     parser.add_argument(
         "--package",
         metavar="NAME=PATH",
@@ -74,7 +57,7 @@ def add_package_option(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_outside_option(parser: argparse.ArgumentParser) -> None:
+def add_outside_option(parser: Parser) -> None:
     parser.add_argument(
         "--allow-outside",
         action="store_true",
@@ -83,7 +66,7 @@ def add_outside_option(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def packages_of(arguments: argparse.Namespace) -> dict[str, str]:
+def packages_of(arguments: Arguments) -> dict[str, str]:
     """Return the `--package` options as folder by name; UsageError for one that is not NAME=PATH."""
     packages: dict[str, str] = {}
     for pair in arguments.packages:

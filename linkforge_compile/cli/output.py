@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-import tempfile
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
@@ -79,6 +78,8 @@ def _reason(error: OSError, target: Path) -> str:
 
 
 def _replace(target: Path, new: bytes) -> None:
+    import tempfile  # which most runs, that change nothing, do not need
+
     # A name may be as long as names can be, and this one is longer.
     descriptor, beside = tempfile.mkstemp(prefix=f".{target.name[:40]}.", dir=target.parent)
     try:

@@ -14,8 +14,7 @@ from linkforge_compile.cli.telling import add_telling_options, has_errors, selec
 from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
-    import argparse
-
+    from linkforge_compile.cli.parser import Arguments, Parser
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.pipeline import Compilation
 
@@ -36,7 +35,7 @@ _MAX_SPECS = 5_000
 """In one folder; of more, most are hardly somebody's own."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument(
         "words",
@@ -51,7 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_telling_options(parser, is_product=True)
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(arguments: Arguments) -> int:
     from linkforge_compile.diagnostics.render.text import summary
 
     words, assignments = split_assignments(arguments.words)
@@ -97,7 +96,7 @@ def _without_specs(meant: Mapping[str, tuple[str, ...]]) -> Iterator[Diagnostic]
     return (NO_SPEC_BELOW.at(None, path=word) for word, specs in meant.items() if not specs)
 
 
-def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Mapping[str | None, Compilation]:
+def _checked(spec: str, assignments: list[str], arguments: Arguments) -> Mapping[str | None, Compilation]:
     """Check a spec with the variant that was asked for, or with the defaults, None, and every variant."""
     if not arguments.all_variants:
         return {arguments.variant: check_spec(spec, assignments, arguments)}
@@ -109,7 +108,7 @@ def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -
     )
 
 
-def _write(told: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
+def _write(told: tuple[Diagnostic, ...], arguments: Arguments) -> None:
     """Write text to standard error, where people read, and every form for programs to standard output."""
     text = written(told, arguments)
     if arguments.diagnostics == "text":

@@ -12,8 +12,7 @@ from linkforge_compile.cli.targets import add_output_option, name_of, targets_of
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
-    import argparse
-
+    from linkforge_compile.cli.parser import Arguments, Parser
     from linkforge_compile.pipeline import Compilation
 
 FORMATS = ("make", "json")
@@ -32,7 +31,7 @@ own. A spec with errors has no rule of Make, for there is nothing made from it.
 """
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     parser.usage = "linkforge deps [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     add_spec_and_values(parser)
@@ -42,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(arguments: Arguments) -> int:
     from linkforge_compile.cli.output import write_to_stdout
 
     specs, assignments = split_assignments(arguments.words)

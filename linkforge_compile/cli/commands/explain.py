@@ -13,8 +13,7 @@ from linkforge_compile.cli.places import told
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
-    import argparse
-
+    from linkforge_compile.cli.parser import Arguments, Parser
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.writers import ComputedFrom, Explanation, NameStory, Place, UnknownPathError
 
@@ -30,7 +29,7 @@ examples:
 """
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     parser.usage = (
         "linkforge explain [options] SPEC PATH [NAME:=VALUE ...]\n"
         "       linkforge explain CODE\n"
@@ -45,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(arguments: Arguments) -> int:
     from linkforge_compile.cli.manual import is_code
 
     if arguments.codes or (len(arguments.words) == 1 and is_code(arguments.words[0])):
@@ -53,7 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
     return _explain_value(arguments)
 
 
-def _print_manual(arguments: argparse.Namespace) -> int:
+def _print_manual(arguments: Arguments) -> int:
     from linkforge_compile.cli.colour import is_coloured
     from linkforge_compile.cli.manual import UnknownCodeError, page, register_table
     from linkforge_compile.cli.output import write_to_stdout
@@ -69,7 +68,7 @@ def _print_manual(arguments: argparse.Namespace) -> int:
     return OK
 
 
-def _explain_value(arguments: argparse.Namespace) -> int:
+def _explain_value(arguments: Arguments) -> int:
     words, assignments = split_assignments(arguments.words)
     if len(words) < 2:
         raise UsageError("takes a spec and a path, such as joints/elbow/limits/effort, or a code, such as LF4102")

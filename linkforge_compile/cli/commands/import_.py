@@ -21,8 +21,7 @@ from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.frozen import replace
 
 if TYPE_CHECKING:
-    import argparse
-
+    from linkforge_compile.cli.parser import Arguments, Parser
     from linkforge_compile.importing import Import
 
 _EXAMPLES = """\
@@ -38,7 +37,7 @@ examples:
 """
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     parser.usage = "linkforge import [options] ROBOT.urdf | ROBOT.urdf.xacro [ARGUMENT:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument(
@@ -59,7 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(arguments: Arguments) -> int:
     files, assignments = split_assignments(arguments.words)
     _refuse_others(files)
     urdf = one_spec(files)
@@ -116,7 +115,7 @@ def _refuse_others(files: list[str]) -> None:
         raise UsageError(f"'{files[0]}' is a spec already; import takes a URDF or a xacro of one")
 
 
-def _put(text: str, output: Path | None, arguments: argparse.Namespace) -> None:
+def _put(text: str, output: Path | None, arguments: Arguments) -> None:
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
 
     if output is None:

@@ -10,8 +10,7 @@ from linkforge_compile.cli.options import add_outside_option, add_package_option
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
-    import argparse
-
+    from linkforge_compile.cli.parser import Arguments, Parser
     from linkforge_compile.modules.listing import ListedParameter, Listing, Plain
 
 _EXAMPLES = """\
@@ -22,7 +21,7 @@ examples:
 """
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_arguments(parser: Parser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("spec", metavar="SPEC", help="the spec, NAME.robot.yaml, or a xacro, which is not run")
     parser.add_argument("--json", action="store_true", help="as JSON, for tools")
@@ -31,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(arguments: Arguments) -> int:
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.pipeline import parameters_of
 
