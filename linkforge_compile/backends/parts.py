@@ -8,7 +8,6 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.backends.element import inside_of
-from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.part import Element
@@ -87,9 +86,7 @@ def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], fo
 def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], found: Worded) -> None:
     kind: type = part.__class__
     names, values_of, extras_of = _ways_into(kind)
-    values = values_of(part)
-    # Asked of all at once, which most parts end with.
-    said = [] if _NUMBERS.issuperset(map(type, values)) else _said(names, values)
+    said = [pair for pair in zip(names, values_of(part), strict=True) if pair[1]] if names else []
     has_extras = any(extras_of(part))
     if not (said or has_extras):
         return
@@ -105,14 +102,6 @@ def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], 
             _gather(inner, where, around, found)
 
 
-def _said(names: Sequence[str], values: Sequence[object]) -> list[tuple[str, object]]:
-    pairs = zip(names, values, strict=True)
-    return [(name, value) for name, value in pairs if value.__class__ not in _NUMBERS and value]
-
-
-# Nine fields of ten; they hold neither parts nor text.
-_NUMBERS = frozenset({float, int, bool, Vector3, type(None)})
-
 # A union takes three times as long to ask.
 _PARTS = (Element, Link, Interface)
 
@@ -124,12 +113,15 @@ _Values: TypeAlias = Callable[[Part], tuple[object, ...]]
 
 @cache
 def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
-    """Return the names of the fields of a class that it has for itself, what gets their values, and those of the rest.
+    """Return the names of a class's own fields that may hold more than numbers, what gets their values, and extras.
 
-    The rest is what no field says.
+    Half of the parts are of a class without such a field.
     """
-    own = (field.name for field in fields(kind)) if issubclass(kind, Element | Link) else ("parameters",)
-    names = tuple(name for name in own if name not in _EVERYWHERE)
+    if issubclass(kind, Element | Link):
+        own = (field for field in fields(kind) if field.name not in _EVERYWHERE)
+        names = tuple(field.name for field in own if not _NUMBERS.issuperset(str(field.type).split(" | ")))
+    else:
+        names = ("parameters",)
     extras = tuple(name for name in _EXTRAS if hasattr(kind, name))
     return names, _getter(names), _getter(extras)
 
@@ -137,6 +129,9 @@ def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
 def _getter(names: tuple[str, ...]) -> _Values:
     return attrgetter(*names) if len(names) > 1 else lambda part: tuple([getattr(part, name) for name in names])
 
+
+_NUMBERS = frozenset({"float", "int", "bool", "Vector3", "None"})
+"""What a field that holds neither parts nor text says of itself."""
 
 _EXTRAS = ("extra_attributes", "extra_elements", "extra_inside")
 
