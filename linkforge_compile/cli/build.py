@@ -13,9 +13,9 @@ from linkforge_compile.cli.telling import say, tell
 from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Iterator, Sequence
 
-    from linkforge_compile.cli.parser import Arguments
     from linkforge_compile.cli.targets import Targets
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
@@ -46,13 +46,13 @@ def targets_for(robot: Robot, targets: Targets) -> Targets | None:
     return targets.without_srdf()
 
 
-def compile_order(order: Order, arguments: Arguments) -> Compilation:
+def compile_order(order: Order, arguments: argparse.Namespace) -> Compilation:
     """Compile the spec, as the options of `linkforge compile` say."""
     folder = order.targets.folder if arguments.installed_in is None else Path(arguments.installed_in)
     return compile_spec(order.spec, order.assignments, arguments, folder)
 
 
-def deliver(order: Order, compilation: Compilation, arguments: Arguments) -> int:
+def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespace) -> int:
     """Tell of a compilation and write or compare what comes out of it; return the exit code."""
     outputs = None if compilation.robot is None else _outputs(compilation.robot, order, arguments)
     if outputs is not None:
@@ -95,7 +95,7 @@ def _report(compilation: Compilation, outputs: Sequence[Output] | None) -> tuple
     return tuple(sorted((*compilation.diagnostics, missed), key=lambda diagnostic: diagnostic.order))
 
 
-def _outputs(robot: Robot, order: Order, arguments: Arguments) -> tuple[Output, ...] | None:
+def _outputs(robot: Robot, order: Order, arguments: argparse.Namespace) -> tuple[Output, ...] | None:
     """Return what goes where, all of it rendered before any is written; None where an SRDF is asked for in vain."""
     targets = targets_for(robot, order.targets)
     if targets is None:
@@ -138,7 +138,7 @@ def _stale(outputs: Sequence[Output], spec: str, robot: Robot | None) -> Iterato
             yield found
 
 
-def _put(output: Output, arguments: Arguments) -> None:
+def _put(output: Output, arguments: argparse.Namespace) -> None:
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
 
     if output.path is None:

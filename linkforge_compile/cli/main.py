@@ -7,9 +7,13 @@ import errno
 import gc
 import sys
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from linkforge_compile._version import __version__
 from linkforge_compile.cli.exits import FAULTY_SPEC, INTERRUPTED, OK, WRONG_USAGE, UsageError
+
+if TYPE_CHECKING:
+    import argparse
 
 _COMMANDS = {
     "init": "begin a robot: a folder with a first spec, and what editors, git and builds want beside it",
@@ -68,11 +72,13 @@ def _run(words: list[str]) -> int:
     name, *rest = words
     # `import` is a word of Python, and no name of a module.
     command = import_module(f"linkforge_compile.cli.commands.{name.replace('import', 'import_')}")
-    from linkforge_compile.cli.parser import Parser
+    from linkforge_compile.cli.options import Once
 
-    parser = Parser(f"linkforge {name}", _COMMANDS[name])
+    parser = _parser(f"linkforge {name}", _COMMANDS[name])
+    parser.register("action", None, Once)
     command.add_arguments(parser)
-    arguments = parser.parse(rest)
+    # Intermixed, so that `linkforge compile arm.robot.yaml -o build/ reach:=0.7` works as it does with ROS's tools.
+    arguments = parser.parse_intermixed_args(rest)
     try:
         code: int = command.run(arguments)
     except UsageError as error:
@@ -96,12 +102,10 @@ def _shown(name: str) -> str:
 
 def _no_command(words: list[str]) -> int:
     """Answer `--help`, and tell of words that begin with no command."""
-    from linkforge_compile.cli.parser import Parser
-
-    declared = Parser("linkforge", "a declarative compiler for robots: YAML specs in, URDF and SRDF out")
-    declared.usage = "linkforge [-h] [-V] COMMAND ..."
+    parser = _parser("linkforge", "a declarative compiler for robots: YAML specs in, URDF and SRDF out")
+    parser.usage = "linkforge [-h] [-V] COMMAND ..."
     width = max(map(len, _COMMANDS))
-    declared.epilog = "\n".join(
+    parser.epilog = "\n".join(
         (
             "commands:",
             *(f"  {name:{width}}  {summary}" for name, summary in _COMMANDS.items()),
@@ -110,8 +114,7 @@ def _no_command(words: list[str]) -> int:
             "70 a fault of linkforge itself.",
         )
     )
-    declared.add_argument("-V", "--version", action="version", version=f"linkforge {__version__}")
-    parser = declared.argument_parser()
+    parser.add_argument("-V", "--version", action="version", version=f"linkforge {__version__}")
     parser.parse_known_args(words)
     if not words:
         parser.print_help(sys.stderr)
@@ -119,6 +122,16 @@ def _no_command(words: list[str]) -> int:
     from linkforge_compile.diagnostics.suggest import did_you_mean
 
     return parser.error(f"'{words[0]}' is no command{did_you_mean(words[0], _COMMANDS)}")
+
+
+def _parser(program: str, summary: str) -> argparse.ArgumentParser:
+    import argparse
+
+    return argparse.ArgumentParser(
+        prog=program,
+        description=f"{summary[0].upper()}{summary[1:]}.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
 
 
 def _silence_stdout() -> None:

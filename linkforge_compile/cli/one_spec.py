@@ -13,8 +13,9 @@ from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.options import packages_of
 
 if TYPE_CHECKING:
+    import argparse
+
     from linkforge_compile.backends.urdf.sensor import Gazebo
-    from linkforge_compile.cli.parser import Arguments
     from linkforge_compile.pipeline import Compilation
 
 STDIN = "<stdin>"
@@ -35,7 +36,7 @@ def one_spec(specs: list[str]) -> str:
 def compile_spec(
     spec: str,
     assignments: list[str],
-    arguments: Arguments,
+    arguments: argparse.Namespace,
     output: Path | None = None,
     text: str | None = None,
 ) -> Compilation:
@@ -53,7 +54,7 @@ def compile_spec(
     return compile_file(spec, output=output, **_settings(assignments, arguments))
 
 
-def check_spec(spec: str, assignments: list[str], arguments: Arguments) -> Compilation:
+def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Compilation:
     """Check a spec, `-` for standard input, with the same options."""
     from linkforge_compile.pipeline import check_file, check_text
 
@@ -71,7 +72,7 @@ class _Settings(TypedDict):
     allow_outside: bool
 
 
-def _settings(assignments: list[str], arguments: Arguments) -> _Settings:
+def _settings(assignments: list[str], arguments: argparse.Namespace) -> _Settings:
     return {
         "parameters": [*arguments.parameters, *assignments],
         "packages": packages_of(arguments),

@@ -2,22 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import argparse
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import UsageError
 
-if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+
+class Once(argparse.Action):
+    """Takes the value of an option that may be given once, as every one is that collects nothing.
+
+    Of two values, none is forgotten in silence.
+    """
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: str | Sequence[object] | None,
+        option_string: str | None = None,
+    ) -> None:
+        given: dict[str, object] = namespace.__dict__.setdefault("given", {})
+        if option_string is not None and self.dest in given:
+            raise argparse.ArgumentError(self, f"may be given once, found '{given[self.dest]}' and '{values}'")
+        given[self.dest] = values
+        setattr(namespace, self.dest, values)
 
 
-def add_spec_and_values(parser: Parser) -> None:
+def add_spec_and_values(parser: argparse.ArgumentParser) -> None:
     """Add the one spec of a command and the values of its parameters, which `split_assignments` tells apart."""
     parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
 
 
-def add_spec_options(parser: Parser) -> None:
+def add_spec_options(parser: argparse.ArgumentParser) -> None:
     add_parameter_option(parser, "set a parameter of the spec, such as reach=0.7m")
     parser.add_argument(
         "--variant",
@@ -34,7 +51,7 @@ def add_spec_options(parser: Parser) -> None:
     )
 
 
-def add_parameter_option(parser: Parser, what: str) -> None:
+def add_parameter_option(parser: argparse.ArgumentParser, what: str) -> None:
     parser.add_argument(
         "-p",
         "--parameter",
@@ -46,7 +63,7 @@ def add_parameter_option(parser: Parser, what: str) -> None:
     )
 
 
-def add_package_option(parser: Parser) -> None:
+def add_package_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--package",
         metavar="NAME=PATH",
@@ -57,7 +74,7 @@ def add_package_option(parser: Parser) -> None:
     )
 
 
-def add_outside_option(parser: Parser) -> None:
+def add_outside_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--allow-outside",
         action="store_true",
@@ -66,7 +83,7 @@ def add_outside_option(parser: Parser) -> None:
     )
 
 
-def packages_of(arguments: Arguments) -> dict[str, str]:
+def packages_of(arguments: argparse.Namespace) -> dict[str, str]:
     """Return the `--package` options as folder by name; UsageError for one that is not NAME=PATH."""
     packages: dict[str, str] = {}
     for pair in arguments.packages:

@@ -11,7 +11,7 @@ from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Parser
+    import argparse
 
 FORMATS = ("urdf", "srdf")
 _FILE_ENDINGS = (".urdf", ".srdf", ".xml")
@@ -40,12 +40,12 @@ class Targets(NamedTuple):
             raise UsageError(f"{option} {why}, so it takes -o with a folder or a file")
 
 
-def add_target_options(parser: Parser) -> None:
+def add_target_options(parser: argparse.ArgumentParser) -> None:
     add_output_option(parser)
     parser.add_argument("--format", choices=FORMATS, help="only this one (standard output: urdf unless said)")
 
 
-def add_output_option(parser: Parser) -> None:
+def add_output_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o",
         "--output",

@@ -13,11 +13,12 @@ from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.diagnostics.render import FORMS
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
+
     from linkforge_compile.diagnostics import Code
 
 
-def add_telling_options(parser: Parser, *, is_product: bool = False) -> None:
+def add_telling_options(parser: argparse.ArgumentParser, *, is_product: bool = False) -> None:
     """Add them; `is_product` for a command that makes nothing but diagnostics, where `--format` means them too."""
     group = parser.add_argument_group("diagnostics")
     group.add_argument(
@@ -43,7 +44,7 @@ def add_telling_options(parser: Parser, *, is_product: bool = False) -> None:
     group.add_argument("--color", choices=WHEN, default="auto", help="whether text is coloured (on a terminal)")
 
 
-def selected(diagnostics: Iterable[Diagnostic], arguments: Arguments) -> tuple[Diagnostic, ...]:
+def selected(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> tuple[Diagnostic, ...]:
     """Return what the options leave of a report, weighed as they say."""
     diagnostics = tuple(diagnostics)
     if not diagnostics:
@@ -54,7 +55,7 @@ def selected(diagnostics: Iterable[Diagnostic], arguments: Arguments) -> tuple[D
     return selection.of(diagnostics)
 
 
-def tell(diagnostics: Iterable[Diagnostic], arguments: Arguments) -> bool:
+def tell(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> bool:
     """Write what the options leave to standard error, and return whether there are errors among it."""
     told = selected(diagnostics, arguments)
     to_stderr(written(told, arguments))
@@ -65,13 +66,13 @@ def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
     return any(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)
 
 
-def say(line: str, arguments: Arguments) -> None:
+def say(line: str, arguments: argparse.Namespace) -> None:
     """Write what was done to standard error, unless that is to be quiet or to hold one document for a program."""
     if not arguments.quiet:
         say_failure(line, arguments)
 
 
-def say_failure(line: str, arguments: Arguments) -> None:
+def say_failure(line: str, arguments: argparse.Namespace) -> None:
     """Write what did not succeed to standard error, unless that is to hold one document for a program."""
     if arguments.diagnostics in {"text", "github"}:
         to_stderr(f"{line}\n")
@@ -83,7 +84,7 @@ def to_stderr(text: str) -> None:
         sys.stderr.write(text)
 
 
-def written(diagnostics: tuple[Diagnostic, ...], arguments: Arguments) -> str:
+def written(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> str:
     """Return the diagnostics in the form that was asked for."""
     # A build on GitHub may run in any folder of the checkout; its annotations name files from the top.
     root = Path(os.environ.get("GITHUB_WORKSPACE") or Path.cwd()).absolute()

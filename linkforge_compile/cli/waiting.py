@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.telling import say
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments
+    import argparse
 
 PATIENCE = 3.0
 """Seconds after which who waits at a terminal is told for what."""
 
 
 @contextmanager
-def told_when_long(file: str, arguments: Arguments) -> Iterator[None]:
+def told_when_long(file: str, arguments: argparse.Namespace) -> Iterator[None]:
     """Tell at a terminal what is under way, if it is still under way after some seconds."""
     if sys.stderr is None or not sys.stderr.isatty():
         yield

@@ -94,7 +94,7 @@ UNSAID_BY_TWO = {
 
 NEEDLESS = {
     *("jinja2", "networkx", "lxml", "difflib", "jsonschema"),
-    *("argparse", "copy", "dataclasses", "decimal", "fractions", "gettext", "inspect", "locale", "random", "shutil"),
+    *("copy", "dataclasses", "decimal", "fractions", "inspect"),
 }
 """Packages that no robot without faults needs."""
 

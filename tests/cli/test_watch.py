@@ -1,5 +1,6 @@
 """`linkforge watch`: what a person does between two looks at the files is done where it would sleep."""
 
+import argparse
 import os
 import signal
 import subprocess
@@ -14,7 +15,6 @@ from linkforge_compile import Compilation
 from linkforge_compile.cli.build import Order
 from linkforge_compile.cli.commands import watch as watch_command
 from linkforge_compile.cli.main import main
-from linkforge_compile.cli.parser import Arguments
 
 CELL = "linkforge: 1\nname: cell\nlinks: {base: }\nmodules: {arm: {use: arm.robot.yaml, parent: base}}\n"
 ARM = "linkforge: 1\nname: arm\nlinks: {hand: }\n"
@@ -196,7 +196,7 @@ def test_what_is_saved_while_it_is_compiled_is_compiled_again(
     compile_order = watch_command.compile_order
     saves = iter([ARM.replace("hand", "gripper")])
 
-    def compile_while_a_person_saves(order: Order, arguments: Arguments) -> Compilation:
+    def compile_while_a_person_saves(order: Order, arguments: argparse.Namespace) -> Compilation:
         compilation = compile_order(order, arguments)
         for text in saves:
             (cell / "arm.robot.yaml").write_text(text)

@@ -14,7 +14,8 @@ from linkforge_compile.cli.telling import add_telling_options, has_errors, selec
 from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
+
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.pipeline import Compilation
 
@@ -35,7 +36,7 @@ _MAX_SPECS = 5_000
 """In one folder; of more, most are hardly somebody's own."""
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument(
         "words",
@@ -50,7 +51,7 @@ def add_arguments(parser: Parser) -> None:
     add_telling_options(parser, is_product=True)
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.diagnostics.render.text import summary
 
     words, assignments = split_assignments(arguments.words)
@@ -96,7 +97,7 @@ def _without_specs(meant: Mapping[str, tuple[str, ...]]) -> Iterator[Diagnostic]
     return (NO_SPEC_BELOW.at(None, path=word) for word, specs in meant.items() if not specs)
 
 
-def _checked(spec: str, assignments: list[str], arguments: Arguments) -> Mapping[str | None, Compilation]:
+def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Mapping[str | None, Compilation]:
     """Check a spec with the variant that was asked for, or with the defaults, None, and every variant."""
     if not arguments.all_variants:
         return {arguments.variant: check_spec(spec, assignments, arguments)}
@@ -108,7 +109,7 @@ def _checked(spec: str, assignments: list[str], arguments: Arguments) -> Mapping
     )
 
 
-def _write(told: tuple[Diagnostic, ...], arguments: Arguments) -> None:
+def _write(told: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
     """Write text to standard error, where people read, and every form for programs to standard output."""
     text = written(told, arguments)
     if arguments.diagnostics == "text":

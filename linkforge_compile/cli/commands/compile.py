@@ -12,7 +12,7 @@ from linkforge_compile.cli.targets import add_target_options, targets_of
 from linkforge_compile.cli.telling import add_telling_options
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
 
 _EXAMPLES = """\
 examples:
@@ -29,7 +29,7 @@ examples:
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge compile [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     add_build_arguments(parser)
@@ -38,7 +38,7 @@ def add_arguments(parser: Parser) -> None:
     )
 
 
-def add_build_arguments(parser: Parser) -> None:
+def add_build_arguments(parser: argparse.ArgumentParser) -> None:
     """Add what is said of each compile, be it the only one or one of many."""
     add_spec_and_values(parser)
     add_target_options(parser)
@@ -61,12 +61,12 @@ def add_build_arguments(parser: Parser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     ordered = order(arguments)
     return deliver(ordered, compile_order(ordered, arguments), arguments)
 
 
-def order(arguments: Arguments) -> Order:
+def order(arguments: argparse.Namespace) -> Order:
     """Return what the words and options ask for; UsageError for what cannot be meant."""
     specs, assignments = split_assignments(arguments.words)
     spec = one_spec(specs)

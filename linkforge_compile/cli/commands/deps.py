@@ -12,7 +12,8 @@ from linkforge_compile.cli.targets import add_output_option, name_of, targets_of
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
+
     from linkforge_compile.pipeline import Compilation
 
 FORMATS = ("make", "json")
@@ -31,7 +32,7 @@ own. A spec with errors has no rule of Make, for there is nothing made from it.
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge deps [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     add_spec_and_values(parser)
@@ -41,7 +42,7 @@ def add_arguments(parser: Parser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
 
     specs, assignments = split_assignments(arguments.words)

@@ -13,7 +13,8 @@ from linkforge_compile.cli.options import add_spec_options, name_set_by, package
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
+
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
 
@@ -40,7 +41,7 @@ examples:
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge diff [options] A B [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument(
@@ -68,7 +69,7 @@ def add_arguments(parser: Parser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     words, assignments = split_assignments(arguments.words)
     if len(words) != 2:
         raise UsageError(f"takes two robots, found {len(words)}")
@@ -102,7 +103,7 @@ def run(arguments: Arguments) -> int:
     return DIFFERENT if differences else OK
 
 
-def _side(name: str, word: str, arguments: Arguments) -> Side:
+def _side(name: str, word: str, arguments: argparse.Namespace) -> Side:
     """Return the robot of one side and what is set for it alone; UsageError for what it cannot have."""
     values = vars(arguments)
     parameters: list[str] = values[name]
@@ -132,7 +133,7 @@ def _takes_parameters(side: Side) -> bool:
     return not side.is_urdf or any(_is_xacro(file) for file in (side.word, side.srdf) if file)
 
 
-def _shared_out(common: Sequence[str], sides: Sequence[Side], arguments: Arguments) -> list[list[str]]:
+def _shared_out(common: Sequence[str], sides: Sequence[Side], arguments: argparse.Namespace) -> list[list[str]]:
     """Return what each side takes of what is set for both: what it has, and what none has, to be told there."""
     is_unknown = any(side.text is not None and not side.is_urdf for side in sides)  # which can be read once only
     if not common or is_unknown or len({(side.word, side.srdf) for side in sides}) == 1:
@@ -142,7 +143,7 @@ def _shared_out(common: Sequence[str], sides: Sequence[Side], arguments: Argumen
     return [[pair for pair in common if (name := name_set_by(pair)) in own or name not in known] for own in names]
 
 
-def _parameters_of(side: Side, arguments: Arguments) -> frozenset[str]:
+def _parameters_of(side: Side, arguments: argparse.Namespace) -> frozenset[str]:
     """Return the names of what a side takes."""
     from linkforge_compile.pipeline import parameters_of
 
@@ -153,16 +154,18 @@ def _parameters_of(side: Side, arguments: Arguments) -> frozenset[str]:
     return frozenset(one.name for listing in listings if listing for one in listing.parameters)
 
 
-def _for_side(name: str, side: Side, common: Iterable[str], arguments: Arguments) -> Arguments:
+def _for_side(name: str, side: Side, common: Iterable[str], arguments: argparse.Namespace) -> argparse.Namespace:
     """Return the arguments as they are for the robot of one side: what is set for it alone comes before the rest."""
-    ours = type(arguments)(**vars(arguments))
+    from argparse import Namespace
+
+    ours = Namespace(**vars(arguments))
     ours.parameters = [*(pair for pair in common if name_set_by(pair) not in side.parameters), *vars(arguments)[name]]
     ours.variant = side.variant or arguments.variant
     return ours
 
 
 def _beside_each_other(
-    sides: Sequence[Side], robots: Sequence[Robot], arguments: Arguments
+    sides: Sequence[Side], robots: Sequence[Robot], arguments: argparse.Namespace
 ) -> tuple[Sequence[Robot], str | None]:
     """Return the robots, a spec beside a URDF as what it compiles to: it has words for what a URDF says in Gazebo's.
 
@@ -214,7 +217,7 @@ def _is_xacro(word: str) -> bool:
     return Path(word).suffix.lower() == ".xacro"
 
 
-def _robot(side: Side, arguments: Arguments) -> Robot | None:
+def _robot(side: Side, arguments: argparse.Namespace) -> Robot | None:
     if side.is_urdf:
         from linkforge_compile.importing import import_urdf
         from linkforge_compile.pipeline import compile_text

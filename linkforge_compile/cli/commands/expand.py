@@ -12,7 +12,7 @@ from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.cli.telling import add_telling_options, say, tell
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
 
 _EXAMPLES = """\
 What it prints has no modules, parameters, expressions, loops or defaults left, and compiles to the same URDF and
@@ -25,7 +25,7 @@ examples:
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge expand [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     add_spec_and_values(parser)
@@ -34,7 +34,7 @@ def add_arguments(parser: Parser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     specs, assignments = split_assignments(arguments.words)
     spec = one_spec(specs)
     compilation = compile_spec(spec, assignments, arguments)

@@ -13,7 +13,8 @@ from linkforge_compile.cli.places import told
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
+
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.writers import ComputedFrom, Explanation, NameStory, Place, UnknownPathError
 
@@ -29,7 +30,7 @@ examples:
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = (
         "linkforge explain [options] SPEC PATH [NAME:=VALUE ...]\n"
         "       linkforge explain CODE\n"
@@ -44,7 +45,7 @@ def add_arguments(parser: Parser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.manual import is_code
 
     if arguments.codes or (len(arguments.words) == 1 and is_code(arguments.words[0])):
@@ -52,7 +53,7 @@ def run(arguments: Arguments) -> int:
     return _explain_value(arguments)
 
 
-def _print_manual(arguments: Arguments) -> int:
+def _print_manual(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.colour import is_coloured
     from linkforge_compile.cli.manual import UnknownCodeError, page, register_table
     from linkforge_compile.cli.output import write_to_stdout
@@ -68,7 +69,7 @@ def _print_manual(arguments: Arguments) -> int:
     return OK
 
 
-def _explain_value(arguments: Arguments) -> int:
+def _explain_value(arguments: argparse.Namespace) -> int:
     words, assignments = split_assignments(arguments.words)
     if len(words) < 2:
         raise UsageError("takes a spec and a path, such as joints/elbow/limits/effort, or a code, such as LF4102")

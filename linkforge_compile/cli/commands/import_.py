@@ -21,7 +21,8 @@ from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.frozen import replace
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
+
     from linkforge_compile.importing import Import
 
 _EXAMPLES = """\
@@ -37,7 +38,7 @@ examples:
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge import [options] ROBOT.urdf | ROBOT.urdf.xacro [ARGUMENT:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument(
@@ -58,7 +59,7 @@ def add_arguments(parser: Parser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     files, assignments = split_assignments(arguments.words)
     _refuse_others(files)
     urdf = one_spec(files)
@@ -115,7 +116,7 @@ def _refuse_others(files: list[str]) -> None:
         raise UsageError(f"'{files[0]}' is a spec already; import takes a URDF or a xacro of one")
 
 
-def _put(text: str, output: Path | None, arguments: Arguments) -> None:
+def _put(text: str, output: Path | None, arguments: argparse.Namespace) -> None:
     from linkforge_compile.cli.output import write_if_changed, write_to_stdout
 
     if output is None:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.exits import OK, UsageError
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
+
     from linkforge_compile.editor.robot_folder import RobotFolder
 
 _EXAMPLES = """\
@@ -24,14 +25,14 @@ examples:
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("name", metavar="NAME", help="name of the robot: letters, digits, _ and -")
     parser.add_argument("--dir", metavar="FOLDER", help="where to write; a new folder NAME unless said")
     parser.add_argument("-q", "--quiet", action="store_true", help="do not tell what was written, nor what to do next")
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.telling import to_stderr
     from linkforge_compile.editor.robot_folder import NAME, RobotFolder
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.exits import OK
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
 
 _EXAMPLES = """\
 It reads the text that every command and every build step of linkforge prints. In a step before the build:
@@ -17,13 +17,13 @@ Where `linkforge check` is a step of its own, `--format github` needs no matcher
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
     parser.add_argument("-q", "--quiet", action="store_true", help="say nothing when all is well")
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import put_json
     from linkforge_compile.resources import matcher_file
 

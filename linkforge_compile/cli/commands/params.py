@@ -10,7 +10,8 @@ from linkforge_compile.cli.options import add_outside_option, add_package_option
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
+
     from linkforge_compile.modules.listing import ListedParameter, Listing, Plain
 
 _EXAMPLES = """\
@@ -21,7 +22,7 @@ examples:
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("spec", metavar="SPEC", help="the spec, NAME.robot.yaml, or a xacro, which is not run")
     parser.add_argument("--json", action="store_true", help="as JSON, for tools")
@@ -30,7 +31,7 @@ def add_arguments(parser: Parser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.pipeline import parameters_of
 

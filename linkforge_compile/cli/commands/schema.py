@@ -9,7 +9,7 @@ from linkforge_compile.cli.exits import OK, UsageError
 from linkforge_compile.cli.options import add_package_option, packages_of
 
 if TYPE_CHECKING:
-    from linkforge_compile.cli.parser import Arguments, Parser
+    import argparse
 
 _EXAMPLES = """\
 For VS Code and every editor with yaml-language-server, put this on the first line of a spec:
@@ -26,7 +26,7 @@ specs, so a xacro that one of them uses is run, unless LINKFORGE_NO_XACRO is set
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
     parser.add_argument("-q", "--quiet", action="store_true", help="say nothing when all is well")
@@ -40,7 +40,7 @@ def add_arguments(parser: Parser) -> None:
     add_package_option(parser)
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import put_json
     from linkforge_compile.schema.bundle import bundle_text
 

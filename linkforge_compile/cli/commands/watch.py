@@ -14,9 +14,8 @@ from linkforge_compile.cli.telling import say, say_failure, to_stderr
 from linkforge_compile.stamps import Stamps
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Sequence
-
-    from linkforge_compile.cli.parser import Arguments, Parser
 
 _SECONDS = 0.3
 """Between two looks at the files: less than a person takes from the editor to the other window."""
@@ -33,17 +32,17 @@ examples:
 """
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     compile_command.add_build_arguments(parser)
     parser.usage = "linkforge watch [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument(
         "--then", metavar="COMMAND", help="a command of the shell that is run after each compile without errors"
     )
+    parser.set_defaults(check=False)
 
 
-def run(arguments: Arguments) -> int:
-    arguments.check = False  # which `compile` alone may do
+def run(arguments: argparse.Namespace) -> int:
     order = compile_command.order(arguments)
     if order.spec == "-":
         raise UsageError("takes a file, not standard input")
@@ -69,7 +68,7 @@ def run(arguments: Arguments) -> int:
         exit_code = _build_again(order, stamps, arguments)
 
 
-def _build(order: Order, stamps: Stamps, arguments: Arguments) -> int:
+def _build(order: Order, stamps: Stamps, arguments: argparse.Namespace) -> int:
     began = time.time_ns()
     compilation = compile_order(order, arguments)
     # Before anything that may fail or take its time: what changes meanwhile is to be seen.
@@ -77,7 +76,7 @@ def _build(order: Order, stamps: Stamps, arguments: Arguments) -> int:
     return deliver(order, compilation, arguments)
 
 
-def _build_again(order: Order, stamps: Stamps, arguments: Arguments) -> int:
+def _build_again(order: Order, stamps: Stamps, arguments: argparse.Namespace) -> int:
     """Build, and tell of what cannot be done where the first build would end: it is mended while we watch."""
     try:
         return _build(order, stamps, arguments)
@@ -107,7 +106,7 @@ def _listed(paths: tuple[Path, ...]) -> str:
     return f"{first} and {len(others)} more" if others else str(first)
 
 
-def _run_then(arguments: Arguments) -> None:
+def _run_then(arguments: argparse.Namespace) -> None:
     import subprocess
 
     code = subprocess.run(arguments.then, shell=True, check=False).returncode

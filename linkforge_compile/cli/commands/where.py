@@ -14,8 +14,9 @@ from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 
 if TYPE_CHECKING:
+    import argparse
+
     from linkforge_compile.backends.map_file import MapFile, Stretch
-    from linkforge_compile.cli.parser import Arguments, Parser
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.source import Span
 
@@ -33,7 +34,7 @@ examples:
 _LARGEST = 256 * 1024 * 1024  # bytes
 
 
-def add_arguments(parser: Parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge where FILE:LINE[:COLUMN] | FILE NAME"
     parser.epilog = _EXAMPLES
     parser.add_argument("file", metavar="FILE[:LINE[:COLUMN]]", help="a line of a URDF or SRDF file")
@@ -41,7 +42,7 @@ def add_arguments(parser: Parser) -> None:
     add_telling_options(parser)
 
 
-def run(arguments: Arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     path, line, column = _place_in(arguments.file)
     if (line is None) == (arguments.name is None):
         raise UsageError("takes a line of a file, such as robot.urdf:81, or a file and a name in it")
