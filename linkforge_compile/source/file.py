@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from functools import cached_property
+from itertools import accumulate
 from pathlib import Path
 
 from linkforge_compile.frozen import dataclass, field
@@ -40,6 +42,25 @@ class SourceFile(_Room):
     def line(self, number: int) -> str:
         """Return line `number`, counted from 1; empty behind the end of the file."""
         return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
+
+    def between(self, begin: int, end: int) -> Span:
+        """Return the stretch between two indexes into the text, in which a byte order mark does not count.
+
+        What lies behind the end of the text is its end.
+        """
+        return Span(self, *self._place(begin), *self._place(end))
+
+    def _place(self, index: int) -> tuple[int, int]:
+        starts = self._line_starts
+        index = min(index, starts[-1] - 1)
+        line = bisect_right(starts, index)
+        return line, index - starts[line - 1] + 1
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        """The index of the first character of each line, and of one more line behind the last."""
+        text = self.text.removeprefix("\ufeff").replace("\r\n", " \n").replace("\r", "\n")
+        return [0, *accumulate(len(line) + 1 for line in text.split("\n"))]
 
     @cached_property
     def is_xml(self) -> bool:

@@ -44,6 +44,13 @@ def test_a_part_of_a_span_keeps_its_line():
     assert span(2, 9, 20).within(4, 3) == span(2, 13, 3)
 
 
+def test_a_stretch_of_text_has_its_lines_whatever_they_end_with_and_ends_with_the_text():
+    file = SourceFile("ends", "\ufeffa\rbc\r\n\nd")
+    places = [file.between(index, index + 1) for index in range(8)]
+    assert [(at.line, at.column) for at in places] == [(1, 1), (1, 2), (2, 1), (2, 2), (2, 3), (2, 4), (3, 1), (4, 1)]
+    assert file.between(2, 99) == Span(file, 2, 1, 4, 2)
+
+
 def test_spans_sort_by_reading_order_of_their_files():
     module = SourceFile("a_module.robot.yaml", "", order=1)
     spans = [Span(module, 1, 1, 1, 1), span(2, 1, 1), span(1, 5, 1)]

@@ -105,6 +105,18 @@ def test_spans_cover_what_was_written(end: str):
     assert covered(literal.span) == "|\n  i"
 
 
+def test_a_word_that_comes_again_is_read_as_it_is_written_there():
+    again = ["a", '"a"', "&k  a", "'1'", "a\n    a", "a a", "1", "|-\n      a", ">-\n      1", "*k", "1.0", "a"]
+    tree = tree_of("a: 1\na1: a\nb: {a: 1}\nc:\n" + "".join(f"  - {word}\n" for word in again) + "'1':\n1.0: a\n")
+    assert plain(tree.get("c")) == ["a", "a", "a", "1", "a a", "a a", 1, "a", "1", "a", 1.0, "a"]
+    items = tree.get("c")
+    assert isinstance(items, YamlList)
+    written = [covered(item.span) for item in items]
+    assert written == ["a" if word in ("&k  a", "*k") else word for word in again]
+    assert list(tree.entries) == ["a", "a1", "b", "c", "1", "1.0"]
+    assert [covered(entry.key.span) for entry in tree] == ["a", "a1", "b", "c", "'1'", "1.0"]
+
+
 def test_block_collections_end_with_their_last_value_not_with_the_comments_behind_it():
     tree = tree_of("a:\n  b: 1   # c\n\n# d\ne: 2")
     inner = tree.get("a")
