@@ -1,6 +1,6 @@
 """Says yes to a tree that is shaped as its schema says; whoever wants the reasons for a no asks jsonschema.
 
-Most files are right, and to say so takes a seventh of the time of looking for all that is wrong.
+Most files are right, and to say so takes a twentieth of the time of looking for all that is wrong.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _WORDS_OF_EDITORS = frozenset(
 
 
 class Fit:
-    """A linked schema as a judge that answers yes or no.
+    """A linked schema as a judge that answers yes or no; `fit_of` makes it.
 
     A yes is certain: jsonschema then finds nothing that would be told. A no is not: 2.0 is a whole number to
     jsonschema alone, and a tree that holds a fault already is never let through.

@@ -8,7 +8,7 @@ import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.schema import faults, validate, validator
-from linkforge_compile.schema.fit import Fit
+from linkforge_compile.schema.fit import Fit, fit_of
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlList, YamlMap, YamlScalar, read
 from linkforge_compile.syntax.nodes import YamlEntry, YamlNode
@@ -98,3 +98,8 @@ def test_what_the_quick_judge_lets_through_jsonschema_lets_through(name, monkeyp
 def test_a_keyword_that_nobody_judges_is_no_yes():
     with pytest.raises(ValueError, match="multipleOf"):
         Fit({"type": "number", "multipleOf": 2})
+
+
+def test_a_choice_that_says_more_itself_is_no_yes():
+    with pytest.raises(ValueError, match="minItems"):
+        fit_of({"anyOf": [{"type": "array"}, {"type": "string"}], "minItems": 2})
