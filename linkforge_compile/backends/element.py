@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol
 
-from linkforge_compile.backends.marks import is_recording, mark, mark_of_attribute
+from linkforge_compile.backends.marks import mark, mark_of_attribute, recorded
 from linkforge_compile.backends.markup import NOTHING, Spellable, Xml, escaped, is_xml_name, spelled
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.part import Element, Inside, attribute_pairs
 from linkforge_compile.core.raw_xml import RawXml
 from linkforge_compile.source import SourceRef
-from linkforge_compile.units import number_text
+from linkforge_compile.units import double_text
 
 if TYPE_CHECKING:
     from linkforge_compile.backends.raw import Path
@@ -58,14 +57,22 @@ def attributes(part: Extended | None = None, /, **stated: Spellable | None) -> X
         RobotGeneratorError: for an extra attribute that says a stated one again, or that is no XML name.
 
     """
-    text = "".join([f' {name}="{_quotable(value)}"' for name, value in stated.items() if value is not None])
-    if part is None or not (part.extra_attributes or is_recording()):
-        return Xml(text)
+    if part is None or not (part.extra_attributes or recorded()):
+        return Xml(_stated_alone(stated))
     extra = attribute_pairs(part.extra_attributes)
     _require_attributes(part, stated, extra)
-    if is_recording():
+    if recorded():
         return _marked_attributes(part, stated, extra)
-    return Xml(text + "".join([f' {name}="{escaped(value)}"' for name, value in extra]))
+    return Xml(_stated_alone(stated) + "".join([f' {name}="{escaped(value)}"' for name, value in extra]))
+
+
+def _stated_alone(stated: Mapping[str, Spellable | None]) -> str:
+    text = ""
+    for name, value in stated.items():
+        if value is not None:
+            said = double_text(value) if value.__class__ is float else _quotable(value)  # half of them are floats
+            text = f'{text} {name}="{said}"'
+    return text
 
 
 def attributes_at(source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
@@ -92,8 +99,6 @@ def place_of_attribute(name: str, where: SourceRef | None) -> tuple[SourceRef | 
 
 
 def _quotable(value: Spellable) -> str:
-    if value.__class__ is float:  # half of them
-        return number_text(value)
     return escaped(value) if isinstance(value, str) else spelled(value)
 
 
@@ -129,11 +134,8 @@ def elements(part: Extended) -> Xml:
 
 def inside_of(part: Extended) -> Sequence[Inside]:
     """Return what a part says of elements inside; a link and a robot hold none but parts."""
-    return part.extra_inside if isinstance(part, _HOLD_INSIDES) else ()
-
-
-# A union takes three times as long to ask.
-_HOLD_INSIDES = (Element, Interface)
+    insides: Sequence[Inside] = getattr(part, "extra_inside", ())
+    return insides
 
 
 def raw(part: Extended) -> Xml:
@@ -164,14 +166,16 @@ def leaf_at(tag: str, source: SourceRef | None, *path: str, **stated: Spellable 
     return Xml(f"<{tag}{attributes_at(source, *path, **stated)}/>")
 
 
-def leaf(tag: str, part: Extended | None, /, **stated: Spellable | None) -> Xml:
+def leaf(tag: str, part: Element, /, **stated: Spellable | None) -> Xml:
     """Return an element whose fields are all attributes."""
-    return whole(tag, part, NOTHING, **stated)
+    if part.extra_attributes or part.extra_elements or part.extra_inside or recorded():
+        return whole(tag, part, NOTHING, **stated)
+    return Xml(f"<{tag}{_stated_alone(stated)}/>")  # nine of ten
 
 
-def whole(tag: str, part: Extended | None, text: Xml, /, **stated: Spellable | None) -> Xml:
+def whole(tag: str, part: Element, text: Xml, /, **stated: Spellable | None) -> Xml:
     """Return an element whose fields are attributes and its text."""
-    start, inner = f"<{tag}{attributes(part, **stated)}", NOTHING if part is None else elements(part)
+    start, inner = f"<{tag}{attributes(part, **stated)}", elements(part)
     if not text:
         return Xml(f"{start}>\n{inner}\n</{tag}>" if inner else f"{start}/>")
     # Text and elements side by side are one line: whatever stood between them would be text.

@@ -8,7 +8,7 @@ have to hand it on otherwise, for the sake of the few documents that are rendere
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING
@@ -59,13 +59,13 @@ def recording() -> Iterator[Marks]:
         _RECORDED.reset(token)
 
 
-def is_recording() -> bool:
-    return _RECORDED.get() is not None
+recorded: Callable[[], Marks | None] = _RECORDED.get
+"""Return the marks of the document that is rendered; None where no map is made. Asked for every part of a robot."""
 
 
 def mark(source: SourceRef | None, *path: str | int) -> str:
     """Return the mark of the deepest thing written on the path; nothing where none was, or where no map is made."""
-    marks = _RECORDED.get()
+    marks = recorded()
     if marks is None or source is None:
         return ""
     span = source.at(*path)
@@ -84,7 +84,7 @@ _KEYS = {"filename": "file"}
 
 def mark_of_line(source: SourceRef | None, path: tuple[str | int, ...], line: int) -> str:
     """Return the mark of one line, counted from 1, of a text of several, where the file has it as a line as well."""
-    marks = _RECORDED.get()
+    marks = recorded()
     if marks is None or source is None:
         return ""
     whole = source.at(*path)

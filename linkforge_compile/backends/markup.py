@@ -12,11 +12,12 @@ from collections.abc import Callable, Iterable
 from operator import methodcaller
 from typing import TypeAlias, TypeGuard
 
-from linkforge_compile.backends.marks import is_recording, mark
+from linkforge_compile.backends.marks import mark, recorded
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.pattern import pattern
 from linkforge_compile.source import SourceRef
-from linkforge_compile.units import number_text
+from linkforge_compile.units import double_text, number_text
 
 _EMPTY = pattern(r"<(([^\s<>/]+)[^<>]*)(?<!/)></\2>")
 
@@ -65,8 +66,10 @@ def is_of_numpy(value: object) -> TypeGuard[float]:
 
 def spelled(value: Spellable) -> str:
     """Return a value as the text that URDF writes, not escaped yet."""
-    if value.__class__ is float:  # the most frequent
-        return number_text(value)
+    if value.__class__ is Vector3:
+        x, y, z = value.x, value.y, value.z
+        if x.__class__ is y.__class__ is z.__class__ is float:
+            return f"{double_text(x)} {double_text(y)} {double_text(z)}"
     if isinstance(value, str):
         return value
     if is_of_numpy(value):
@@ -81,7 +84,7 @@ def spelled(value: Spellable) -> str:
 def placed(text: str, source: SourceRef | None, *path: str | int) -> str:
     """Return text for a template, marked with where it was written: under a path of an object."""
     # An element without content closes itself, so an empty text stays empty.
-    return Xml(mark(source, *path) + escaped(text)) if text and is_recording() else text
+    return Xml(mark(source, *path) + escaped(text)) if text and recorded() else text
 
 
 def escaped(text: str) -> str:
@@ -205,7 +208,7 @@ def document_text(lines: list[str], *, pretty: bool) -> str:
     if not pretty:
         lines = [line.lstrip(INDENT) for line in lines]
     text = ("\n" if pretty else "").join(lines)
-    return text if is_recording() else restored(text)
+    return text if recorded() else restored(text)
 
 
 def laid_out(text: str, indent: str = "") -> list[str]:

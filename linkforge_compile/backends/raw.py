@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import TypeAlias
 
-from linkforge_compile.backends.marks import is_recording, mark, mark_of_line
+from linkforge_compile.backends.marks import mark, mark_of_line, recorded
 from linkforge_compile.backends.markup import (
     Xml,
     escaped,
@@ -69,7 +69,7 @@ def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -
             instruction, which most readers refuse.
 
     """
-    if is_recording() or len(text) > _LONGEST_KEPT:
+    if recorded() or len(text) > _LONGEST_KEPT:
         return _laid_out(text, source, path)
     return _kept(str(text))  # one that knows its place would keep its whole file
 

@@ -1,6 +1,6 @@
 """Quantities: numbers that know their dimension, the units people write them in, and numbers as text."""
 
-from linkforge_compile.units.numbers import is_in_full, number_text
+from linkforge_compile.units.numbers import double_text, is_in_full, number_text
 from linkforge_compile.units.quantity import WIDEST_ANGLE, Dimension, Quantity
 from linkforge_compile.units.table import UNITS, Unit, parse_quantity, spellings_of, unit_meant, unit_text, units_of
 
@@ -10,6 +10,7 @@ __all__ = [
     "Dimension",
     "Quantity",
     "Unit",
+    "double_text",
     "is_in_full",
     "number_text",
     "parse_quantity",

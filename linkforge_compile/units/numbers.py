@@ -21,7 +21,7 @@ def number_text(value: float) -> str:
             return str(index(value))
         except TypeError:  # it is no whole number; that it has an `__index__` says nothing: every array has one
             value = float(value)
-    return _text_of_double(value)
+    return double_text(value)
 
 
 def is_in_full(text: str) -> bool:
@@ -30,7 +30,8 @@ def is_in_full(text: str) -> bool:
 
 
 @lru_cache(maxsize=4096)  # a robot says the same numbers again and again
-def _text_of_double(value: float) -> str:
+def double_text(value: float) -> str:
+    """Return `number_text` of what is known to be a float."""
     if value == 0:
         return "0"
     digits, marker, exponent = float.__repr__(value).partition("e")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from linkforge_compile.backends.element import attributes, attributes_at, elements
-from linkforge_compile.backends.marks import is_recording
+from linkforge_compile.backends.marks import recorded
 from linkforge_compile.backends.markup import Xml, placed, spelled
 from linkforge_compile.backends.raw import parameter_elements, raw_elements
 from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS
@@ -70,7 +70,7 @@ def plugin_view(plugin: GazeboPlugin) -> PluginView:
 
 
 def _properties(block: GazeboElement) -> Xml:
-    if not is_recording():
+    if not recorded():
         return parameter_elements(block.properties)
     # Tags of Gazebo that are keys of the language stand in the block itself, others in its `properties`.
     own = block.source.node if block.source else None
