@@ -1,6 +1,7 @@
 """`pattern`: `re.compile` that waits until its pattern is used, for those that a common spec never needs.
 
-To compile one takes longer than to define a class.
+To compile one takes longer than to define a class, and one with characters far beyond ASCII as long as to define ten:
+`Characters` waits with these until a text has some that are not ASCII.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, AnyStr, Generic
 
-__all__ = ["pattern"]
+__all__ = ["Characters", "pattern"]
 
 
 class _Pattern(Generic[AnyStr]):
@@ -38,3 +39,19 @@ if TYPE_CHECKING:
     from re import compile as pattern
 else:
     pattern = _Pattern
+
+
+class Characters:
+    """What finds characters in text: those of ASCII, and those beyond it, each as between the brackets of a pattern."""
+
+    __slots__ = ("_all", "_of_ascii")
+
+    def __init__(self, of_ascii: str, beyond: str) -> None:
+        self._of_ascii = re.compile(f"[{of_ascii}]")
+        self._all = pattern(f"[{of_ascii}{beyond}]")
+
+    def search(self, text: str) -> re.Match[str] | None:
+        return (self._of_ascii if text.isascii() else self._all).search(text)
+
+    def sub(self, replacement: str, text: str) -> str:
+        return (self._of_ascii if text.isascii() else self._all).sub(replacement, text)

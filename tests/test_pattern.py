@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile.pattern import pattern
+from linkforge_compile.pattern import Characters, pattern
 
 PACKAGE = Path(__file__).parents[1] / "linkforge_compile"
 USERS = [
@@ -50,6 +50,17 @@ def test_what_no_pattern_has_is_told_so():
 
 @pytest.mark.parametrize("module", USERS)
 def test_no_faulty_one_waits_for_a_user(module):
-    waiting = [value for value in vars(import_module(module)).values() if isinstance(value, pattern)]
+    values = vars(import_module(module)).values()
+    waiting = [value for value in values if isinstance(value, pattern)]
     assert all(isinstance(value.pattern, str | bytes) for value in waiting)
-    assert waiting
+    sets = [value for value in values if isinstance(value, Characters)]
+    assert all(value.search("e") is value.search("é") is None for value in sets)
+    assert waiting or sets
+
+
+@pytest.mark.parametrize("text", ["", "plain", "a\tb", "é", "é\t", "\u2028", "a\ud800", "b\x7f"])
+def test_characters_are_found_as_by_a_pattern(text: str):
+    ours, theirs = Characters("\t\x7f", "\u2028\ud800-\udfff"), re.compile("[\t\x7f\u2028\ud800-\udfff]")
+    found, sought = ours.search(text), theirs.search(text)
+    assert (found and found.span()) == (sought and sought.span())
+    assert ours.sub("?", text) == theirs.sub("?", text)

@@ -6,7 +6,7 @@ import atexit
 import errno
 import gc
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile._version import __version__
@@ -72,11 +72,7 @@ def _run(words: list[str]) -> int:
     name, *rest = words
     # `import` is a word of Python, and no name of a module.
     command = import_module(f"linkforge_compile.cli.commands.{name.replace('import', 'import_')}")
-    from linkforge_compile.cli.options import Once
-
-    parser = _parser(f"linkforge {name}", _COMMANDS[name])
-    parser.register("action", None, Once)
-    command.add_arguments(parser)
+    parser = _parser(f"linkforge {name}", _COMMANDS[name], command.add_arguments)
     # Intermixed, so that `linkforge compile arm.robot.yaml -o build/ reach:=0.7` works as it does with ROS's tools.
     arguments = parser.parse_intermixed_args(rest)
     try:
@@ -102,7 +98,8 @@ def _shown(name: str) -> str:
 
 def _no_command(words: list[str]) -> int:
     """Answer `--help`, and tell of words that begin with no command."""
-    parser = _parser("linkforge", "a declarative compiler for robots: YAML specs in, URDF and SRDF out")
+    summary = "a declarative compiler for robots: YAML specs in, URDF and SRDF out"
+    parser = _parser("linkforge", summary, _add_version)
     parser.usage = "linkforge [-h] [-V] COMMAND ..."
     width = max(map(len, _COMMANDS))
     parser.epilog = "\n".join(
@@ -114,7 +111,6 @@ def _no_command(words: list[str]) -> int:
             "70 a fault of linkforge itself.",
         )
     )
-    parser.add_argument("-V", "--version", action="version", version=f"linkforge {__version__}")
     parser.parse_known_args(words)
     if not words:
         parser.print_help(sys.stderr)
@@ -124,14 +120,33 @@ def _no_command(words: list[str]) -> int:
     return parser.error(f"'{words[0]}' is no command{did_you_mean(words[0], _COMMANDS)}")
 
 
-def _parser(program: str, summary: str) -> argparse.ArgumentParser:
+def _add_version(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("-V", "--version", action="version", version=f"linkforge {__version__}")
+
+
+def _parser(
+    program: str, summary: str, add_arguments: Callable[[argparse.ArgumentParser], None]
+) -> argparse.ArgumentParser:
     import argparse
 
-    return argparse.ArgumentParser(
-        prog=program,
-        description=f"{summary[0].upper()}{summary[1:]}.",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    from linkforge_compile.cli.options import Once
+
+    description = f"{summary[0].upper()}{summary[1:]}."
+    parser = argparse.ArgumentParser(prog=program, description=description, formatter_class=_formatter_of_set_width)
+    parser.register("action", None, Once)
+    add_arguments(parser)
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    return parser
+
+
+def _formatter_of_set_width(prog: str) -> argparse.HelpFormatter:
+    """Return what argparse asks of each new argument whether help could tell of it.
+
+    One that looks at the width of the terminal imports `shutil` for that, which takes as long as argparse itself.
+    """
+    import argparse
+
+    return argparse.HelpFormatter(prog, width=80)
 
 
 def _silence_stdout() -> None:

@@ -11,7 +11,7 @@ from typing import Protocol, runtime_checkable
 
 from linkforge_compile.pattern import pattern
 
-_PACKAGE_URI = re.compile(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
+_PACKAGE_URI = pattern(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
 _PACKAGE_NAME = pattern(r"<name>([^<]*)</name>")
 _WINDOWS_DRIVE = pattern(r"^/(?=[A-Za-z]:)")
 _LEVELS_UP = 10

@@ -94,7 +94,7 @@ UNSAID_BY_TWO = {
 
 NEEDLESS = {
     *("jinja2", "networkx", "lxml", "difflib", "jsonschema"),
-    *("copy", "dataclasses", "decimal", "fractions", "inspect"),
+    *("copy", "dataclasses", "decimal", "fractions", "inspect", "random", "shutil"),
 }
 """Packages that no robot without faults needs."""
 
