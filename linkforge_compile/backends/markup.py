@@ -13,12 +13,8 @@ from typing import TypeAlias, TypeGuard
 
 from linkforge_compile.backends.marks import mark, recorded
 from linkforge_compile.core.exceptions import RobotGeneratorError
-<<<<<<< HEAD
 from linkforge_compile.core.models.geometry import Vector3
-from linkforge_compile.pattern import pattern
-=======
 from linkforge_compile.pattern import Characters, pattern
->>>>>>> 28950d5 (What is far beyond ASCII is made ready for texts that are not ASCII, and argparse takes options without a look at the terminal)
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import double_text, number_text
 
