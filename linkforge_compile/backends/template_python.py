@@ -162,11 +162,9 @@ class _Function:
                 inside = {**names, **{name.name: self._variable(name.name) for name in own}}
                 with self._below(f"for {self._value(target, inside)} in {self._value(values, names)}:"):
                     self.block(body, inside)
-            case nodes.Include(template=nodes.Const(value=path)) if path in self._module.trees:
-                self.template(path, names)
-            case nodes.Include(template=nodes.Concat(nodes=[nodes.Const(value=start), kind, nodes.Const(value=end)])):
-                self._include_of_kind(start, self._value(kind, names), end, names)
-            case nodes.Macro(defaults=[]) | nodes.FromImport():
+            case nodes.Include(template=path, with_context=True, ignore_missing=False):
+                self._include(path, names)
+            case nodes.Macro(defaults=[]) | nodes.FromImport(with_context=False):
                 pass  # a function where it is called
             case _:
                 raise self._fault(node.lineno, f"{_KNOWN}, found '{type(node).__name__}'")
@@ -177,6 +175,15 @@ class _Function:
         self._blocks += 1
         yield
         self._blocks -= 1
+
+    def _include(self, template: nodes.Expr, names: _Names) -> None:
+        match template:
+            case nodes.Const(value=path) if path in self._module.trees:
+                self.template(path, names)
+            case nodes.Concat(nodes=[nodes.Const(value=start), kind, nodes.Const(value=end)]):
+                self._include_of_kind(start, self._value(kind, names), end, names)
+            case _:
+                raise self._fault(template.lineno, "a template is included by its path, or by 'start' ~ value ~ 'end'")
 
     def _include_of_kind(self, start: str, kind: str, end: str, names: _Names) -> None:
         branch = "if"

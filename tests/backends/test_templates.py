@@ -124,7 +124,8 @@ def test_what_is_included_sees_the_names_where_it_is_and_a_macro_what_it_is_give
         ("<a/>\n{{ link.name }}", 2, "no 'link' is in sight, only 'robot'"),
         ("{{ robot.name | upper }}", 1, "'or' and 'is not none' are known, found 'Filter'"),
         ("{% if robot %}\n{% else %}\n<a/>\n{% endif %}", 1, "'macro' without defaults are known, found 'If'"),
-        ("{% include 'other' %}", 1, "'macro' without defaults are known, found 'Include'"),
+        ("{% include 'other' %}", 1, "a template is included by its path, or by 'start' ~ value ~ 'end'"),
+        ("{% include 'robot' ignore missing %}", 1, "'macro' without defaults are known, found 'Include'"),
         ("{{ tag(robot) }}", 1, "a call names a macro of this template or an imported one, and all it takes"),
     ],
 )
