@@ -260,18 +260,18 @@ class Link(Renamable):
         )
 
     def _copy(self, name: str, visuals: Iterable[Visual], collisions: Iterable[Collision]) -> Link:
-        link = object.__new__(type(self))
-        attributes = vars(link)
-        attributes.update(vars(self))
+        attributes = vars(self).copy()
         attributes["name"] = name
         attributes["visuals"], attributes["collisions"] = tuple(visuals), tuple(collisions)
+        link = object.__new__(type(self))
+        object.__setattr__(link, "__dict__", attributes)  # half of what it takes to fill the one that it has
         return link
 
 
 def prefixed_links(links: Sequence[Link], prefix: str) -> list[Link]:
     """Return links as `with_prefix` of each gives them; what they share stays shared, if all are plain Links."""
     # Somebody else's class may have a way of its own.
-    if not is_harmless(prefix) or not all(type(link) is Link for link in links):
+    if not is_harmless(prefix) or not {*map(type, links)} <= {Link}:
         return [link.with_prefix(prefix) for link in links]
     names = [prefixed(prefix, link.name) for link in links]
     if not (all(names) and is_valid_name("".join(names))):  # a link that was renamed in place may have any name
