@@ -78,22 +78,22 @@ class Limit(Enum):
 
 
 class Budget:
-    """What one compile has taken so far."""
+    """What one compile may still take."""
 
     def __init__(self, times: int = 1) -> None:
         """`times` the limits are allowed."""
         factor = os.environ.get(FACTOR_VARIABLE, "")
         self._factor = times * (int(factor) if factor.isascii() and factor.isdigit() and len(factor) < 10 else 1)
-        self._spent = dict.fromkeys(Limit, 0)
+        self._left = {limit: limit.most * self._factor for limit in Limit}
 
     def left(self, limit: Limit) -> int:
         """Return how much is left of one limit, below 0 where it is passed."""
-        return limit.most * self._factor - self._spent[limit]
+        return self._left[limit]
 
     def spend(self, limit: Limit, amount: int, where: Where) -> None:
         """Count what is taken at a place; raise BeyondLimitError where that is more than there may be."""
-        self._spent[limit] += amount
-        if self.left(limit) < 0:
+        left = self._left[limit] = self._left[limit] - amount
+        if left < 0:
             raise self.beyond(limit, where)
 
     def beyond(self, limit: Limit, where: Where) -> BeyondLimitError:

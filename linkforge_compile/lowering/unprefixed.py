@@ -197,19 +197,27 @@ def _texts(part: FreePart, *path: str | int) -> Iterator[tuple[tuple[str | int, 
         yield from _texts(value, *path, key)
 
 
-def _raw_texts(node: YamlNode) -> Iterator[Text]:
+def _raw_texts(tree: YamlNode) -> Iterator[Text]:
     """Yield what the raw XML of a tree says in attributes and elements."""
+    extras: list[YamlNode] = []
+    _find_extras(tree, extras)
+    for extra in extras:
+        for item in extra.items if isinstance(extra, YamlList) else (extra,):
+            if isinstance(item, YamlScalar):
+                yield from (Text(text, item.span, key) for key, text in _said_in(item.text))
+
+
+def _find_extras(node: YamlNode, found: list[YamlNode]) -> None:
+    # Each use of each file is walked through: a generator would hand what it yields up through all that are around it.
     if isinstance(node, YamlMap):
-        for entry in node:
-            if entry.name != "extra":
-                yield from _raw_texts(entry.value)
-                continue
-            for item in entry.value.items if isinstance(entry.value, YamlList) else (entry.value,):
-                if isinstance(item, YamlScalar):
-                    yield from (Text(text, item.span, key) for key, text in _said_in(item.text))
+        for name, entry in node.entries.items():
+            if name == "extra":
+                found.append(entry.value)
+            elif not isinstance(entry.value, YamlScalar):
+                _find_extras(entry.value, found)
     elif isinstance(node, YamlList):
-        for inner in node:
-            yield from _raw_texts(inner)
+        for item in node.items:
+            _find_extras(item, found)
 
 
 def _said_in(raw: str) -> Iterator[tuple[str, str]]:
