@@ -202,6 +202,7 @@ def document_text(lines: list[str], *, pretty: bool) -> str:
         from linkforge_compile.backends.inside import with_insides
 
         lines = laid_out(with_insides(text))
+        text = "\n".join(lines)
     if "></" in text:
         lines = [_EMPTY.sub(r"<\1/>", line) if "></" in line else line for line in lines]
     if not pretty:

@@ -62,7 +62,7 @@ def test_templates_say_what_jinja_makes_of_them(robot: Callable[[], Robot]):
     assert documents(robot()) == documents_by_jinja(robot())
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=10)
 @given(robots())
 def test_templates_say_of_any_robot_what_jinja_makes_of_them(robot: Robot):
     with suppress(RobotGeneratorError):
