@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from enum import StrEnum
+from functools import cache
 from typing import TypeVar
 
 from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
@@ -16,7 +17,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.diagnostics.codes.names import INVALID_NAME, NAME_TWICE
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
-from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.quantities import (
     ANGLE,
     BARE,
@@ -58,7 +59,7 @@ class Fields(SpecObject):
         entry = self.node.entries.get(key)
         if entry is not None:
             node = entry.value
-            if not isinstance(node, YamlScalar) or node.value is not None:
+            if node.__class__ is not YamlScalar or node.value is not None:
                 return node
         if required:
             self.tell_missing(key, required)
@@ -71,6 +72,18 @@ class Fields(SpecObject):
             return None
         plain = plain_number(node, measure)
         return self.number_at(node, key, measure) if plain is None else plain
+
+    def numbers(self, *asked: tuple[str, Measure, str]) -> list[float | None]:
+        """Read several numbers, each by its key, its measure and, where it is required, an example of it."""
+        entries = self.node.entries
+        numbers: list[float | None] = []
+        for key, measure, required in asked:
+            entry = entries.get(key)
+            number = plain_number(entry.value, measure) if entry else None
+            if number is None and (entry or required):
+                number = self.number(key, measure, required=required)
+            numbers.append(number)
+        return numbers
 
     def integer(self, key: str, measure: Measure = BARE, *, required: str = "") -> int | None:
         """Read a whole number without a unit; 3.0 is one."""
@@ -98,6 +111,8 @@ class Fields(SpecObject):
 
     def text(self, key: str, *, required: str = "") -> str | None:
         """Read a scalar as it was written: text, or a reference to a name."""
+        if key not in self.node.entries and not required:
+            return None
         node = self.said(key, required)
         return None if node is None else self.text_at(node, key)
 
@@ -114,16 +129,14 @@ class Fields(SpecObject):
 
     def choice(self, key: str, choices: type[Choice], *, required: str = "") -> Choice | None:
         """Read one word of an enumeration."""
-        text = self.text(key, required=required)
-        node = self.node.get(key)
+        node = self.said(key, required)
+        text = None if node is None else self.text_at(node, key)
         if text is None or node is None:
             return None
-        try:
-            return choices(text)
-        except ValueError:
-            words = [str(choice) for choice in choices]
-        self.tell(UNKNOWN_CHOICE, node, near=words, field=key, choices=", ".join(words), name=text)
-        return None
+        by_word = _by_word(choices)
+        if text not in by_word:
+            self.tell(UNKNOWN_CHOICE, node, near=by_word, field=key, choices=", ".join(by_word), name=text)
+        return by_word.get(text)
 
     def origin(self) -> Transform:
         """Read `origin`, a pose in the parent's frame: `[x, y, z]` or `{xyz, rpy}`; what is unsaid or faulty is 0."""
@@ -139,14 +152,14 @@ class Fields(SpecObject):
             return IDENTITY
         xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
         is_stated = bool(xyz or rpy) or pose.said("xyz") is not None or pose.said("rpy") is not None
-        return Transform(
-            xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, source=pose.ref, **extras_of(pose)
-        )
+        return Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **besides(pose))
 
     # Opening what is nested
 
     def map(self, key: str, *, required: str = "") -> Fields | None:
         """Open the object under a key."""
+        if key not in self.node.entries and not required:
+            return None
         node = self.said(key, required)
         return None if node is None else self.map_at(node, key)
 
@@ -164,7 +177,7 @@ class Fields(SpecObject):
         for entry in section.node if section else ():
             node, name = entry.value, entry.name
             owner = f"{kind} '{name}'"
-            if is_null(node):
+            if not isinstance(node, YamlMap) and is_null(node):
                 node = YamlMap({}, entry.key.span)
             if isinstance(node, YamlMap):
                 yield name, lower(Fields(node, owner, self.sink, self.trail, entry.key.span), name)
@@ -193,7 +206,7 @@ class Fields(SpecObject):
 
     def items(self, key: str) -> tuple[YamlNode, ...]:
         """Return the items of a list; one thing that is no list is a list of one; () where nothing is said."""
-        node = self.node.get(key)
+        node = self.said(key)
         if node is None:
             return ()
         return node.items if isinstance(node, YamlList) else (node,)
@@ -232,9 +245,6 @@ class Fields(SpecObject):
 
     def numbers_at(self, node: YamlNode, field: str, measure: Measure, *counts: int) -> tuple[float, ...] | None:
         """Read a list of as many numbers as one of `counts` says."""
-        plain = plain_numbers(node, measure)
-        if len(plain) in counts:
-            return plain
         expected = f"{' or '.join(map(str, counts))} numbers"
         if not isinstance(node, YamlList):
             self.tell_kind(node, field, list_meant(node, counts) or f"a list of {expected}")
@@ -248,7 +258,8 @@ class Fields(SpecObject):
         return None if None in numbers else tuple(number for number in numbers if number is not None)
 
     def vector3_at(self, node: YamlNode, field: str, measure: Measure) -> Vector3 | None:
-        numbers = self.numbers_at(node, field, measure, 3)
+        plain = plain_numbers(node, measure)
+        numbers = plain if len(plain) == 3 else self.numbers_at(node, field, measure, 3)
         return Vector3(*numbers) if numbers else None
 
     def text_at(self, node: YamlNode, field: str) -> str | None:
@@ -269,6 +280,11 @@ class Fields(SpecObject):
         reason = "it is empty" if wrong is None else f"{wrong!r} may not stand in one"
         self.tell(INVALID_NAME, where, name=name, kind=kind, reason=reason)
         return False
+
+
+@cache
+def _by_word(choices: type[Choice]) -> Mapping[str, Choice]:
+    return {str(choice): choice for choice in choices}
 
 
 def or_default(said: T | None, default: T) -> T:

@@ -9,7 +9,7 @@ from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, Ga
 from linkforge_compile.core.models.link import PHYSICS_TAGS
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import TAG_TWICE
-from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_elements, is_unsaid
 from linkforge_compile.lowering.joint import joints_of, positions_of_type
@@ -68,8 +68,7 @@ def _element(block: Fields, reference: str | None, position: Measure) -> GazeboE
             block.number("stop_erp", _SHARE),
             block.flag("provide_feedback"),
             block.flag("implicit_spring_damper"),
-            source=block.ref,
-            **extras_of(block),
+            **besides(block),
         )
     )
 
@@ -96,7 +95,7 @@ def _plugin(plugin: Fields, name: str | None) -> GazeboPlugin | None:
     filename, parameters = plugin.text("filename", required="libcontroller.so"), free_elements(plugin, "parameters")
     if name is None or filename is None:
         return None
-    return plugin.build(lambda: GazeboPlugin(name, filename, parameters, source=plugin.ref, **extras_of(plugin)))
+    return plugin.build(lambda: GazeboPlugin(name, filename, parameters, **besides(plugin)))
 
 
 def _refuse_repeated_tags(block: Fields, said_by_physics: Mapping[str, YamlEntry]) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Vector3
 from linkforge_compile.diagnostics.codes.model import NO_GEOMETRY, NO_MESH_FILE, SEVERAL_GEOMETRIES
-from linkforge_compile.lowering.extra import NO_EXTRAS, Extras, extras_of
+from linkforge_compile.lowering.extra import Besides, besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import EXTENT, NOT_ZERO, Measure
 from linkforge_compile.lowering.scope import FileScope
@@ -18,28 +18,25 @@ _FACTOR = Measure(bound=NOT_ZERO)
 
 def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
     """Lower the one geometry of a visual or a collision; None where it was told why there is none."""
-    keys = [key for key in _LOWER if key in shape.node.entries]
-    said = {key: node for key in keys if (node := shape.node.get(key)) is not None}
+    said = [key for key in shape.node.entries if key in _LOWER and shape.said(key) is not None]
     if not said:
         shape.tell_lack(NO_GEOMETRY, owner=shape.title)
         return None
-    first, *others = said
-    if others:
-        shape.tell(SEVERAL_GEOMETRIES, said[others[0]], owner=shape.title, first=first, second=others[0])
+    if len(said) > 1:
+        first, second, *_ = sorted(said, key=list(_LOWER).index)
+        shape.tell(SEVERAL_GEOMETRIES, shape.node.entries[second].value, owner=shape.title, first=first, second=second)
         return None
-    return _LOWER[first](shape, said[first], scope)
+    key = said[0]
+    return _LOWER[key](shape, shape.node.entries[key].value, scope)
 
 
 def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "box") if isinstance(node, YamlMap) else None
     if body:
-        size, extras = (
-            body.vector3("size", EXTENT, required="[0.1, 0.1, 0.1]"),
-            extras_of(body),
-        )
+        size, rest = body.vector3("size", EXTENT, required="[0.1, 0.1, 0.1]"), besides(body)
     else:
-        size, extras = shape.vector3_at(node, "box", EXTENT), NO_EXTRAS
-    return None if size is None else shape.build(lambda: Box(size, source=_ref(shape, node), **extras))
+        size, rest = shape.vector3_at(node, "box", EXTENT), _short(shape, node)
+    return None if size is None else shape.build(lambda: Box(size, **rest))
 
 
 def _cylinder(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
@@ -53,27 +50,25 @@ def _capsule(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | Non
 def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "sphere") if isinstance(node, YamlMap) else None
     if body:
-        radius, extras = body.number("radius", EXTENT, required="0.1"), extras_of(body)
+        radius, rest = body.number("radius", EXTENT, required="0.1"), besides(body)
     else:
-        radius, extras = shape.number_at(node, "sphere", EXTENT), NO_EXTRAS
-    if radius is None:
-        return None
-    return shape.build(lambda: Sphere(radius, source=_ref(shape, node), **extras))
+        radius, rest = shape.number_at(node, "sphere", EXTENT), _short(shape, node)
+    return None if radius is None else shape.build(lambda: Sphere(radius, **rest))
 
 
 def _mesh(shape: Fields, node: YamlNode, scope: FileScope) -> Geometry | None:
     if not isinstance(node, YamlMap):
-        return _mesh_file(shape, shape.text_at(node, "mesh"), node, Vector3(1.0, 1.0, 1.0), scope, NO_EXTRAS)
+        return _mesh_file(shape, shape.text_at(node, "mesh"), node, Vector3(1.0, 1.0, 1.0), scope, _short(shape, node))
     mesh = shape.map_at(node, "mesh")
     if mesh is None:
         return None
     file = mesh.text("file", required="meshes/part.stl")
     scale = _scale(mesh)
-    return None if scale is None else _mesh_file(mesh, file, node, scale, scope, extras_of(mesh))
+    return None if scale is None else _mesh_file(mesh, file, node, scale, scope, besides(mesh))
 
 
 def _mesh_file(  # noqa: PLR0917 both forms of a mesh end here
-    fields: Fields, file: str | None, node: YamlNode, scale: Vector3, scope: FileScope, extras: Extras
+    fields: Fields, file: str | None, node: YamlNode, scale: Vector3, scope: FileScope, rest: Besides
 ) -> Geometry | None:
     if file is None:
         return None
@@ -85,8 +80,7 @@ def _mesh_file(  # noqa: PLR0917 both forms of a mesh end here
             scope.resource(file, node.child("file") or node),
             scale,
             is_scale_stated=node.child("scale") is not None,
-            source=_ref(fields, node),
-            **extras,
+            **rest,
         )
     )
 
@@ -105,15 +99,15 @@ def _scale(mesh: Fields) -> Vector3 | None:
 def _round(kind: type[Cylinder | Capsule], body: Fields | None) -> Geometry | None:
     if body is None:
         return None
-    radius = body.number("radius", EXTENT, required="0.1")
-    length = body.number("length", EXTENT, required="0.5")
+    radius, length = body.numbers(("radius", EXTENT, "0.1"), ("length", EXTENT, "0.5"))
     if radius is None or length is None:
         return None
-    return body.build(lambda: kind(radius, length, source=body.ref, **extras_of(body)))
+    return body.build(lambda: kind(radius, length, **besides(body)))
 
 
-def _ref(shape: Fields, node: YamlNode) -> SourceRef:
-    return SourceRef(node, None, shape.trail)
+def _short(shape: Fields, node: YamlNode) -> Besides:
+    """Return what there is besides in a short form, which has no place for what is said raw."""
+    return {"source": SourceRef(node, None, shape.trail)}
 
 
 _LOWER: dict[str, Callable[[Fields, YamlNode, FileScope], Geometry | None]] = {

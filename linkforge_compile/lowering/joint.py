@@ -24,7 +24,7 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_AXIS,
     ZERO_AXIS,
 )
-from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import (
     AMOUNT,
@@ -142,11 +142,15 @@ def _joint(fields: Fields, name: str, links: Sequence[str]) -> Joint | None:
     """Lower one joint; of the file's `links`, one that it may hang on is the example where it says none."""
     valid_name = name if fields.name_is_valid(name, "joint", fields.ref) else None
     joint_type = fields.choice("type", JointType, required="revolute")
-    said = fields.node.get("child")
-    held = said.text if isinstance(said, YamlScalar) else None
-    base = next((link for link in links if link != held), "base")
+    base = _some_base(fields, links) if fields.said("parent") is None else ""
     ends = Ends(fields.text("parent", required=base), fields.text("child", required="arm"), fields.origin())
     return joint_between(fields, valid_name, joint_type, ends)
+
+
+def _some_base(fields: Fields, links: Sequence[str]) -> str:
+    child = fields.said("child")
+    held = child.text if isinstance(child, YamlScalar) else None
+    return next((link for link in links if link != held), "base")
 
 
 def joint_between(fields: Fields, name: str | None, joint_type: JointType | None, ends: Ends) -> Joint | None:
@@ -182,8 +186,7 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
             safety_controller,
             calibration,
             axis_as_written=axis_as_written,
-            source=fields.ref,
-            **extras_of(fields),
+            **besides(fields),
         )
     )
 
@@ -213,7 +216,7 @@ def _axis(fields: Fields, joint_type: JointType | None) -> tuple[Vector3 | None,
     written = fields.vector3_at(node, "axis", BARE)
     if written is None:
         return _STAND_IN_AXIS, None
-    length = math.hypot(*written)
+    length = math.hypot(written.x, written.y, written.z)
     if length < EPSILON:
         fields.tell(ZERO_AXIS, node)
         return _STAND_IN_AXIS, None
@@ -229,9 +232,12 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: _Motion) -> Jo
     limits = fields.map("limits", required=motion.limits)
     if limits is None:
         return _STAND_IN_LIMITS if motion.limits else None
-    lower, upper = limits.number("lower", motion.position), limits.number("upper", motion.position)
-    effort = limits.number("effort", motion.effort, required=motion.some_effort)
-    velocity = limits.number("velocity", motion.velocity, required=motion.some_velocity)
+    lower, upper, effort, velocity = limits.numbers(
+        ("lower", motion.position, ""),
+        ("upper", motion.position, ""),
+        ("effort", motion.effort, motion.some_effort),
+        ("velocity", motion.velocity, motion.some_velocity),
+    )
     are_crossed = lower is not None and upper is not None and lower > upper
     if are_crossed:
         _tell_crossed(limits)
@@ -243,7 +249,7 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: _Motion) -> Jo
         upper = _STAND_IN_LIMITS.upper if has_range else None
     effort = _STAND_IN_LIMITS.effort if effort is None else effort
     velocity = _STAND_IN_LIMITS.velocity if velocity is None else velocity
-    return limits.build(lambda: JointLimits(lower, upper, effort, velocity, source=limits.ref, **extras_of(limits)))
+    return limits.build(lambda: JointLimits(lower, upper, effort, velocity, **besides(limits)))
 
 
 def _is_lost(fields: Fields, key: str) -> bool:
@@ -261,9 +267,8 @@ def _dynamics(fields: Fields, motion: _Motion) -> JointDynamics | None:
     dynamics = fields.map("dynamics")
     if dynamics is None:
         return None
-    damping = dynamics.number("damping", AMOUNT) or 0.0
-    friction = dynamics.number("friction", motion.effort) or 0.0
-    return dynamics.build(lambda: JointDynamics(damping, friction, source=dynamics.ref, **extras_of(dynamics)))
+    damping, friction = dynamics.numbers(("damping", AMOUNT, ""), ("friction", motion.effort, ""))
+    return dynamics.build(lambda: JointDynamics(damping or 0.0, friction or 0.0, **besides(dynamics)))
 
 
 def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:
@@ -279,9 +284,7 @@ def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:
     if offset is None:
         offset = UNKNOWN if _is_lost(mimic, "offset") else 0.0
     stated = [name for name in ("multiplier", "offset") if mimic.node.get(name) is not None]
-    return mimic.build(
-        lambda: JointMimic(joint, multiplier, offset, stated=stated, source=mimic.ref, **extras_of(mimic))
-    )
+    return mimic.build(lambda: JointMimic(joint, multiplier, offset, stated=stated, **besides(mimic)))
 
 
 def _safety_controller(fields: Fields, motion: _Motion) -> JointSafetyController | None:
@@ -295,9 +298,7 @@ def _safety_controller(fields: Fields, motion: _Motion) -> JointSafetyController
     if upper is None and _is_lost(safety, "soft_upper_limit"):
         upper = UNKNOWN
     k_position, k_velocity = safety.number("k_position"), safety.number("k_velocity") or 0.0
-    return safety.build(
-        lambda: JointSafetyController(lower, upper, k_position, k_velocity, source=safety.ref, **extras_of(safety))
-    )
+    return safety.build(lambda: JointSafetyController(lower, upper, k_position, k_velocity, **besides(safety)))
 
 
 def _calibration(fields: Fields, motion: _Motion) -> JointCalibration | None:
@@ -305,9 +306,7 @@ def _calibration(fields: Fields, motion: _Motion) -> JointCalibration | None:
     if calibration is None:
         return None
     rising, falling = calibration.number("rising", motion.position), calibration.number("falling", motion.position)
-    return calibration.build(
-        lambda: JointCalibration(rising, falling, source=calibration.ref, **extras_of(calibration))
-    )
+    return calibration.build(lambda: JointCalibration(rising, falling, **besides(calibration)))
 
 
 def _refuse(fields: Fields, key: str, joint_type: JointType) -> None:

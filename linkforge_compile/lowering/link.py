@@ -26,7 +26,7 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_KIND,
 )
 from linkforge_compile.frozen import replace
-from linkforge_compile.lowering.extra import extras_of, outer_extras_of
+from linkforge_compile.lowering.extra import besides, outer_extras_of
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.geometry import lower_geometry
 from linkforge_compile.lowering.material import lower_visual_material
@@ -36,11 +36,11 @@ from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
 
-_MOMENTS = ("ixx", "iyy", "izz")
-_PRODUCTS = ("ixy", "ixz", "iyz")
-
 _MASS, _MASS_TO_SPREAD = Measure((Dimension.MASS,), NOT_NEGATIVE), Measure((Dimension.MASS,), ABOVE_ZERO)
 _DENSITY, _INERTIA = Measure((Dimension.DENSITY,), ABOVE_ZERO), Measure((Dimension.INERTIA,))
+
+_MOMENTS = [(key, _INERTIA, "0.01") for key in ("ixx", "iyy", "izz")]
+_PRODUCTS = [(key, _INERTIA, "") for key in ("ixy", "ixz", "iyz")]
 
 _UNSAID_PHYSICS = LinkPhysics()
 
@@ -55,7 +55,7 @@ def lower_links(file: Fields, scope: FileScope) -> Iterator[tuple[str, Link | No
 def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
     """Lower one link; a faulty part of it is left out, so None only for a name that no link may have."""
     valid = fields.name_is_valid(name, "link", fields.ref)
-    visuals = [_visual(shape, scope) for shape in _shapes(fields, "visual")]
+    visuals = [_visual(fields.map_at(node, "visual"), scope) for node in fields.items("visual")]
     collisions = _collisions(fields, visuals, scope)
     inertial, physics = _inertial(fields, collisions or visuals, scope), _physics(fields)
     shape_order = _shape_order(fields, visuals, collisions)
@@ -77,14 +77,14 @@ def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
 
 def _source(link: Fields) -> SourceRef:
     """Return where a link was written; a key that is none may have been meant for the shapes that it does not have."""
-    lost = next((entry for entry in link.node if isinstance(entry.value, YamlFault)), None)
-    if lost is None:
+    if not link.is_faulty:
         return link.ref
+    lost = next(entry for entry in link.node if isinstance(entry.value, YamlFault))
     return replace(link.ref, node=YamlMap({"visual": lost, "collision": lost, **link.node.entries}, link.node.span))
 
 
 def _shape_order(link: Fields, visuals: Shapes, collisions: Shapes) -> Sequence[str]:
-    said = [entry.name for entry in link.node if entry.name in _OF_ORDER]
+    said = [name for name in link.node.entries if name in _OF_ORDER]
     if "shape_order" not in said and said != ["collision", "visual"]:
         return ()
     # Few links have an order of their own: a command's first line of work does not wait for what reads it.
@@ -118,23 +118,18 @@ def _physics(link: Fields) -> LinkPhysics:
     return replace(lowered, stated=[name for name in said if getattr(lowered, name) == getattr(unsaid, name)])
 
 
-def _shapes(link: Fields, key: str) -> Iterator[Fields | None]:
-    for node in link.items(key):
-        yield link.map_at(node, key)
-
-
 def _visual(shape: Fields | None, scope: FileScope) -> Visual | None:
     if shape is None:
         return None
     geometry, origin = lower_geometry(shape, scope), shape.origin()
     material, name = lower_visual_material(shape, scope), shape.text("name")
-    return Visual(geometry, origin, material, name, source=shape.ref, **extras_of(shape)) if geometry else None
+    return Visual(geometry, origin, material, name, **besides(shape)) if geometry else None
 
 
 def _collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) -> list[Collision | None]:
     node = link.node.get("collision")
     if not isinstance(node, YamlScalar):
-        return [_collision(shape, scope) for shape in _shapes(link, "collision")]
+        return [_collision(link.map_at(shape, "collision"), scope) for shape in link.items("collision")]
     if node.text != "visual":
         link.tell(
             WRONG_KIND, node, field="collision", expected="a shape, a list of them or 'visual'", found=found(node)
@@ -149,7 +144,7 @@ def _collision(shape: Fields | None, scope: FileScope) -> Collision | None:
     if shape is None:
         return None
     geometry, origin, name = lower_geometry(shape, scope), shape.origin(), shape.text("name")
-    return Collision(geometry, origin, name, source=shape.ref, **extras_of(shape)) if geometry else None
+    return Collision(geometry, origin, name, **besides(shape)) if geometry else None
 
 
 def _inertial(link: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
@@ -184,19 +179,19 @@ def _written(inertial: Fields, mass: float | None, origin: Transform) -> Inertia
         inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass'")
     if mass is None or tensor is None:
         return None
-    return inertial.build(lambda: Inertial(mass, origin, tensor, source=inertial.ref, **extras_of(inertial)))
+    return inertial.build(lambda: Inertial(mass, origin, tensor, **besides(inertial)))
 
 
 def _tensor(inertial: Fields) -> InertiaTensor | None:
     inertia = inertial.map("inertia")
     if inertia is None:
         return None
-    moments = [inertia.number(key, _INERTIA, required="0.01") for key in _MOMENTS]
-    products = [inertia.number(key, _INERTIA) or 0.0 for key in _PRODUCTS]
-    known = [moment for moment in moments if moment is not None]
-    if len(known) < len(moments):
+    ixx, iyy, izz, *products = inertia.numbers(*_MOMENTS, *_PRODUCTS)
+    if ixx is None or iyy is None or izz is None:
         return None
-    return inertia.build(lambda: InertiaTensor(*known, *products, source=inertia.ref, **extras_of(inertia)))
+    return inertia.build(
+        lambda: InertiaTensor(ixx, iyy, izz, *(product or 0.0 for product in products), **besides(inertia))
+    )
 
 
 def _one_of_mass_and_density(inertial: Fields) -> bool:
@@ -229,6 +224,6 @@ def _computed(
         if len(bodies) < len(shapes) or len(solids) < len(read) or (mass is None and density is None):
             return None
         computed = inertial_of_shapes(bodies, mass=mass, density=density, meshes=solids)
-        return replace(computed, source=inertial.ref, **extras_of(inertial))
+        return replace(computed, **besides(inertial))
 
     return inertial.build(compute)

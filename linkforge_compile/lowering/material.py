@@ -8,7 +8,7 @@ from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL, OUT_OF_RANGE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.lowering.extra import NO_EXTRAS, extras_of
+from linkforge_compile.lowering.extra import Besides, besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import ZERO_TO_ONE, Measure
 from linkforge_compile.lowering.scope import FileScope
@@ -54,9 +54,7 @@ def _material(fields: Fields, name: str, scope: FileScope) -> Material | None:
         return None
     image = scope.resource(file, texture) if file is not None and texture is not None else None
     after_links = fields.flag("after_links") or False
-    return fields.build(
-        lambda: Material(name, rgba, image, after_links=after_links, source=fields.ref, **extras_of(fields))
-    )
+    return fields.build(lambda: Material(name, rgba, image, after_links=after_links, **besides(fields)))
 
 
 def _color_in_comment(key: Span | None) -> str:
@@ -82,8 +80,8 @@ def _color(fields: Fields) -> Color | None:
     rgba = None if numbers is None else fields.numbers_at(numbers, "color", _SHARE, 3, 4)
     if node is None or rgba is None:
         return None
-    extras = extras_of(long) if long else NO_EXTRAS
-    return fields.build(lambda: Color(*rgba, source=SourceRef(node, None, fields.trail), **extras))
+    rest: Besides = besides(long) if long else {"source": SourceRef(node, None, fields.trail)}
+    return fields.build(lambda: Color(*rgba, **rest))
 
 
 def _tell_bytes(fields: Fields, numbers: YamlList) -> bool:

@@ -131,9 +131,11 @@ def plain_number(node: YamlNode, measure: Measure) -> float | None:
 
     That is nine of ten; None for one that has to be looked at.
     """
-    if isinstance(node, YamlScalar):
+    if node.__class__ is YamlScalar:
         value = node.value
-        if (value.__class__ is float or value.__class__ is int) and measure.least <= value <= measure.most:
+        if value.__class__ is float:
+            return value if measure.least <= value <= measure.most else None
+        if value.__class__ is int and measure.least <= value <= measure.most:
             return float(value)
     return None
 

@@ -15,7 +15,7 @@ from linkforge_compile.core.models.ros2_control import (
     Ros2ControlJoint,
     Ros2ControlSensor,
 )
-from linkforge_compile.lowering.extra import EXTRA_KEYS, extras_of
+from linkforge_compile.lowering.extra import EXTRA_KEYS, besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_texts, texts_in
 from linkforge_compile.source import SourceRef
@@ -55,8 +55,7 @@ def _control(fields: Fields, name: str) -> Ros2Control | None:
             [sensor for sensor in sensors.values() if sensor],
             parameters,
             gpios=[gpio for gpio in gpios.values() if gpio],
-            source=fields.ref,
-            **extras_of(fields),
+            **besides(fields),
         )
     )
 
@@ -65,13 +64,13 @@ def _commanded(kind: type[Commanded], part: Fields, name: str) -> Commanded | No
     commands = tuple(_interfaces(part, "command_interfaces"))
     states = tuple(_interfaces(part, "state_interfaces"))
     parameters = free_texts(part, "parameters")
-    make = partial(kind, name, commands, states, parameters, source=part.ref, **extras_of(part))
+    make = partial(kind, name, commands, states, parameters, **besides(part))
     return part.build(make)
 
 
 def _sensor(part: Fields, name: str) -> Ros2ControlSensor | None:
     states, parameters = tuple(_interfaces(part, "state_interfaces")), free_texts(part, "parameters")
-    return part.build(lambda: Ros2ControlSensor(name, states, parameters, source=part.ref, **extras_of(part)))
+    return part.build(lambda: Ros2ControlSensor(name, states, parameters, **besides(part)))
 
 
 def _interfaces(part: Fields, key: str) -> Iterator[Interface]:
@@ -85,4 +84,4 @@ def _interfaces(part: Fields, key: str) -> Iterator[Interface]:
 
 def _interface(interface: Fields, name: str) -> Interface:
     parameters = texts_in(interface, *EXTRA_KEYS)
-    return Interface(name, parameters, source=interface.ref, **extras_of(interface))
+    return Interface(name, parameters, **besides(interface))

@@ -19,7 +19,7 @@ from linkforge_compile.core.models.sensor import (
     SensorNoise,
     SensorType,
 )
-from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.gazebo import lower_plugin
 from linkforge_compile.lowering.quantities import (
@@ -82,7 +82,7 @@ def _sensor(fields: Fields, name: str) -> Sensor | None:
     always_on, visualize = fields.flag("always_on"), fields.flag("visualize")
     origin, topic, frame = fields.origin(), fields.text("topic"), fields.text("frame")
     plugin = fields.map("plugin")
-    lowered_plugin, extras = lower_plugin(plugin) if plugin else None, extras_of(fields)
+    lowered_plugin, rest = lower_plugin(plugin) if plugin else None, besides(fields)
     own = _OWN_INFO.get(sensor_type) if sensor_type else None
     infos = _infos(fields, own)
     if sensor_type is None or link is None or (own and getattr(infos, own) is None):
@@ -100,8 +100,7 @@ def _sensor(fields: Fields, name: str) -> Sensor | None:
             topic,
             lowered_plugin,
             frame=frame,
-            source=fields.ref,
-            **extras,
+            **rest,
         )
     )
 
@@ -138,8 +137,7 @@ def _camera(info: Fields) -> CameraInfo | None:
             or_default(info.number("near_clip", EXTENT), unsaid.near_clip),
             or_default(_sight(info, "far_clip"), unsaid.far_clip),
             _noise(info, "noise"),
-            source=info.ref,
-            **extras_of(info),
+            **besides(info),
         )
     )
 
@@ -166,8 +164,7 @@ def _lidar(info: Fields) -> LidarInfo | None:
             or_default(_sight(info, "range_max"), unsaid.range_max),
             or_default(info.number("range_resolution", EXTENT), unsaid.range_resolution),
             _noise(info, "noise", LENGTH),
-            source=info.ref,
-            **extras_of(info),
+            **besides(info),
         )
     )
 
@@ -177,8 +174,7 @@ def _imu(info: Fields) -> IMUInfo | None:
         lambda: IMUInfo(
             _noise(info, "angular_velocity_noise", _TURNING),
             _noise(info, "linear_acceleration_noise"),
-            source=info.ref,
-            **extras_of(info),
+            **besides(info),
         )
     )
 
@@ -190,8 +186,7 @@ def _gps(info: Fields) -> GPSInfo | None:
             _noise(info, "position_sensing_vertical_noise", LENGTH),
             _noise(info, "velocity_sensing_horizontal_noise", _MOVING),
             _noise(info, "velocity_sensing_vertical_noise", _MOVING),
-            source=info.ref,
-            **extras_of(info),
+            **besides(info),
         )
     )
 
@@ -200,7 +195,7 @@ def _contact(info: Fields) -> ContactInfo | None:
     collision, noise = info.text("collision", required="fingertip_collision"), _noise(info, "noise")
     if collision is None:
         return None
-    return info.build(lambda: ContactInfo(collision, noise, source=info.ref, **extras_of(info)))
+    return info.build(lambda: ContactInfo(collision, noise, **besides(info)))
 
 
 def _force_torque(info: Fields) -> ForceTorqueInfo | None:
@@ -209,8 +204,7 @@ def _force_torque(info: Fields) -> ForceTorqueInfo | None:
             or_default(info.choice("frame", _Frame), _Frame.CHILD).value,
             or_default(info.choice("measure_direction", _Direction), _Direction.CHILD_TO_PARENT).value,
             _noise(info, "noise", _LOAD),
-            source=info.ref,
-            **extras_of(info),
+            **besides(info),
         )
     )
 
@@ -227,7 +221,6 @@ def _noise(info: Fields, key: str, measure: Measure = BARE) -> SensorNoise | Non
             or_default(noise.text("type"), default.NOISE_GAUSSIAN),
             **said,
             stated=[name for name in names[2:] if said.get(name) == 0],
-            source=noise.ref,
-            **extras_of(noise),
+            **besides(noise),
         )
     )

@@ -29,11 +29,11 @@ class SpecObject:
 
     `owner` is the named thing whose fields these are, as messages say it: "joint 'elbow'"; `key` is where the object's
     name stands, None for one without a name; `path` is the way from the owner to this object: "limits",
-    "inertial.inertia", empty for the owner itself.
+    "inertial.inertia", empty for the owner itself; `ref` is what the object of the IR has as its `source`.
     """
 
     # There is one for every map of a spec: to make a frozen one takes four times as long.
-    __slots__ = ("key", "node", "owner", "path", "sink", "trail")
+    __slots__ = ("key", "node", "owner", "path", "ref", "sink", "trail")
 
     def __init__(  # noqa: PLR0917 as above: arguments by name take longer
         self,
@@ -46,16 +46,12 @@ class SpecObject:
     ) -> None:
         self.node, self.owner, self.sink = node, owner, sink
         self.trail, self.key, self.path = trail, key, path
+        self.ref = SourceRef(node, key, trail)
 
     @property
     def title(self) -> str:
         """How messages name this very object: "limits of joint 'elbow'"."""
         return f"{self.path} of {self.owner}" if self.path else self.owner
-
-    @property
-    def ref(self) -> SourceRef:
-        """What the IR object made of these fields has as its `source`."""
-        return SourceRef(self.node, self.key, self.trail)
 
     def tell(self, code: Code, where: YamlNode | SourceRef, *, near: Iterable[str] = (), **facts: object) -> None:
         """Report a fault at a node of this object, or at what a reference points to."""

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from linkforge_compile.core.constants import HW_IF_POSITION
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
-from linkforge_compile.lowering.extra import extras_of
+from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_elements
 from linkforge_compile.lowering.joint import joints_of, positions_of_type
@@ -40,7 +40,7 @@ def _transmission(written: Mapping[str, Located], fields: Fields, name: str) -> 
     if not valid or kind is None:
         return None
     make = partial(Transmission, name, kind, whole_joints, whole_actuators, parameters)
-    return fields.build(lambda: make(source=fields.ref, **extras_of(fields)))
+    return fields.build(lambda: make(**besides(fields)))
 
 
 def _joint(written: Mapping[str, Located], end: Fields, name: str) -> TransmissionJoint | None:
@@ -60,7 +60,7 @@ def _end(kind: type[End], end: Fields, name: str, position: Measure) -> End | No
     offset = end.number("offset", position)
     make = partial(kind, name, interfaces, reduction, offset or 0.0, stated=("offset",) if offset == 0 else ())
     finish = partial(make, interfaces_stated=are_stated, source=end.ref)
-    return end.build(lambda: finish(**extras_of(end)))
+    return end.build(lambda: finish(**besides(end)))
 
 
 def _is_empty_list(node: YamlNode | None) -> bool:
