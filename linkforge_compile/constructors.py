@@ -19,7 +19,7 @@ _USUAL: Final = range(1, 17)
 
 @cache
 def init_code(count: int, has_post_init: bool) -> CodeType:
-    """Return that of an `__init__` whose cells `set_0`, `set_1` … are called with the object and a value each."""
+    """Return that of an `__init__` whose cells, one for each field in order, are called with the object and a value."""
     return _usual().get(_init_name(count, has_post_init)) or _compiled(_init(count, has_post_init)).popitem()[1]
 
 
@@ -39,7 +39,7 @@ def _of_all_kinds(count: int) -> str:
 
 
 def _init(count: int, has_post_init: bool) -> str:
-    cells = [f"set_{number}" for number in range(count)]
+    cells = [f"set_{number:03}" for number in range(count)]  # Python orders cells by their names
     fields = [f"field_{number}" for number in range(count)]
     lines = [f"{cell}(self, {field})" for cell, field in zip(cells, fields, strict=True)]
     lines += ["self.__post_init__()"] if has_post_init else []

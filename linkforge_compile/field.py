@@ -29,7 +29,7 @@ MISSING: Final = object()
 class Field:
     """What is known of a field; of which class and kind, and whether by keyword only, as soon as its class is made."""
 
-    __slots__ = ("compare", "default", "default_factory", "init", "kw_only", "name", "repr", "type")
+    __slots__ = ("compare", "default", "default_factory", "init", "kw_only", "may_be_left_out", "name", "repr", "type")
     name: str
     type: str
 
@@ -45,10 +45,7 @@ class Field:
     ) -> None:
         self.default, self.default_factory = default, default_factory
         self.init, self.repr, self.compare, self.kw_only = init, repr, compare, kw_only
-
-    @property
-    def may_be_left_out(self) -> bool:
-        return self.default is not MISSING or self.default_factory is not MISSING
+        self.may_be_left_out = default is not MISSING or default_factory is not MISSING
 
 
 Fields: TypeAlias = Mapping[str, Field]

@@ -112,38 +112,39 @@ def _own_fields(cls: type, parameters: _Parameters) -> Fields | None:
     if not _COMPUTED.isdisjoint(vars(cls)):
         return None
     annotations: Mapping[str, object] = cls.__annotations__
+    texts = [text for text in annotations.values() if isinstance(text, str)]
+    if len(texts) < len(annotations):
+        return None
+    said_of_fields = " ".join(texts)
+    may_be_none = "Var" in said_of_fields or "KW_ONLY" in said_of_fields
     kw_only = parameters.kw_only
     own: dict[str, Field] = {}
-    for name, annotation in annotations.items():
-        if not isinstance(annotation, str):
-            return None
-        if annotation.startswith("ClassVar["):
-            continue
-        if annotation == "KW_ONLY":
-            kw_only = True
+    for name, annotation in zip(annotations, texts, strict=True):
+        if may_be_none and any(word in annotation for word in _NO_FIELDS):
+            if not annotation.startswith("ClassVar[") and annotation != "KW_ONLY":
+                return None
+            kw_only = kw_only or annotation == "KW_ONLY"
             continue
         default: object = getattr(cls, name, MISSING)
         if isinstance(default, MemberDescriptorType):
             default = MISSING  # the slot of a base's field of that name
-        one = default if isinstance(default, Field) else Field(default=default)
-        if not _is_plain(one, annotation, parameters):
+        one = own[name] = default if isinstance(default, Field) else Field(default=default)
+        if type(one.default).__hash__ is None or not (one.init or _is_left_alone(one, parameters)):
             return None
         one.name, one.type = name, annotation
         one.kw_only = kw_only if one.kw_only is None else one.kw_only
-        own[name] = one
-    return None if any(_is_field(vars(cls)[name]) for name in vars(cls).keys() - own.keys()) else own
+    # One without an annotation, or of the standard library's.
+    strays = [name for name, value in vars(cls).items() if _is_field(value) and own.get(name) is not value]
+    return None if strays else own
 
 
-_NOT_PLAIN: Final = ("ClassVar", "InitVar", "KW_ONLY")
+_NO_FIELDS: Final = ("ClassVar", "InitVar", "KW_ONLY")
+"""What an annotation has that tells of no field, or of one that takes more than a look."""
 
 
-def _is_plain(one: Field, annotation: str, parameters: _Parameters) -> bool:
-    return (
-        (one.init or (not parameters.slots and one.default_factory is MISSING))
-        and type(one.default).__hash__ is not None
-        and not _is_field(one.default)
-        and not any(word in annotation for word in _NOT_PLAIN)
-    )
+def _is_left_alone(one: Field, parameters: _Parameters) -> bool:
+    """Tell whether a field that is no argument has its default, if any, from its class."""
+    return not parameters.slots and one.default_factory is MISSING
 
 
 def _is_field(value: object) -> bool:
@@ -244,21 +245,21 @@ _Setter: TypeAlias = Callable[[object, object], None]
 def _init(cls: type, known: Fields, setter: Callable[[type, str], _Setter]) -> FunctionType:
     """Return `__init__`: the code for as many fields, with their names, and in its cells what sets each."""
     ordered = sorted([one for one in known.values() if one.init], key=attrgetter("kw_only"))
+    names = [one.name for one in ordered]
+    keyword = [one for one in ordered if one.kw_only]
     code = init_code(len(ordered), hasattr(cls, "__post_init__"))
-    cells = {f"set_{number}": _or_made(one, setter(cls, one.name)) for number, one in enumerate(ordered)}
-    keyword = {one.name: _default(one) for one in ordered if one.kw_only}
     init = FunctionType(
         code.replace(
-            co_varnames=("self", *(one.name for one in ordered)),
+            co_varnames=("self", *names),
             co_argcount=1 + len(ordered) - len(keyword),
             co_kwonlyargcount=len(keyword),
             co_qualname=f"{cls.__qualname__}.__init__",
         ),
         vars(sys.modules[cls.__module__]) if cls.__module__ in sys.modules else {},
-        argdefs=tuple(_default(one) for one in ordered if one.may_be_left_out and not one.kw_only),
-        closure=tuple(CellType(cells[name]) for name in code.co_freevars),
+        argdefs=tuple([_default(one) for one in ordered if one.may_be_left_out and not one.kw_only]),
+        closure=tuple([CellType(_or_made(one, setter(cls, one.name))) for one in ordered]),
     )
-    init.__kwdefaults__ = {name: default for name, default in keyword.items() if default is not MISSING}
+    init.__kwdefaults__ = {one.name: _default(one) for one in keyword if one.may_be_left_out}
     init.__annotations__ = {one.name: one.type for one in ordered} | {"return": None}
     return init
 

@@ -59,7 +59,7 @@ for one in OURS:
 
 
 def is_quick(cls: type) -> bool:
-    return "set_0" in cls.__init__.__code__.co_freevars
+    return "set_000" in cls.__init__.__code__.co_freevars
 
 
 def test_it_is_not_the_standard_librarys():
