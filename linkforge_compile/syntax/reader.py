@@ -213,18 +213,17 @@ class _Reader:
 
     def _unanchored(self, event: _Beginning, depth: int, flow: bool) -> YamlNode:
         """Read a node that is no alias; a tag that means nothing here makes a fault of the whole."""
-        if event.tag is None:
-            return self._untagged(event, depth, flow)
-        make = self._meaning(event)
-        node = self._untagged(event, depth, flow)
-        if isinstance(node, YamlFault):
+        node: YamlNode
+        make = None if event.tag is None else self._meaning(event)
+        if isinstance(event, MappingStartEvent):
+            node = self._map(event, depth)
+        elif isinstance(event, SequenceStartEvent):
+            node = self._list(event, depth)
+        else:
+            node = self._scalar(event, flow)
+        if event.tag is None or isinstance(node, YamlFault):
             return node
         return make(node) if make and isinstance(node, YamlScalar) else YamlFault(node.span)
-
-    def _untagged(self, event: _Beginning, depth: int, flow: bool) -> YamlNode:
-        if isinstance(event, MappingStartEvent):
-            return self._map(event, depth)
-        return self._scalar(event, flow) if isinstance(event, ScalarEvent) else self._list(event, depth)
 
     def _meaning(self, event: _Beginning) -> Callable[[YamlScalar], YamlNode] | None:
         """Return what makes something of a scalar's tag; None for one that is reported."""
@@ -318,11 +317,14 @@ class _Reader:
 
     def _ends(self, start: events.Event, end: events.Event, flow: bool) -> tuple[int, int]:
         """Return where a collection begins and ends: with its bracket, or in block style with the last thing in it."""
+        begin, closing = start.start_mark, end.end_mark
+        assert begin is not None, "the parser marks every event"
+        assert closing is not None, "the parser marks every event"
         if flow:
-            self._closed = last = self._marks.end(end)
+            self._closed = last = closing.index
         else:
             last = max(self._closed, self._marks.ends(self.last_scalar)[1] if self.last_scalar else 0)
-        return self._marks.begin(start), last
+        return begin.index, last
 
 
 class _CutExpression(YamlFault):
