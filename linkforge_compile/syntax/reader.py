@@ -139,12 +139,14 @@ class _Reader:
         self._sink = sink
         self._tags = tags
         self._next: Callable[[], events.Event | None] = parser(marks.text).get_event
-        # What words and numbers mean that stand in the file as keys and as values: the same come again and again.
+        # What words and numbers mean that stand in the file as keys and as values: the same come again and again. None
+        # has a blank in it, so that it stands on one line and ends with its text.
         self._names: dict[str, ScalarValue] = {}
         self._values: dict[str, ScalarValue] = {}
         self._anchors: dict[str, _Anchor | None] = {}  # None while the anchored node is still being read
-        self._deepest, self._is_any_odd = 0, False
+        self._deepest = 0
         self._closed = 0  # the index behind the last alias or bracket
+        self._is_any_odd = False  # whether there was an expression in pieces, or a key in braces with nothing behind it
 
     def document(self) -> YamlNode:
         """Read the document; where there is none, it is null."""
