@@ -1,4 +1,4 @@
-"""Python's collector of cycles, at rest while a compile makes its values."""
+"""Python's collector of cycles, at rest while a robot is compiled or rendered."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from contextlib import contextmanager
 def resting() -> Iterator[None]:
     """Keep Python from looking for cycles meanwhile; where the caller has it so, that is left as it is.
 
-    It looks at the values made lately each time 700 more are there, and at all of them again and again: half the time
-    of a robot of 1,000 links. The values of a compile hold no cycles, and all live until it ends. The collector is one
+    It looks at the values made lately each time 700 more are there, and at all of them again and again: a third of the
+    time of a robot of 1,000 links. The values of a compile hold no cycles, and live until it ends. The collector is one
     for all threads; when two compile at once, it may begin again with the end of the first, which is as harmless.
     """
     if not gc.isenabled():

@@ -36,7 +36,7 @@ MAY_IMPORT = {
     "core": "source units shape_order",
     "lowering": "source diagnostics bounds units syntax modules core shape_order",
     "checks": "source diagnostics units core",
-    "backends": "bytecode source diagnostics bounds units core resources shape_order",
+    "backends": "bytecode collector source diagnostics bounds units core resources shape_order",
     "writers": "source units syntax core modules shape_order",
     "compare": "core backends shape_order",
     "pipeline": (

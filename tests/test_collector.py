@@ -1,11 +1,12 @@
-"""Python's collector of cycles rests while a compile makes its values, and is as its caller has it afterwards."""
+"""Python's collector of cycles rests while a robot is compiled or rendered, and is as its caller has it afterwards."""
 
 import gc
 from collections.abc import Iterator
 
 import pytest
 
-from linkforge_compile import compile_text, pipeline
+from linkforge_compile import compile_text, pipeline, render_srdf, render_urdf
+from linkforge_compile.backends import srdf_view, urdf
 from linkforge_compile.lowering import lower
 
 BALL = "linkforge: 1\nname: ball\nlinks: {base: }\n"
@@ -53,4 +54,21 @@ def test_it_works_again_after_a_compile_that_failed(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(pipeline, "lower", failing)
     with pytest.raises(OSError, match="the disk is gone"):
         compile_text(BALL)
+    assert gc.isenabled()
+
+
+@pytest.mark.parametrize(
+    ("render", "room", "view"), [(render_urdf, urdf, "_robot_view"), (render_srdf, srdf_view, "semantic_view")]
+)
+def test_it_rests_while_a_document_is_rendered(render, room, view: str, monkeypatch: pytest.MonkeyPatch):
+    make, seen = getattr(room, view), []
+
+    def watched(*arguments: object) -> object:
+        seen.append(gc.isenabled())
+        return make(*arguments)
+
+    monkeypatch.setattr(room, view, watched)
+    gc.enable()
+    render(compile_text(BALL).result())
+    assert seen == [False]
     assert gc.isenabled()
