@@ -49,6 +49,17 @@ class YamlScalar(NamedTuple):
     def __deepcopy__(self, memo: object) -> YamlScalar:
         return self
 
+    # Like every node, it is equal to itself alone: two that say the same at one place may come from two parts.
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __ne__(self, other: object) -> bool:
+        return self is not other
+
+    def __hash__(self) -> int:
+        return id(self)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class YamlList:
@@ -96,6 +107,15 @@ class YamlEntry(NamedTuple):
 
     def __deepcopy__(self, memo: object) -> YamlEntry:
         return self
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __ne__(self, other: object) -> bool:
+        return self is not other
+
+    def __hash__(self) -> int:
+        return id(self)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
