@@ -7,14 +7,12 @@ asks for what only it has: its own fields, or a class that is none of ours.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Final, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 if TYPE_CHECKING:
     import dataclasses
 
     from _typeshed import DataclassInstance
-
-T = TypeVar("T")
 
 KNOWN: Final = "__frozen_fields__"
 """The attribute of a class of ours that holds its fields by name, in the order in which `fields` gives them."""
