@@ -37,7 +37,7 @@ def prefixed_copies(parts: Iterable[P], prefix: str, shared: Copies | None = Non
     """
     shared = {} if shared is None else shared
     if not is_harmless(prefix):
-        return [_ask(part, prefix, shared) for part in parts]
+        return [part.with_prefix(prefix) for part in parts]
     return harmless_copies(parts, prefix, shared)
 
 
@@ -88,7 +88,9 @@ _DIRECT: dict[type, _Copier] = {}
 
 
 def _ask(part: Any, prefix: str, shared: Copies) -> Any:
-    return part.with_prefix(prefix)
+    kind = part.__class__
+    is_first = kind.with_prefix.__module__ == _HOME_OF_WITH_PREFIX  # of a class that has no way of its own
+    return _copier_of(kind)(part, prefix, shared) if is_first else part.with_prefix(prefix)
 
 
 def _constructed_copy(part: Any, prefix: str, shared: Copies) -> Any:
