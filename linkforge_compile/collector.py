@@ -1,4 +1,4 @@
-"""Python's collector of cycles, at rest while a robot is compiled or rendered."""
+"""Python's collector of cycles, at rest while a robot is compiled, joined to another or rendered."""
 
 from __future__ import annotations
 

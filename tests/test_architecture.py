@@ -33,7 +33,7 @@ MAY_IMPORT = {
     "schema": "bytecode source diagnostics syntax units resources expressions",
     "importers": "banner source diagnostics bounds units syntax shape_order",
     "modules": "source diagnostics bounds units syntax schema expressions importers roots",
-    "core": "source units shape_order",
+    "core": "collector source units shape_order",
     "lowering": "source diagnostics bounds units syntax modules core shape_order",
     "checks": "source diagnostics units core",
     "backends": "bytecode collector source diagnostics bounds units core resources shape_order",

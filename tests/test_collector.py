@@ -1,4 +1,4 @@
-"""Python's collector of cycles rests while a robot is compiled or rendered, and is as its caller has it afterwards."""
+"""Python's collector of cycles rests while a robot is compiled, joined or rendered, and is as it was afterwards."""
 
 import gc
 from collections.abc import Iterator
@@ -7,6 +7,8 @@ import pytest
 
 from linkforge_compile import compile_text, pipeline, render_srdf, render_urdf
 from linkforge_compile.backends import srdf_view, urdf
+from linkforge_compile.core import Link, Robot
+from linkforge_compile.core.models import merging
 from linkforge_compile.lowering import lower
 
 BALL = "linkforge: 1\nname: ball\nlinks: {base: }\n"
@@ -70,5 +72,19 @@ def test_it_rests_while_a_document_is_rendered(render, room, view: str, monkeypa
     monkeypatch.setattr(room, view, watched)
     gc.enable()
     render(compile_text(BALL).result())
+    assert seen == [False]
+    assert gc.isenabled()
+
+
+def test_it_rests_while_robots_are_joined(monkeypatch: pytest.MonkeyPatch):
+    joined, seen = merging.PrefixedParts.of, []
+
+    def watched(robot: Robot, prefix: str) -> merging.PrefixedParts:
+        seen.append(gc.isenabled())
+        return joined(robot, prefix)
+
+    monkeypatch.setattr(merging.PrefixedParts, "of", watched)
+    gc.enable()
+    Robot("station", links=[Link("table")]).merge(compile_text(BALL).result(), "table", "mount", "left_")
     assert seen == [False]
     assert gc.isenabled()

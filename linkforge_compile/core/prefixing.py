@@ -37,7 +37,7 @@ def prefixed_copies(parts: Iterable[P], prefix: str, shared: Copies | None = Non
     """
     shared = {} if shared is None else shared
     if not is_harmless(prefix):
-        return [part.with_prefix(prefix) for part in parts]
+        return [_ask(part, prefix) for part in parts]
     return harmless_copies(parts, prefix, shared)
 
 
@@ -45,7 +45,7 @@ def harmless_copies(parts: Iterable[P], prefix: str, shared: Copies) -> list[P]:
     """Return what `prefixed_copies` does for a prefix that is harmless."""
     copies = []
     for part in parts:  # mostly one, for which a comprehension, a function call more, is slow
-        copies.append(_DIRECT.get(part.__class__, _ask)(part, prefix, shared))
+        copies.append(_DIRECT.get(part.__class__, _ask_or_learn)(part, prefix, shared))
     return copies
 
 
@@ -87,10 +87,14 @@ _DIRECT: dict[type, _Copier] = {}
 """The copiers of classes that have no `with_prefix` of their own: what holds such parts need not ask them for it."""
 
 
-def _ask(part: Any, prefix: str, shared: Copies) -> Any:
+def _ask(part: Any, prefix: str) -> Any:
+    return part.with_prefix(prefix)
+
+
+def _ask_or_learn(part: Any, prefix: str, shared: Copies) -> Any:
     kind = part.__class__
-    is_first = kind.with_prefix.__module__ == _HOME_OF_WITH_PREFIX  # of a class that has no way of its own
-    return _copier_of(kind)(part, prefix, shared) if is_first else part.with_prefix(prefix)
+    has_own_way = kind.with_prefix.__module__ != _HOME_OF_WITH_PREFIX
+    return _ask(part, prefix) if has_own_way else _copier_of(kind)(part, prefix, shared)
 
 
 def _constructed_copy(part: Any, prefix: str, shared: Copies) -> Any:
@@ -120,7 +124,7 @@ def _written_copier(kind: type[Any]) -> _Copier:
         "    copy = opened()",
     ]
     scope: dict[str, Any] = {"kind": kind, "opened": _opened(kind), "FrozenMap": FrozenMap}
-    scope |= {"direct": _DIRECT.get, "ask": _ask, "copies": harmless_copies}
+    scope |= {"direct": _DIRECT.get, "ask": _ask_or_learn, "copies": harmless_copies}
     for field in fields(kind):
         if field.name in kind.PREFIXED:
             lines += [f"    value = part.{field.name}", f"    copy.{field.name} = {_prefixed(str(field.type))}"]

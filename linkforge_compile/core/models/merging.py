@@ -9,7 +9,8 @@ from linkforge_compile.core.exceptions import RobotValidationError, ValidationEr
 from linkforge_compile.core.models.link import prefixed_links
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.core.prefixing import prefixed_copies
-from linkforge_compile.frozen import dataclass, replace
+from linkforge_compile.frozen import replace
+from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement
@@ -23,8 +24,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.transmission import Transmission
 
 
-@dataclass(frozen=True, slots=True)
-class PrefixedParts:
+class PrefixedParts(NamedTuple):
     """The parts of a robot under a prefix, its own no longer; `semantic` is None where it says nothing semantic."""
 
     materials: Mapping[str, Material]

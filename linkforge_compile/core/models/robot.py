@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from linkforge_compile.collector import resting
 from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.geometry import IDENTITY
 from linkforge_compile.core.models.graph import refuse_cycles, refuse_loose_joints, single_root
@@ -116,6 +117,7 @@ class Robot(SemanticRobot):
             _require(self.joints, reference, f"Gazebo reference '{reference}'", "GazeboReference", "reference")
         self.gazebo_elements = self.gazebo_elements.extended((element,))
 
+    @resting()
     def merge(  # noqa: PLR0917 the contract's signature
         self,
         component: Robot,
