@@ -34,6 +34,18 @@ def chain(links: int) -> str:
     )
 
 
+def repeated_chain(links: int) -> str:
+    """Return a spec of the same robot, of more than one link, as a person would write it."""
+    link, joint = _LINK.format("$(i)"), _JOINT.format("$(i)", "$(i + 1)")
+    return "".join(
+        (
+            chain(1).partition("links:")[0],
+            f"links:{link}\n    for: {{i: {links}}}",
+            f"\njoints:{joint}\n    for: {{i: {links - 1}}}\n",
+        )
+    )
+
+
 def write_chain(folder: Path, links: int) -> Path:
     path = folder / f"chain_{links}.robot.yaml"
     path.write_text(chain(links), "utf-8")

@@ -19,7 +19,7 @@ from pathlib import Path
 from statistics import geometric_mean, median
 from typing import NamedTuple
 
-from chain import chain, write_chain
+from chain import chain, repeated_chain, write_chain
 from merge import merges
 from timing import medians, process, python, seconds_of, turns
 
@@ -82,11 +82,12 @@ def long_chain(setting: Setting) -> Iterator[Row]:
     from linkforge_compile import compile_text, render_urdf
 
     core = import_module("linkforge.core")
-    text = chain(1000)
+    text, repeated = chain(1000), repeated_chain(1000)
     urdf = render_urdf(compile_text(text).result())
+    assert render_urdf(compile_text(repeated).result()) == urdf
     turns = iter(range(10**6))
 
-    def ours() -> None:
+    def ours(text: str) -> None:
         # Another text each time, so that nothing of the last one can be remembered.
         render_urdf(compile_text(f"# {next(turns)}\n{text}").result())
 
@@ -95,8 +96,9 @@ def long_chain(setting: Setting) -> Iterator[Row]:
         core.validate_robot(robot)
         core.URDFGenerator().generate(robot)
 
-    runs = {"ours": partial(seconds_of, ours), "LinkForge": partial(seconds_of, other)}
-    yield against("1,000 links", setting, runs, reach=1.0)
+    for what, spec in (("each written", text), ("by a `for`", repeated)):
+        runs = {"ours": partial(seconds_of, partial(ours, spec)), "LinkForge": partial(seconds_of, other)}
+        yield against(f"1,000 links, {what}", setting, runs, reach=1.0)
 
 
 def growth(setting: Setting) -> Iterator[Row]:

@@ -11,6 +11,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
+from pathlib import Path
 from statistics import median
 from time import process_time
 from typing import NamedTuple, TypeVar
@@ -60,16 +61,18 @@ def process(*arguments: str) -> Callable[[], float]:
 
 
 def _process(command: Sequence[str]) -> Usage:
-    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env=_environment()) as process:
-        assert process.stderr is not None
-        told = process.stderr.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
-        raise SystemExit(f"{' '.join(command)}\n{told.decode()}")
+    # A process takes over the peak memory of the one that started it, so a small one starts it.
+    done = subprocess.run(
+        [sys.executable, "-S", _USAGE, *command], capture_output=True, text=True, env=_environment(), check=False
+    )
+    if done.returncode:
+        raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
+    seconds, peak = map(float, done.stdout.split())
     # Linux counts in kilobytes, macOS in bytes.
-    unit = 1e6 if sys.platform == "darwin" else 1e3
-    return Usage(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / unit)
+    return Usage(seconds, peak / (1e6 if sys.platform == "darwin" else 1e3))
+
+
+_USAGE = str(Path(__file__).with_name("usage.py"))
 
 
 @cache

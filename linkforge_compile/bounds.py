@@ -68,6 +68,9 @@ class Limit(Enum):
         "give links their 'inertia', or simpler collision meshes",
     )
 
+    # Counted by as often as anything is computed: that of Enum is written in Python.
+    __hash__ = object.__hash__
+
     @property
     def counted(self) -> str:
         return self.value.counted

@@ -48,7 +48,15 @@ class SourceFile(_Room):
 
         What lies behind the end of the text is its end.
         """
-        return Span(self, *self._place(begin), *self._place(end))
+        known = self._stretches.get((begin, end))
+        if known is None:
+            known = self._stretches[begin, end] = Span(self, *self._place(begin), *self._place(end))
+        return known
+
+    @cached_property
+    def _stretches(self) -> dict[tuple[int, int], Span]:
+        """What was asked for by the indexes: of what repeats, each copy asks again."""
+        return {}
 
     def _place(self, index: int) -> tuple[int, int]:
         starts = self._line_starts
