@@ -12,8 +12,9 @@ def resting() -> Iterator[None]:
     """Keep Python from looking for cycles meanwhile; where the caller has it so, that is left as it is.
 
     It looks at the values made lately each time 700 more are there, and at all of them again and again: a third of the
-    time of a robot of 1,000 links. The values of a compile hold no cycles, and live until it ends. The collector is one
-    for all threads; when two compile at once, it may begin again with the end of the first, which is as harmless.
+    time of a robot of 1,000 links. What a right spec is compiled to holds no cycles, and lives until the end. What
+    jsonschema tells of a wrong one does: of 3,000 wrong links 18 MB are kept until their compile ends. The collector is
+    one for all threads; when two compile at once, it may begin again with the end of the first, which is as harmless.
     """
     if not gc.isenabled():
         yield
