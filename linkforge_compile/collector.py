@@ -14,7 +14,8 @@ def resting() -> Iterator[None]:
     It looks at the values made lately each time 700 more are there, and at all of them again and again: a third of the
     time of a robot of 1,000 links. What a right spec is compiled to holds no cycles, and lives until the end. What
     jsonschema tells of a wrong one does: of 3,000 wrong links 18 MB are kept until their compile ends. The collector is
-    one for all threads; when two compile at once, it may begin again with the end of the first, which is as harmless.
+    one for all threads: what holds cycles in others waits as long, and who switches it off there meanwhile finds it on
+    at the end. When two compile at once, it may begin again with the end of the first.
     """
     if not gc.isenabled():
         yield

@@ -74,6 +74,10 @@ SPECS: dict[str, tuple[str, str | bytes]] = {
     ),
     "a million unknown keys": ("LF2101", HEAD + "".join(f"    q{i}: 1\n" for i in range(100_000))),
     "the same key for ever": ("LF3302", HEAD + "x-q: 1\n" * 200_000),
+    "lists of an alias behind a long text": (
+        "LF2101",
+        f"{HEAD}nosuch: 1\nmetadata:\n  a:\n  - &b 1\n  - |\n" + f"    {'x' * 400}\n" * 12_000 + "  - - *b\n" * 12_000,
+    ),
     "a huge product": ("LF3301", HEAD + "  l_$(a)_$(b)_$(c): {for: {a: 1000, b: 1000, c: 1000}}\n"),
     "a huge for": ("LF3301", HEAD + "  l_$(a): {for: {a: 1000000000000}}\n"),
     "more links than there may be": ("LF3301", HEAD + "  l_$(a): {for: {a: 40000}}\n"),

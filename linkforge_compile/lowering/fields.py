@@ -111,6 +111,7 @@ class Fields(SpecObject):
 
     def text(self, key: str, *, required: str = "") -> str | None:
         """Read a scalar as it was written: text, or a reference to a name."""
+        # Most of what may be said is not, and is asked for by the thousand.
         if key not in self.node.entries and not required:
             return None
         node = self.said(key, required)
@@ -158,6 +159,7 @@ class Fields(SpecObject):
 
     def map(self, key: str, *, required: str = "") -> Fields | None:
         """Open the object under a key."""
+        # As for `text`.
         if key not in self.node.entries and not required:
             return None
         node = self.said(key, required)

@@ -13,12 +13,10 @@ from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_elements, is_unsaid
 from linkforge_compile.lowering.joint import joints_of, positions_of_type
-from linkforge_compile.lowering.quantities import AMOUNT, ANGLE_OR_LENGTH, BARE, LENGTH, ZERO_TO_ONE, Measure
+from linkforge_compile.lowering.quantities import AMOUNT, ANGLE_OR_LENGTH, BARE, LENGTH, SHARE, Measure
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension, is_in_full, number_text
-
-_SHARE = Measure(bound=ZERO_TO_ONE)
 
 
 def lower_gazebo_elements(file: Fields) -> Iterator[GazeboElement]:
@@ -65,7 +63,7 @@ def _element(block: Fields, reference: str | None, position: Measure) -> GazeboE
             block.text("material"),
             block.flag("static"),
             block.number("stop_cfm", AMOUNT),
-            block.number("stop_erp", _SHARE),
+            block.number("stop_erp", SHARE),
             block.flag("provide_feedback"),
             block.flag("implicit_spring_damper"),
             **besides(block),

@@ -10,12 +10,10 @@ from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.lowering.extra import Besides, besides
 from linkforge_compile.lowering.fields import Fields
-from linkforge_compile.lowering.quantities import ZERO_TO_ONE, Measure
+from linkforge_compile.lowering.quantities import SHARE, ZERO_TO_ONE
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
-
-_SHARE = Measure(bound=ZERO_TO_ONE)
 
 _BYTE = 255
 _LEAST_BYTE = 16
@@ -77,7 +75,7 @@ def _color(fields: Fields) -> Color | None:
         return None
     if isinstance(numbers, YamlList) and _tell_bytes(fields, numbers):
         return None
-    rgba = None if numbers is None else fields.numbers_at(numbers, "color", _SHARE, 3, 4)
+    rgba = None if numbers is None else fields.numbers_at(numbers, "color", SHARE, 3, 4)
     if node is None or rgba is None:
         return None
     rest: Besides = besides(long) if long else {"source": SourceRef(node, None, fields.trail)}

@@ -47,8 +47,6 @@ _WORDS = {
 }
 """Each dimension as a person says it, and a value that shows how it is written."""
 
-_LONGEST_LENGTH = 100.0
-
 _MOST_TURNED, _UNBOUNDED = 8 * math.pi, 1e4
 """A URDF has no unit to say that an angle is meant so [rad]: vendors write limits of 10, and of 1e16 for none."""
 _LARGEST, _SMALLEST = sys.float_info.max, math.ulp(0.0)
@@ -73,10 +71,8 @@ UP_TO_HALF_A_TURN = Bound(
 )
 ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1, least=0.0, most=1.0)
 
-_DOUBTED_BEYOND: dict[tuple[Dimension, ...], float] = {
-    (Dimension.ANGLE,): WIDEST_ANGLE,
-    (Dimension.LENGTH,): _LONGEST_LENGTH,
-}
+_ANGLE, _LENGTH = (Dimension.ANGLE,), (Dimension.LENGTH,)
+_DOUBTED_BEYOND: dict[tuple[Dimension, ...], float] = {_ANGLE: WIDEST_ANGLE, _LENGTH: 100.0}
 """How far from 0 those numbers lie, by what is measured, that are likely meant in degrees or millimetres."""
 
 
@@ -87,6 +83,7 @@ class Measure:
     are neither refused nor doubted, so that nearly all are taken without another look.
     """
 
+    # No frozen class: its two ends are worked out as it is made, and read for each number.
     __slots__ = ("bound", "dimensions", "least", "may_be_far", "most")
 
     def __init__(
@@ -111,10 +108,17 @@ class Measure:
 
 
 BARE = Measure()
+"""Any number without a unit."""
 AMOUNT = Measure(bound=NOT_NEGATIVE)
 COUNT = Measure(bound=ABOVE_ZERO)
-LENGTH, EXTENT = Measure((Dimension.LENGTH,)), Measure((Dimension.LENGTH,), ABOVE_ZERO)
-ANGLE, ANGLE_OR_LENGTH = Measure((Dimension.ANGLE,)), Measure((Dimension.ANGLE, Dimension.LENGTH))
+"""How many; that it is whole, `Fields.integer` asks."""
+SHARE = Measure(bound=ZERO_TO_ONE)
+LENGTH = Measure(_LENGTH)
+EXTENT = Measure(_LENGTH, ABOVE_ZERO)
+"""How long something is [m]."""
+ANGLE = Measure(_ANGLE)
+ANGLE_OR_LENGTH = Measure((*_ANGLE, *_LENGTH))
+"""A joint's position, of which nobody says yet whether it turns [rad] or slides [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,13 +213,13 @@ def _row_at(node: YamlNode) -> tuple[float, ...]:
 def doubt(node: YamlNode, number: float, measure: Measure) -> Code | None:
     """Return the warning for a number that is likely meant in degrees or millimetres, None for every other."""
     size = abs(number)
-    if size > WIDEST_ANGLE and measure.dimensions == (Dimension.ANGLE,):
+    if measure.may_be_far or not size > _DOUBTED_BEYOND.get(measure.dimensions, math.inf):
+        return None
+    if measure.dimensions == _ANGLE:
         if node.span.file.is_xml:
             return WIDE_ANGLE if _MOST_TURNED < size < _UNBOUNDED else None
         return WIDE_ANGLE if isinstance(node, YamlScalar) and isinstance(node.value, int | float) else None
-    if size > _LONGEST_LENGTH and measure.dimensions == (Dimension.LENGTH,) and not measure.may_be_far:
-        return LONG_LENGTH
-    return None
+    return LONG_LENGTH
 
 
 def found(node: YamlNode) -> str:

@@ -59,8 +59,7 @@ def _end(kind: type[End], end: Fields, name: str, position: Measure) -> End | No
     reduction = end.number("mechanical_reduction", _REDUCTION)
     offset = end.number("offset", position)
     make = partial(kind, name, interfaces, reduction, offset or 0.0, stated=("offset",) if offset == 0 else ())
-    finish = partial(make, interfaces_stated=are_stated, source=end.ref)
-    return end.build(lambda: finish(**besides(end)))
+    return end.build(lambda: make(interfaces_stated=are_stated, **besides(end)))
 
 
 def _is_empty_list(node: YamlNode | None) -> bool:

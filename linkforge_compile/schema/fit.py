@@ -9,7 +9,7 @@ import re
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from math import inf
-from typing import Final
+from typing import ClassVar, Final
 
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
 from linkforge_compile.schema.repetition import WORDS
@@ -34,7 +34,7 @@ _SCALARS: dict[str, frozenset[type]] = {
 _COLLECTIONS = ("object", "array")
 
 _KEYWORDS = frozenset(
-    {"type", "properties", "patternProperties", "additionalProperties", "required", "enum", "const", "anyOf"}
+    {"type", "properties", "patternProperties", "additionalProperties", "required", "enum", "const"}
     | {"items", "minItems", "maxItems", "pattern"}
 )
 
@@ -54,8 +54,10 @@ class Fit:
     language does.
     """
 
+    _judged: ClassVar = _KEYWORDS
+
     def __init__(self, schema: Schema, *, heeds_null: bool = False) -> None:
-        if unknown := schema.keys() - _KEYWORDS - _WORDS_OF_EDITORS:
+        if unknown := schema.keys() - self._judged - _WORDS_OF_EDITORS:
             raise ValueError(f"a schema holds what is not judged: {sorted(unknown)}")
         # Words and constants are scalars, though their schemas need not say so.
         kinds = _texts(schema.get("type")) or [*_SCALARS, *(() if schema.keys() & {"enum", "const"} else _COLLECTIONS)]
@@ -155,9 +157,9 @@ class Fit:
 class _Union(Fit):
     """A schema that says nothing itself but between which others there is a choice."""
 
+    _judged: ClassVar = frozenset({"anyOf"})
+
     def __init__(self, schema: Schema, *, heeds_null: bool = False) -> None:
-        if more := schema.keys() & _KEYWORDS - {"anyOf"}:
-            raise ValueError(f"a schema that is a choice says more: {sorted(more)}")
         self._branches = [fit_of(branch, heeds_null=heeds_null) for branch in branches(schema)]
         self._meant: dict[tuple[type, bool], Fit | None] = {}
         super().__init__(schema, heeds_null=heeds_null)

@@ -52,11 +52,15 @@ class Marks:
     def ends(self, event: ScalarEvent) -> tuple[int, int]:
         """Return the indexes between which a scalar stands, as in `scalar`."""
         begin, end = self.begin(event), self.end(event)
-        if event.anchor is None and event.tag is None and event.style not in _BLOCK_STYLES:
+        if self.are_its_ends(event):
             return begin, end
         written = self.text[begin:end].rstrip()
         properties = _PROPERTIES.match(written)
         return begin + (properties.end() if properties else 0), begin + len(written)
+
+    def are_its_ends(self, event: ScalarEvent) -> bool:
+        """Whether a scalar stands right between the marks of its event."""
+        return event.anchor is None and event.tag is None and event.style not in _BLOCK_STYLES
 
     def tag(self, event: NodeEvent) -> Span:
         """Return the span of the tag that a node carries."""

@@ -36,9 +36,7 @@ class YamlScalar(NamedTuple):
 
     @property
     def span(self) -> Span:
-        if isinstance(self.place, Span):
-            return self.place
-        return self.place.between(self.begin, self.begin + len(self.text) if self.end is None else self.end)
+        return _span(self.place, self.begin, self.begin + len(self.text) if self.end is None else self.end)
 
     def child(self, key: str | int) -> None:
         return None
@@ -72,7 +70,7 @@ class YamlList:
 
     @property
     def span(self) -> Span:
-        return self.place if isinstance(self.place, Span) else self.place.between(self.begin, self.end)
+        return _span(self.place, self.begin, self.end)
 
     def child(self, key: str | int) -> YamlNode | None:
         return self.items[key] if isinstance(key, int) and 0 <= key < len(self.items) else None
@@ -129,7 +127,7 @@ class YamlMap:
 
     @property
     def span(self) -> Span:
-        return self.place if isinstance(self.place, Span) else self.place.between(self.begin, self.end)
+        return _span(self.place, self.begin, self.end)
 
     def get(self, key: str) -> YamlNode | None:
         """Return what is said under `key`, None where nothing is: a value of null is as if not written."""
@@ -178,6 +176,11 @@ class YamlFault:
 
 
 YamlNode: TypeAlias = YamlScalar | YamlList | YamlMap | YamlFault
+
+
+def _span(place: Span | SourceFile, begin: int, end: int) -> Span:
+    """Return where a node stands: its place, or what lies between two indexes where that is a file."""
+    return place if isinstance(place, Span) else place.between(begin, end)
 
 
 def fault_of(node: YamlNode) -> YamlFault:

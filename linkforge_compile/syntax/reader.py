@@ -37,7 +37,7 @@ MAX_READ_TWICE = 250_000
 Parser: TypeAlias = type["yaml.BaseLoader | yaml.CBaseLoader"]
 PARSER: Parser = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
-_new = tuple.__new__
+_new = tuple.__new__  # the constructor of a named tuple takes twice as long
 
 _Beginning: TypeAlias = ScalarEvent | SequenceStartEvent | MappingStartEvent
 """What a node that is no alias begins with."""
@@ -139,13 +139,13 @@ class _Reader:
         self._sink = sink
         self._tags = tags
         self._next: Callable[[], events.Event | None] = parser(marks.text).get_event
-        # What words and numbers mean that stand in the file as keys and as values: the same come again and again. None
-        # has a blank in it, so that it stands on one line and ends with its text.
+        # What words and numbers mean that stand in the file as keys and as values: the same come again and again. There
+        # is no blank in any of them, so that it stands on one line and ends with its text.
         self._names: dict[str, ScalarValue] = {}
         self._values: dict[str, ScalarValue] = {}
         self._anchors: dict[str, _Anchor | None] = {}  # None while the anchored node is still being read
         self._deepest = 0
-        self._closed = 0  # the index behind the last alias or bracket
+        self._closed = 0  # the index behind the last alias, bracket, or scalar that `_known` did not read
         self._is_any_odd = False  # whether there was an expression in pieces, or a key in braces with nothing behind it
 
     def document(self) -> YamlNode:
@@ -264,6 +264,7 @@ class _Reader:
         """Read a scalar whose text means a value; itself in quotes, and of keys."""
         self.last_scalar = event
         text, (begin, end) = event.value, self._marks.ends(event)
+        self._closed = end
         # What stands in the file was looked through; escapes in double quotes can still make anything.
         if event.style == '"' and (forbidden := FORBIDDEN_CHARACTER.search(text)):
             span = self._file.between(begin, end)
@@ -323,10 +324,10 @@ class _Reader:
         assert begin is not None, "the parser marks every event"
         assert closing is not None, "the parser marks every event"
         if flow:
-            self._closed = last = closing.index
-        else:
-            last = max(self._closed, self._marks.ends(self.last_scalar)[1] if self.last_scalar else 0)
-        return begin.index, last
+            self._closed = closing.index
+        elif self.last_scalar is not None and self._marks.are_its_ends(self.last_scalar):
+            self._closed = max(self._closed, self._marks.end(self.last_scalar))
+        return begin.index, self._closed
 
 
 class _CutExpression(YamlFault):

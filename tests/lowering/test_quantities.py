@@ -11,7 +11,8 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_DIMENSION,
     WRONG_KIND,
 )
-from linkforge_compile.lowering.quantities import ABOVE_ZERO, Measure, Refusal, doubt, found, si_number
+from linkforge_compile.lowering import quantities
+from linkforge_compile.lowering.quantities import ABOVE_ZERO, Bound, Measure, Refusal, doubt, found, si_number
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax.nodes import YamlList, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
@@ -90,3 +91,13 @@ def test_numbers_are_shown_as_they_are_and_text_in_quotes():
     shown = [found(scalar(value)) for value in (-1.2, "3 mm", True, Quantity(0.8, Dimension.LENGTH))]
     assert shown == ["-1.2", "'3 mm'", "'True'", "'0.8 m'"]
     assert found(YamlList((), SPAN)) == "a list"
+
+
+BOUNDS = [bound for bound in vars(quantities).values() if isinstance(bound, Bound)]
+
+
+@pytest.mark.parametrize("bound", BOUNDS, ids=lambda bound: bound.words)
+def test_what_is_taken_without_a_look_keeps_to_its_bound(bound: Bound):
+    between = (bound.least + (bound.most - bound.least) * tenth / 10 for tenth in range(1, 10))
+    assert all(map(bound.holds, (bound.least, bound.most, *filter(math.isfinite, between))))
+    assert not bound.holds(math.nextafter(bound.least, -math.inf))
