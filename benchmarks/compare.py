@@ -41,6 +41,7 @@ class Row(NamedTuple):
     what: str
     ours: float
     other: float
+    other_is: str
     unit: str = "ms"
     reach: float | None = None
 
@@ -109,7 +110,7 @@ def growth(setting: Setting) -> Iterator[Row]:
     usages = turns(min(setting.rounds, 3), {links: partial(python, *compile_, spec) for links, spec in specs.items()})
     for what, unit, scale in (("seconds", "ms", 1), ("megabytes", "MB", 1e-3)):
         one, small, large = (median(getattr(usage, what) * scale for usage in usages[links]) for links in specs)
-        yield Row(f"10,000 links against 1,000, {what}", large - one, small - one, unit, 11.0)
+        yield Row(f"10,000 links, {what}", large - one, small - one, "1,000 links", unit, 11.0)
 
 
 def merge(setting: Setting) -> Iterator[Row]:
@@ -152,13 +153,13 @@ def imported(robot: Path, folder: Path) -> Path:
 
 def against(what: str, setting: Setting, runs: dict[str, Callable[[], float]], reach: float | None = None) -> Row:
     ours, other = medians(setting.rounds, runs).values()
-    return Row(what, ours, other, reach=reach)
+    return Row(what, ours, other, [*runs][1], reach=reach)
 
 
 def mean(what: str, rows: list[Row], reach: float) -> Iterator[Row]:
     yield from rows
     ours, other = (geometric_mean(getattr(row, side) for row in rows) for side in ("ours", "other"))
-    yield Row(f"{what}, geometric mean", ours, other, reach=reach)
+    yield Row(f"{what}, geometric mean", ours, other, rows[0].other_is, reach=reach)
 
 
 def main() -> None:
@@ -168,7 +169,8 @@ def main() -> None:
     parser.add_argument("--only", type=comparisons_in, default=list(COMPARISONS), metavar="NAMES", help=some)
     parser.add_argument("--robots", type=Path, nargs="+", default=ROBOTS, help="other robots, as .urdf.xacro")
     options = parser.parse_args()
-    print(f"{'what':<40} {'ours':>12} {'other':>12} {'ratio':>8} {'reach':>8}")
+    print("medians of the processor's time, in turns; of the ratios, less is better\n")
+    print(f"{'what':<32} {'ours':>12} {'the other':>12} {'which is':<12} {'ratio':>8} {'to reach':>9}")
     with tempfile.TemporaryDirectory() as folder:
         setting = Setting(options.rounds, tuple(options.robots), Path(folder))
         for name in options.only:
@@ -190,9 +192,9 @@ def comparisons_in(text: str) -> list[str]:
 
 
 def show(row: Row) -> None:
-    sides = (f"{side * 1000:9.1f} {row.unit}" for side in (row.ours, row.other))
-    reach = "" if row.reach is None else f"{row.reach:8.2f}"
-    print(f"{row.what:<40} {' '.join(sides)} {row.ratio:8.3f} {reach}", flush=True)
+    sides = [f"{side * 1000:9.1f} {row.unit}" for side in (row.ours, row.other)]
+    reach = "" if row.reach is None else f"{row.reach:9.2f} {'reached' if row.ratio <= row.reach else 'missed'}"
+    print(f"{row.what:<32} {' '.join(sides)} {row.other_is:<12} {row.ratio:8.3f} {reach}", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
-"""Fuzzes one target: python -m tests.fuzz yaml|expression|import|compile [--seconds 600] [--keep]
+"""Fuzzes one target for as long as is said: `python -m tests.fuzz compile --seconds 600`.
 
+`yaml` reads a spec's text, `expression` computes one, `import` reads a URDF with an SRDF, `compile` does the whole.
 What breaks a promise is written to the current folder as `crash-…`, `timeout-…` or `oom-…`: mend it, and keep the file
-in tests/fuzz/corpus/TARGET. `--keep` adds there what reached code that nothing there did. Needs atheris, and takes the
-real robots that LINKFORGE_SHARED has.
+in tests/fuzz/corpus/TARGET; `python -m tests.fuzz.run TARGET FILE` runs it again. `--keep` adds there what reached code
+that nothing there did. It begins with the examples, that corpus, and the real robots that LINKFORGE_SHARED has, and
+needs atheris, of the extra `dev`.
 """
 
 from __future__ import annotations
@@ -61,9 +63,11 @@ def _run(target: str, *words: str) -> int:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="python -m tests.fuzz")
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.fuzz", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("target", choices=TARGETS)
-    parser.add_argument("--seconds", type=int, default=600)
+    parser.add_argument("--seconds", type=int, default=600, help="how long, 600 unless told")
     parser.add_argument("--keep", action="store_true", help="add to the kept corpus what reaches more")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
@@ -74,6 +78,9 @@ def main() -> int:
         code = fuzz(arguments.target, arguments.seconds, found, beginning)
         if arguments.keep:
             _keep(arguments.target, found)
+    print(
+        f"{arguments.target}: " + ("something was found, see above" if code else "nothing was found"), file=sys.stderr
+    )
     return code
 
 
