@@ -80,13 +80,17 @@ class Limit(Enum):
         return self.value.most
 
 
+def factor_of(said: str) -> int | None:
+    """Return how many times all limits are allowed; None for what is no whole number from 1 to 999,999,999."""
+    return int(said) or None if said.isascii() and said.isdigit() and len(said) < 10 else None
+
+
 class Budget:
     """What one compile may still take."""
 
     def __init__(self, times: int = 1) -> None:
         """`times` the limits are allowed."""
-        factor = os.environ.get(FACTOR_VARIABLE, "")
-        self._factor = times * (int(factor) if factor.isascii() and factor.isdigit() and len(factor) < 10 else 1)
+        self._factor = times * (factor_of(os.environ.get(FACTOR_VARIABLE, "")) or 1)
         self._left = {limit: limit.most * self._factor for limit in Limit}
 
     def left(self, limit: Limit) -> int:

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, TypedDict
 
-from linkforge_compile.bounds import MAX_FILE_BYTES
+from linkforge_compile.bounds import FACTOR_VARIABLE, MAX_FILE_BYTES, factor_of
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.options import packages_of
 
@@ -24,6 +24,8 @@ STDIN = "<stdin>"
 
 def one_spec(specs: list[str]) -> str:
     """Return the one spec of a command line; UsageError for none or several."""
+    if specs == [""]:
+        raise UsageError("takes one spec, found '': is a variable of the shell empty?")
     if len(specs) == 1:
         return specs[0]
     if not specs:
@@ -73,6 +75,8 @@ class _Settings(TypedDict):
 
 
 def _settings(assignments: list[str], arguments: argparse.Namespace) -> _Settings:
+    if (factor := os.environ.get(FACTOR_VARIABLE)) and factor_of(factor) is None:
+        raise UsageError(f"{FACTOR_VARIABLE} takes a whole number from 1 to 999999999, found '{factor}'")
     return {
         "parameters": [*arguments.parameters, *assignments],
         "packages": packages_of(arguments),

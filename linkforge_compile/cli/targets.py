@@ -60,6 +60,8 @@ def add_output_option(parser: argparse.ArgumentParser) -> None:
 
 def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets:
     """Return where each format of a spec goes; UsageError for outputs that cannot be meant together."""
+    if "" in outputs:
+        raise UsageError("-o takes a file or a folder, found '': is a variable of the shell empty?")
     if not outputs or (len(outputs) == 1 and file_to_write(outputs[0]) is None):
         return Targets({chosen or "urdf": None})
     if len(outputs) > 1:

@@ -301,6 +301,8 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         ((), "usage: linkforge"),
         (("compile",), "required: SPEC"),
         (("compile", "a.robot.yaml", "b.robot.yaml"), "takes one spec, found 2"),
+        (("compile", ""), "takes one spec, found '': is a variable of the shell empty?"),
+        (("compile", "a.robot.yaml", "-o", ""), "-o takes a file or a folder, found '': is a variable of the shell"),
         (("compile", "swing.robot.yaml", "--package", "arm"), "--package takes NAME=PATH"),
         (("compile", "swing.robot.yaml", "--package", "arm=nowhere"), "there is no folder 'nowhere'"),
         (("compile", "swing.robot.yaml", "--format", "sdf"), "invalid choice"),
@@ -324,3 +326,11 @@ def test_wrong_usage_is_told(pendulum: Path, words: tuple[str, ...], said: str):
     run = linkforge(*words, cwd=pendulum)
     assert run.returncode == 2
     assert said in run.stderr
+
+
+@pytest.mark.parametrize("factor", ["abc", "-1", "0", "1e300"])
+def test_a_factor_of_the_limits_that_is_none_is_told(pendulum: Path, factor: str, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("LINKFORGE_LIMITS", factor)
+    run = linkforge("compile", "swing.robot.yaml", cwd=pendulum)
+    assert run.returncode == 2
+    assert f"LINKFORGE_LIMITS takes a whole number from 1 to 999999999, found '{factor}'" in run.stderr
