@@ -119,19 +119,24 @@ def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
     """
     if issubclass(kind, Element | Link):
         own = (field for field in fields(kind) if field.name not in _EVERYWHERE)
-        names = tuple(field.name for field in own if not _NUMBERS.issuperset(str(field.type).split(" | ")))
+        names = tuple(field.name for field in own if not _holds_numbers(str(field.type), is_compared=field.compare))
     else:
         names = ("parameters",)
     extras = tuple(name for name in _EXTRAS if hasattr(kind, name))
     return names, _getter(names), _getter(extras)
 
 
+def _holds_numbers(kind: str, *, is_compared: bool) -> bool:
+    """Whether a field holds neither parts nor text: its class refuses them, or it is how a file said it, unwritten."""
+    return _NUMBERS.issuperset(kind.split(" | ")) or (kind == "bool" and not is_compared)
+
+
 def _getter(names: tuple[str, ...]) -> _Values:
     return attrgetter(*names) if len(names) > 1 else lambda part: tuple([getattr(part, name) for name in names])
 
 
-_NUMBERS = frozenset({"float", "int", "bool", "Vector3", "None"})
-"""What a field that holds neither parts nor text says of itself."""
+_NUMBERS = frozenset({"float", "int", "Vector3", "None"})
+"""What constructors refuse anything else for; a truth is taken as it comes, and written."""
 
 _EXTRAS = ("extra_attributes", "extra_elements", "extra_inside")
 

@@ -1,8 +1,12 @@
 """What a format or its readers cannot take is told beforehand."""
 
+from dataclasses import fields, replace
+
 import pytest
 
 from linkforge_compile.backends import srdf_limits, urdf_limits
+from linkforge_compile.backends.parts import _ways_into
+from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.geometry import Capsule, Mesh, Sphere, Vector3
 from linkforge_compile.core.models.interface import Interface
@@ -23,7 +27,9 @@ from linkforge_compile.core.models.sensor import (
 )
 from linkforge_compile.core.models.srdf import SemanticRobotDescription
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
+from linkforge_compile.core.part import Element
 from tests.backends.everything import everything
+from tests.writers.test_every_field import full, parts
 
 
 def told(robot: Robot, **options: str) -> list[tuple[str, str]]:
@@ -97,6 +103,9 @@ UNWRITABLE = {
     ),
     "sensor": robot(sensors=[Sensor("s", SensorType.IMU, "base", imu_info=IMUInfo(), topic=TOLL)]),
     "frame": robot(sensors=[Sensor("s", SensorType.IMU, "base", imu_info=IMUInfo(), frame=TOLL)]),
+    "always on": robot(sensors=[Sensor("s", SensorType.IMU, "base", imu_info=IMUInfo(), always_on=TOLL)]),
+    "visualize": robot(sensors=[Sensor("s", SensorType.IMU, "base", imu_info=IMUInfo(), visualize=TOLL)]),
+    "static": robot(gazebo_elements=[GazeboElement("base", static=TOLL)]),
     "interface": robot(ros2_controls=[Ros2Control("c", "system", "p", [Ros2ControlJoint("j", [TOLL])])]),
     "parameter": robot(
         ros2_controls=[Ros2Control("c", "system", "p", [Ros2ControlJoint("j", [Interface("x", {"min": TOLL})])])]
@@ -160,3 +169,20 @@ def test_a_frame_is_left_out_for_gazebo_classic_alone():
 def test_the_info_of_another_type_is_left_out():
     imu = Sensor("imu", SensorType.IMU, "base", imu_info=IMUInfo(), camera_info=CameraInfo())
     assert told(robot(sensors=[imu])) == [("LF7105", "a sensor of type imu has no 'camera'; it is left out")]
+
+
+def test_fields_that_are_not_looked_into_refuse_text():
+    trusted = {
+        (type(part), field.name): part
+        for part in parts(full())
+        if isinstance(part, Element | Link)
+        for field in fields(part)
+        if field.compare and not hasattr(Element, field.name) and "Vector3" not in str(field.type)
+        if field.name not in _ways_into(type(part))[0]
+    }
+    assert len(trusted) > 50
+    for (_, name), part in trusted.items():
+        with pytest.raises((RobotModelError, TypeError)):
+            replace(part, **{name: TOLL})
+    with pytest.raises((RobotModelError, TypeError)):
+        Vector3(TOLL, 0, 0)  # what the others hold
