@@ -28,6 +28,8 @@ _Piece: TypeAlias = str | nodes.Expr
 _KNOWN = "'for' and 'if' without 'else', 'set', 'include', 'from … import' and 'macro' without defaults are known"
 _KNOWN_VALUES = "names, attributes, constants, tuples, 'or' and 'is not none' are known"
 _UNEVEN = "an element ends in the block that begins it"
+_SHARED = "a statement shares its line with statements alone, not with text or a value"
+_SET_IN_IF = "a name that is set in an 'if' stays set behind it in Jinja, and would not here; set it outside"
 
 
 class UnknownInTemplateError(Exception):
@@ -49,10 +51,27 @@ def python_of(template: str, texts: Mapping[str, str], name: str) -> str:
 
     """
     environment = Environment(trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
+    for path, text in texts.items():
+        _require_statements_apart(path, environment.lex(text, path))
     module = _Module({path: environment.parse(text, path) for path, text in texts.items()})
     document = _Function(module, template, "document", [name])
     document.template(template, document.arguments)
     return "\n".join([*document.python, *module.macro_functions(), ""])
+
+
+def _require_statements_apart(template: str, tokens: Iterable[tuple[int, str, str]]) -> None:
+    """Refuse a statement on a line that says something: that would be two lines here, and is one to Jinja."""
+    statements: set[int] = set()
+    said: set[int] = set()
+    for line, kind, token in tokens:
+        if kind in ("block_begin", "block_end"):
+            statements.add(line)
+        elif kind in ("variable_begin", "variable_end"):
+            said.add(line)
+        elif kind == "data":
+            said.update(number for number, text in enumerate(token.split("\n"), start=line) if text.strip())
+    for line in sorted(statements & said):
+        raise UnknownInTemplateError(template, line, _SHARED)
 
 
 class _Macro(NamedTuple):
@@ -155,6 +174,8 @@ class _Function:
     def _statement(self, node: nodes.Node, names: _Names) -> None:
         match node:
             case nodes.If(test=test, body=body, elif_=[], else_=[]):
+                for assignment in (one for one in body if isinstance(one, nodes.Assign)):
+                    raise self._fault(assignment.lineno, _SET_IN_IF)
                 with self._below(f"if {self._value(test, names)}:"):
                     self.block(body, names)
             case nodes.For(target=target, iter=values, body=body, else_=[], test=None, recursive=False):

@@ -111,14 +111,14 @@ def test_what_is_included_sees_the_names_where_it_is_and_a_macro_what_it_is_give
     assert written(text, **others) == ["<p>", "  <xx/>", "</p>", "<p>", "  <y n=1/>", "</p>", "<z/>"]
 
 
+SHARED = "a statement shares its line with statements alone, not with text or a value"
+
+
 @pytest.mark.parametrize(
     ("text", "line", "reason"),
     [
-        (
-            "<a/>\n<a{% if robot %} b{% endif %}>",
-            2,
-            "a line is one value, or begins and ends as a tag does, found '<a'",
-        ),
+        ("<a/>\n<a\nb>", 2, "a line is one value, or begins and ends as a tag does, found '<a'"),
+        ("<a/>\n<a{% if robot %} b{% endif %}>", 2, SHARED),
         ("<a>\n{% if robot %}\n</a>\n{% endif %}", 3, "an element ends in the block that begins it"),
         ("{% if robot %}\n<a>\n{% endif %}\n</a>", 2, "an element ends in the block that begins it"),
         ("<a/>\n{{ link.name }}", 2, "no 'link' is in sight, only 'robot'"),
@@ -127,6 +127,14 @@ def test_what_is_included_sees_the_names_where_it_is_and_a_macro_what_it_is_give
         ("{% include 'other' %}", 1, "a template is included by its path, or by 'start' ~ value ~ 'end'"),
         ("{% include 'robot' ignore missing %}", 1, "'macro' without defaults are known, found 'Include'"),
         ("{{ tag(robot) }}", 1, "a call names a macro of this template or an imported one, and all it takes"),
+        (
+            "{% set x = 'a' %}\n{% if robot %}\n{% set x = 'b' %}\n{% endif %}\n<{{ x }}/>",
+            3,
+            "a name that is set in an 'if' stays set behind it in Jinja, and would not here; set it outside",
+        ),
+        ("<a>\n{% if robot %}<b/>\n{% endif %}\n</a>", 2, SHARED),
+        ("<a>\n{% if robot %}\n{{ robot.name }}{% endif %}\n</a>", 3, SHARED),
+        ("<a>\n<b>{% for n, v in robot.parts %}\n<c/>\n{% endfor %}\n</b>\n</a>", 2, SHARED),
     ],
 )
 def test_what_is_not_known_is_refused_at_its_place(text: str, line: int, reason: str):
