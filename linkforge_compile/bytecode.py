@@ -1,7 +1,9 @@
 """What is made of our own files and is the same in every process: kept as Python keeps its bytecode of them.
 
 It lies at the same place, `__pycache__` beside a module or below PYTHONPYCACHEPREFIX, and obeys the same switch,
-PYTHONDONTWRITEBYTECODE. Of what it was made from it asks what Python asks of a source: its time and its size.
+PYTHONDONTWRITEBYTECODE. Of Python's sources that it was made from it asks what Python asks, their time and size. Any
+other file is read: where all times are set to one, as reproducible archives have them, a release that changes one
+character of a template would otherwise go unnoticed.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from importlib.util import MAGIC_NUMBER, cache_from_source
+from importlib.util import MAGIC_NUMBER, cache_from_source, source_hash
 from pathlib import Path
 from typing import TypeVar
 
@@ -26,8 +28,14 @@ _BROKEN = (OSError, EOFError, ValueError, LookupError, TypeError)
 
 def _stamp(files: Iterable[Path]) -> str:
     """Return what changes when one of the files does, or its name; OSError where one is not there."""
-    seen = [(file.name, file.stat()) for file in files]
-    return " ".join(f"{name}:{file.st_mtime_ns}:{file.st_size}" for name, file in seen)
+    return " ".join(f"{file.name}:{_stamp_of(file)}" for file in files)
+
+
+def _stamp_of(file: Path) -> str:
+    if file.suffix != ".py":
+        return source_hash(file.read_bytes()).hex()
+    status = file.stat()
+    return f"{status.st_mtime_ns}:{status.st_size}"
 
 
 def kept(module: str, name: str, files: Iterable[Path], make: Callable[[], T]) -> T:

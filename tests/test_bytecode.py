@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -30,6 +31,15 @@ def test_what_was_made_from_other_files_is_made_again(tmp_path: Path) -> None:
     _asked(tmp_path, "first")
     (tmp_path / "source.json").write_text("{ }")
     assert [_asked(tmp_path, "second"), _asked(tmp_path, "third")] == ["second", "second"]
+
+
+def test_another_text_of_the_same_size_and_time_is_noticed(tmp_path: Path) -> None:
+    source = tmp_path / "source.json"
+    os.utime(source, (0, 0))
+    _asked(tmp_path, "first")
+    source.write_text("[]")
+    os.utime(source, (0, 0))
+    assert _asked(tmp_path, "second") == "second"
 
 
 def test_what_changes_while_it_is_read_is_made_again(tmp_path: Path) -> None:
