@@ -33,14 +33,14 @@ class Roots:
         `named` are folders that the user named himself.
         """
         # A spec that is reached by a link may use what lies beside the link, and beside itself.
-        ways = () if place is None else dict.fromkeys((as_walked(place), _real(place)))
+        ways = () if place is None else dict.fromkeys((as_walked(place), *_real((place,))))
         folders = (*map(_top_of, ways), *named, *_search_path("ROS_PACKAGE_PATH"))
         installed = tuple(_search_path("AMENT_PREFIX_PATH"))
-        return cls(tuple(dict.fromkeys(map(_real, folders))), installed=installed)
+        return cls(_real(folders), installed=installed)
 
     def naming(self, files: Iterable[Path]) -> Roots:
         """Return the same roots with single files that the user named himself."""
-        return replace(self, files=self.files.union(map(_real, files)))
+        return replace(self, files=self.files.union(_real(files)))
 
     def with_those_around(self, place: Path) -> Roots:
         """Return the same roots with those of another file that the user named beside the spec."""
@@ -54,15 +54,43 @@ class Roots:
         """Whether a file may be read, be it there or not."""
         if self.is_anywhere:
             return True
-        real = _real(path)
+        followed = real_path(path)
+        if followed is None:
+            return False
+        real = Path(followed)
         if real in self.files or any(real.is_relative_to(folder) for folder in self.folders):
             return True
         named = path.absolute()
         is_installed = ".." not in named.parts and any(named.is_relative_to(prefix) for prefix in self.installed)
-        return is_installed or any(real.is_relative_to(_real(prefix)) for prefix in self.installed)
+        return is_installed or any(real.is_relative_to(prefix) for prefix in _real(self.installed))
+
+    def told(self, path: Path) -> str | None:
+        """Return where a path leads that they do not hold, for a message; None for a link that may not be looked at.
+
+        Where links of other folders lead is none of a stranger's business: they are not followed.
+        """
+        written = Path(os.path.normpath(path.absolute()))
+        is_inside = any(Path(folder) in self.folders for folder in map(real_path, written.parents) if folder)
+        return real_path(path) if is_inside else str(written)
 
 
 ANYWHERE = Roots(is_anywhere=True)
+
+
+def real_path(path: Path | str) -> str | None:
+    """Return where links and `..` lead, be there a file or not; None where a link may not be looked at.
+
+    Links to what a process of somebody else has open are such: `/proc/1/exe`.
+    """
+    try:
+        return os.path.realpath(path)
+    except OSError:
+        return None
+
+
+def identity(path: Path | str) -> str:
+    """Return what all paths to one file have in common; of one that may not be looked at, the path."""
+    return real_path(path) or str(path)
 
 
 def as_walked(path: Path) -> Path:
@@ -72,26 +100,21 @@ def as_walked(path: Path) -> Path:
     """
     steps = path.absolute().parts
     climbed = len(steps) - steps[::-1].index("..") if ".." in steps else 0
-    return Path(os.path.realpath(Path(*steps[:climbed])), *steps[climbed:]) if climbed else Path(*steps)
+    return Path(identity(Path(*steps[:climbed])), *steps[climbed:]) if climbed else Path(*steps)
 
 
 def _top_of(place: Path) -> Path:
     """Return the package or repository in which a file or folder lies, else its folder, or the folder itself."""
-    folder = place if _is_folder(place) else place.parent
-    tops = (top for top in (folder, *folder.parents) if any((top / marker).exists() for marker in MARKERS))
+    # os.path answers for names that no file can have and what may not be looked at, where pathlib raises.
+    folder = place if os.path.isdir(place) else place.parent  # noqa: PTH112
+    tops = (top for top in (folder, *folder.parents) if any(map(os.path.exists, (top / marker for marker in MARKERS))))
     return next(tops, folder)
-
-
-def _is_folder(place: Path) -> bool:
-    try:
-        return place.is_dir()
-    except OSError:  # A name that is too long.
-        return False
 
 
 def _search_path(variable: str) -> Iterator[Path]:
     return (Path(entry).absolute() for entry in os.environ.get(variable, "").split(os.pathsep) if entry)
 
 
-def _real(path: Path) -> Path:
-    return Path(os.path.realpath(path))
+def _real(paths: Iterable[Path]) -> tuple[Path, ...]:
+    """Return the real ones of paths, without those that may not be looked at."""
+    return tuple(dict.fromkeys(Path(real) for real in map(real_path, paths) if real is not None))

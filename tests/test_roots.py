@@ -1,5 +1,6 @@
 """What a spec may make the compiler read: its package or repository, what its user named, and what is installed."""
 
+import errno
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -78,6 +79,67 @@ def test_what_is_refused_says_where_it_leads_and_what_may_be_read(tmp_path: Path
     ]
 
 
+def test_what_is_refused_tells_where_links_lead_in_the_folders_alone(tmp_path: Path):
+    """Whose links lie outside is somebody else: `/proc/self/cwd` would tell a stranger of a server's folders."""
+    (tmp_path / "secret").mkdir()
+    (tmp_path / "self").symlink_to(tmp_path / "secret")
+    folder = tmp_path / "cell"
+    ways = {}
+    for file in (str(tmp_path / "self" / "part.robot.yaml"), "../self/part.robot.yaml", "link/part.robot.yaml"):
+        spec = using(folder / "cell.robot.yaml", file)
+        if file.startswith("link"):
+            (folder / "link").symlink_to(tmp_path / "secret")
+        [diagnostic] = compile_file(spec).diagnostics
+        ways[file] = Path(diagnostic.notes[0].message.removeprefix("it leads to ")).parent.name
+    assert list(ways.values()) == ["self", "self", "secret"]
+
+
+@pytest.fixture
+def closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder that nobody may look into, not even root, who runs tests in containers."""
+    folder = tmp_path / "closed"
+
+    def refusing(look: Callable[..., object]) -> Callable[..., object]:
+        def looked(path: object, *more: object, **options: object) -> object:
+            if isinstance(path, str | Path) and Path(path).is_relative_to(folder):
+                raise PermissionError(errno.EACCES, "Permission denied", str(path))
+            return look(path, *more, **options)
+
+        return looked
+
+    for module, name in ((os.path, "realpath"), (os, "stat"), (os, "lstat")):
+        monkeypatch.setattr(module, name, refusing(getattr(module, name)))
+    return folder
+
+
+MESH = "{visual: {mesh: 'CLOSED/x.stl'}}"
+
+
+@pytest.mark.parametrize(
+    ("section", "code"),
+    [
+        ("data: {d: 'CLOSED/d.yaml'}\nlinks: {base: }", "LF3401"),
+        ("include: ['CLOSED/x.robot.yaml']\nlinks: {base: }", "LF3401"),
+        ("links: {base: }\nmodules: {m: {use: 'CLOSED/x.robot.yaml', parent: base}}", "LF3401"),
+        ("links: {base: }\nmodules: {m: {use: 'CLOSED/x.urdf', parent: base}}", "LF3401"),
+        ("links: {base: }\nmodules: {m: {use: 'CLOSED/x.xacro', parent: base}}", "LF3401"),
+        (f"links: {{base: {MESH}}}", "LF3402"),
+        ("links: {base: {collision: {mesh: 'CLOSED/x.stl'}, inertial: {mass: 1}}}", "LF3401"),
+    ],
+)
+@pytest.mark.parametrize("allow_outside", [False, True])
+def test_what_may_not_be_looked_at_is_told_at_its_place(section: str, code: str, allow_outside: bool, closed: Path):
+    """The rest is told as ever."""
+    text = f"linkforge: 1\nname: cell\nbogus: 1\n{section}\n".replace("CLOSED", str(closed))
+    spec = written(closed.parent / "cell" / "cell.robot.yaml", text)
+    told = check_file(spec, allow_outside=allow_outside).diagnostics
+    assert "LF2101" in {one.code.id for one in told}
+    [refused] = [one for one in told if one.code.id != "LF2101"]
+    assert refused.span is not None
+    assert refused.span.line >= 4
+    assert allow_outside or refused.code.id == code
+
+
 def test_what_is_refused_is_not_looked_for(tmp_path: Path):
     """A file that is there, one that is not, and a folder are told alike: a stranger learns nothing of them."""
     written(tmp_path / "part.robot.yaml")
@@ -85,6 +147,12 @@ def test_what_is_refused_is_not_looked_for(tmp_path: Path):
     for name in ("part", "folder", "missing"):
         spec = using(tmp_path / "cell" / "cell.robot.yaml", f"../{name}.robot.yaml")
         assert codes(check_file(spec)) == REFUSED
+
+
+def test_a_spec_in_a_folder_that_may_not_be_looked_at_is_told_itself(closed: Path):
+    """And no `package.xml` beside it, for which nobody asked."""
+    [unreadable] = check_file(closed / "arm.robot.yaml").diagnostics
+    assert str(unreadable).endswith(f"'{closed}/arm.robot.yaml' cannot be read: permission denied [LF3002]")
 
 
 def through_a_link_to_a_file(folder: Path) -> str:

@@ -152,7 +152,9 @@ class MeshFinder:
             return None
         # A package may lie in several places, and the resolver takes the one that holds the file.
         path = folder / inside
-        return path if path.exists() else self._resolved(f"package://{package}/{inside}") or path
+        # os.path answers for what may not be looked at as well, where pathlib raises.
+        is_there = os.path.exists(path)  # noqa: PTH110
+        return path if is_there else self._resolved(f"package://{package}/{inside}") or path
 
     def _resolved(self, uri: str) -> Path | None:
         try:
@@ -164,8 +166,8 @@ class MeshFinder:
         """Return what lies in a folder that lacks this file, spelt like this; None where it is there."""
         names = self._listed(path.parent)
         if names is None:
-            return None if path.is_file() else frozenset()
-        return None if path.name in names and path.is_file() else names
+            return None if _is_file(path) else frozenset()
+        return None if path.name in names and _is_file(path) else names
 
     def _listed(self, folder: Path) -> frozenset[str] | None:
         if folder not in self._names:
@@ -174,6 +176,11 @@ class MeshFinder:
             except OSError:
                 self._names[folder] = None
         return self._names[folder]
+
+
+def _is_file(path: Path) -> bool:
+    # os.path answers for what may not be looked at as well, where pathlib raises.
+    return os.path.isfile(path)  # noqa: PTH113
 
 
 def look_at(path: Path, effort: Effort) -> MeshFile:

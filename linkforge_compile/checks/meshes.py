@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -47,13 +48,18 @@ def check_mesh_files(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     for use in {(use.mesh.resource, use.mesh.scale): use for use in reversed(judged)}.values():
         path = finder.path(use.mesh.resource)
         if path and finder.names_instead_of(path) is not None:
-            missing.setdefault(path if path.parent.is_dir() else path.parent, []).append(use)
+            missing.setdefault(path if _is_folder(path.parent) else path.parent, []).append(use)
         elif diagnostic := _fault_in(meshes, use.mesh):
             yield diagnostic
     for path, uses in missing.items():
         yield _missing(path, uses[::-1], finder)
     if unseen := [use for use in judged if use.mesh.resource in finder.unseen]:
         yield _told_together(unseen, UNSEEN_MESHES, "file")
+
+
+def _is_folder(path: Path) -> bool:
+    # os.path answers for what may not be looked at as well, where pathlib raises.
+    return os.path.isdir(path)  # noqa: PTH112
 
 
 def _missing(path: Path, uses: Sequence[MeshUse], finder: MeshFinder) -> Diagnostic:

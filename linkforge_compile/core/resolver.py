@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 from linkforge_compile.pattern import pattern
+from linkforge_compile.roots import identity
 
 _PACKAGE_URI = pattern(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
 _PACKAGE_NAME = pattern(r"<name>([^<]*)</name>")
@@ -57,7 +58,8 @@ class FileSystemResolver:
 
         """
         for candidate in self._candidates(uri, relative_to):
-            if candidate.exists():
+            # os.path answers for what may not be looked at as well, where pathlib raises.
+            if os.path.exists(candidate):  # noqa: PTH110
                 return candidate.absolute()
         raise FileNotFoundError(uri)
 
@@ -69,7 +71,7 @@ class FileSystemResolver:
             yield Path(_WINDOWS_DRIVE.sub("", uri.removeprefix("file://")))
         elif uri:
             if relative_to is not None:
-                yield (relative_to / uri).resolve()
+                yield Path(identity(relative_to / uri))
             yield Path(uri)
 
     def _package_folders(self, package: str, start: Path) -> Iterator[Path]:
@@ -81,7 +83,7 @@ class FileSystemResolver:
             yield Path(folder) / package
             if Path(folder).name == package:
                 yield Path(folder)
-        start = start.resolve()
+        start = Path(identity(start))
         for folder in islice((start, *start.parents), _LEVELS_UP):
             if folder.name == package or _declared_package(folder) == package:
                 yield folder

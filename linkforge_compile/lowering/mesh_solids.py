@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,6 +27,7 @@ from linkforge_compile.modules.mesh_files import FindMesh, misspelt_part
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.path_starts import looked_for, written_place
 from linkforge_compile.modules.paths import as_typed
+from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar
 
@@ -81,7 +81,7 @@ class MeshSolids:
             BeyondLimitError: The meshes of the compile are too much together.
 
         """
-        real = os.path.realpath(path)
+        real = identity(path)
         if real not in self._known:
             content = self._content(path)
             if content is None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -19,6 +18,7 @@ from linkforge_compile.diagnostics.codes.files import (
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.modules.whole import Whole
 from linkforge_compile.named_tuple import NamedTuple
+from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import (
     YamlEntry,
@@ -66,7 +66,7 @@ class _Laying:
         self._tree = tree
         self._read = read
         self._sink = sink
-        self._known = {_real(file.path): file} if file.path else {}
+        self._known = {identity(file.path): file} if file.path else {}
         self._is_full = False
         self._lacks = isinstance(tree.get("include"), YamlFault)
 
@@ -95,7 +95,7 @@ class _Laying:
             return
         file, tree = included
         way = (*chain.way, item.text)
-        self._known[_real(path)], self.ways[file] = file, way
+        self._known[identity(path)], self.ways[file] = file, way
         self._lacks |= isinstance(tree.get("include"), YamlFault)
         own = self._without_the_main_files(tree)
         self._tree = _laid(self._tree, own, (), self._sink)
@@ -103,7 +103,7 @@ class _Laying:
 
     def _is_known(self, path: Path, item: YamlScalar, chain: _Chain) -> bool:
         """Whether the file is laid in already, which is reported."""
-        known = self._known.get(_real(path))
+        known = self._known.get(identity(path))
         if known is None:
             return False
         if known in chain.files:
@@ -196,7 +196,3 @@ def _why_not_plain(path: str, folder: Path | None) -> str | None:
 def _circle(files: tuple[SourceFile, ...], item: YamlScalar) -> Diagnostic:
     names = [Path(file.name).name for file in files]
     return INCLUDE_CIRCLE.at(item.span, path=" → ".join([*names, names[0]]))
-
-
-def _real(path: Path) -> str:
-    return os.path.realpath(path)

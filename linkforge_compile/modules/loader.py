@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,7 +18,7 @@ from linkforge_compile.modules.path_starts import looked_for
 from linkforge_compile.modules.paths import as_typed, names_in
 from linkforge_compile.modules.trees import known_source, tree_of
 from linkforge_compile.modules.whole import Whole, reached
-from linkforge_compile.roots import ANYWHERE, Roots
+from linkforge_compile.roots import ANYWHERE, Roots, identity
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.encoding import EncodingError, begins_xml, place_of_byte, xml_text
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
@@ -145,7 +144,7 @@ class Loader:
         None where it cannot be read, which is reported at the `use`, or is no spec, which is reported inside it.
         """
         # Paths are compared by what they lead to and shown as they were reached.
-        real = os.path.realpath(path)
+        real = identity(path)
         if real not in self._specs:
             is_urdf = path.suffix.lower() == ".urdf"
             text = self._text(path, used or Used(str(as_typed(path)), None), sink, _xml_text if is_urdf else _spec_text)
@@ -162,7 +161,7 @@ class Loader:
 
     def open_xml(self, path: Path, sink: Diagnostics, used: Used | None = None) -> SourceFile | None:
         """Read a text of XML in the encoding that it says; `used` says by what, None for the command line."""
-        real = os.path.realpath(path)
+        real = identity(path)
         if real not in self._xml:
             text = self._text(path, used or Used(str(as_typed(path)), None), sink, _xml_text)
             if text is None:
@@ -180,7 +179,7 @@ class Loader:
 
     def open_data(self, path: Path, sink: Diagnostics, tags: Tags, used: Used) -> YamlNode | None:
         """Read a file of data, which may be of any shape and hold `tags`; None where it cannot be had, as reported."""
-        real = os.path.realpath(path)
+        real = identity(path)
         if real not in self._data:
             text = self._text(path, used, sink)
             if text is None:
@@ -203,7 +202,9 @@ class Loader:
         """Whether a file may be read by whoever names it; reports why not, be there a file or not."""
         if used.where is None or self.roots.hold(path):
             return True
-        notes = [Note(f"it leads to {os.path.realpath(path)}"), Note(f"what may be read lies in {self.roots}")]
+        way = self.roots.told(path)
+        notes = [Note(f"it leads to {way}")] if way else []
+        notes.append(Note(f"what may be read lies in {self.roots}"))
         name = used.text.removeprefix(_PACKAGE).partition("/")[0] if used.text.startswith(_PACKAGE) else "NAME"
         sink.report(OUTSIDE_ROOTS.at(used.where, path=used.text, name=name, notes=notes))
         return False

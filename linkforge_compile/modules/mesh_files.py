@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TypeAlias
@@ -43,6 +44,7 @@ def no_mesh(path: str, where: Span, sink: Diagnostics) -> Path | None:
 def misspelt_part(path: Path) -> tuple[str, tuple[str, ...]]:
     """Return the first part of a path that is not there, and the names that stand in its place."""
     missing = path
-    while not missing.parent.is_dir() and missing.parent != missing:
+    # os.path answers for what may not be looked at as well, where pathlib raises.
+    while not os.path.isdir(missing.parent) and missing.parent != missing:  # noqa: PTH112
         missing = missing.parent
     return missing.name, names_in(missing.parent)

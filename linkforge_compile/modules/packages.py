@@ -58,7 +58,7 @@ def _in_source_tree(name: str, start: Path | None) -> Iterator[Path]:
 def _in_ament(name: str) -> Iterator[Path]:
     for prefix in _search_path("AMENT_PREFIX_PATH"):
         folder = prefix / "share" / name
-        if folder.is_dir():
+        if os.path.isdir(folder):  # noqa: PTH112 - answers for what may not be looked at as well
             yield folder
 
 
@@ -67,7 +67,8 @@ def _in_ros_1(name: str) -> Iterator[Path]:
     for root in _search_path("ROS_PACKAGE_PATH"):
         if _manifest_name(root) == name:
             yield root
-        yield from (path.parent for path in (root / name / "package.xml",) if path.is_file())
+        if os.path.isfile(root / name / "package.xml"):  # noqa: PTH113 - answers for what may not be looked at as well
+            yield root / name
         yield from (path.parent for path in sorted(root.glob(f"*/{name}/package.xml")))
 
 

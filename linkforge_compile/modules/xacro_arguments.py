@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +12,7 @@ from linkforge_compile.modules.listing import ListedParameter, Listing
 from linkforge_compile.modules.loader import Loader, Used
 from linkforge_compile.modules.packages import find_package
 from linkforge_compile.modules.xacro_faults import in_order
+from linkforge_compile.roots import identity
 
 if TYPE_CHECKING:
     from linkforge_compile.importers.xml import XmlElement
@@ -62,7 +62,7 @@ class _Search:
         return document.root if document else None
 
     def look_into(self, root: XmlElement, path: Path, depth: int = 0) -> None:
-        self._seen.add(os.path.realpath(path))
+        self._seen.add(identity(path))
         for element in in_order(root):
             name, included = element.get("name"), element.get("filename")
             if element.tag == "xacro:arg" and name:
@@ -75,7 +75,7 @@ class _Search:
         place = element.span
         try:
             path = user.parent / self._resolved(name, user)
-            if os.path.realpath(path) in self._seen:
+            if identity(path) in self._seen:
                 return
             root = self._included(path, name, place, depth)
         except _NotListedError as error:
