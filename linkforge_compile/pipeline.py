@@ -14,6 +14,7 @@ from linkforge_compile.checks import check
 from linkforge_compile.collector import resting
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
+from linkforge_compile.diagnostics.suggest import suggesting
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
@@ -275,6 +276,7 @@ def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation
 
 
 @resting()
+@suggesting()
 def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilation:
     require_dialect(settings.gazebo)
     sink = Diagnostics()

@@ -115,6 +115,13 @@ SPECS: dict[str, tuple[str, str | bytes]] = {
         + "parameters:\n"
         + "".join(f"  p{i}: {{type: string, pattern: '(a?){{480}}z|{i}', default: {'a' * 999}}}\n" for i in range(99)),
     ),
+    "names that are like one another": (
+        "LF4102",
+        HEAD
+        + "".join(f"  {'ab' * 40}{i}:\n" for i in range(500))
+        + "joints:\n"
+        + "".join(f"  j{i}: {{type: fixed, parent: {'ab' * 40}x{i}, child: {'ab' * 40}y{i}}}\n" for i in range(40)),
+    ),
     "one line of 15 MB": ("LF2201", "linkforge: 1\nname: r\nlinks: " + "x" * 15_000_000),
     "no UTF-8": ("LF3002", b"linkforge: 1\nname: \xff\xfe\n"),
     "UTF-16": ("LF3002", HEAD.encode("utf-16")),

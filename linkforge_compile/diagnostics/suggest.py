@@ -2,29 +2,95 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from itertools import islice
 
 _MOST_COMPARED = 500
+_LONGEST = 200
+"""Letters of a name that is still compared: of a longer one nobody sees what is wrong by the other beside it."""
+
+_LEAST_LIKENESS = 0.7
+
+_STEPS_OF_A_NAME = 100_000
+_STEPS_OF_A_COMPILE = 10_000_000
+"""A step looks at a letter or a name and takes some tenths of a microsecond."""
+
+_STEPS_OF_A_COUNT = 10
+"""What counting the letters of a name takes beside the letters."""
+
+
+class _Steps:
+    """What a compile may still spend on names that were probably meant."""
+
+    def __init__(self) -> None:
+        self.left = _STEPS_OF_A_COMPILE
+
+
+_SHARED: ContextVar[_Steps | None] = ContextVar("_SHARED", default=None)
+
+
+@contextmanager
+def suggesting() -> Iterator[None]:
+    """Have all names within share the steps of one compile: when they are spent, nothing more is suggested."""
+    token = _SHARED.set(_Steps())
+    try:
+        yield
+    finally:
+        _SHARED.reset(token)
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate most like `name`, None where none is like it."""
-    # difflib costs 3 ms to import and most runs never need it.
-    from difflib import get_close_matches
-
+    """Return the candidate most like `name`, None where none is like it or that would take too long to find."""
+    steps = _SHARED.get() or _Steps()
+    if not 0 < len(name) <= _LONGEST or steps.left <= 0:
+        return None
     pool = dict.fromkeys(candidates)
+    steps.left -= len(pool)
     if len(pool) > _MOST_COMPARED:
         # Each comparison takes some microseconds; a misspelling mostly keeps the length and the first letter.
         like = (one for one in pool if abs(len(one) - len(name)) < 3 and one[:1].casefold() == name[:1].casefold())
         pool = dict.fromkeys(islice(like, _MOST_COMPARED))
-    if not name or not pool:
-        return None
-    folded = {candidate.casefold(): candidate for candidate in reversed(pool)}
+    near = [candidate for candidate in pool if len(candidate) <= _LONGEST]
+    folded = {candidate.casefold(): candidate for candidate in reversed(near)}
     if name.casefold() in folded:
         return folded[name.casefold()]
-    matches = get_close_matches(name, list(pool), n=1, cutoff=0.7)
-    return matches[0] if matches else _with_letters_swapped(name, pool) or _without_prefix(name, pool)
+    return _most_like(name, near, steps) or _with_letters_swapped(name, near) or _without_prefix(name, near)
+
+
+def _most_like(name: str, candidates: Iterable[str], steps: _Steps) -> str | None:
+    """Return what difflib's `get_close_matches` does, without the comparisons that cannot change it.
+
+    Two names are never more alike than their letters are in any order, which is cheap to count: with those that may be
+    most alike first, nearly always one or two are compared, also where all names of a robot differ by a number.
+    """
+    counts = Counter(name)
+    possible = []
+    for other in candidates:
+        most = 2.0 * min(len(name), len(other)) / (len(name) + len(other))
+        if most >= _LEAST_LIKENESS:
+            steps.left -= _STEPS_OF_A_COUNT + len(counts)
+            common = sum(min(count, other.count(letter)) for letter, count in counts.items())
+            possible.append((2.0 * common / (len(name) + len(other)), other))
+    best = (_LEAST_LIKENESS, "")
+    if max(possible, default=best) < best:
+        return None
+    # difflib costs 3 ms to import and most runs never need it.
+    from difflib import SequenceMatcher
+
+    matcher = SequenceMatcher(b=name)
+    left = min(steps.left, _STEPS_OF_A_NAME)
+    for most_and_other in sorted(possible, reverse=True):
+        if most_and_other <= best or left <= 0:
+            break
+        other = most_and_other[1]
+        matcher.set_seq1(other)
+        best = max(best, (matcher.ratio(), other))
+        left -= len(name) * len(other)
+        steps.left -= len(name) * len(other)
+    return best[1] or None
 
 
 def _with_letters_swapped(name: str, candidates: Iterable[str]) -> str | None:

@@ -1,10 +1,11 @@
 """Diagnostics as values, and as the text that a person reads."""
 
+from difflib import get_close_matches
 from textwrap import dedent
 
 import pytest
 
-from linkforge_compile.diagnostics import Code, Diagnostics, Gaps, Note, Severity
+from linkforge_compile.diagnostics import Code, Diagnostics, Gaps, Note, Severity, suggest
 from linkforge_compile.diagnostics.render.text import render_text, summary
 from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
 from linkforge_compile.source import SourceFile, SourceRef, Span
@@ -39,6 +40,27 @@ def test_the_near_name_is_offered():
 )
 def test_nearest(name: str, candidates: list[str], meant: str | None):
     assert nearest(name, candidates) == meant
+
+
+@pytest.mark.parametrize("name", ["left_finger_3_lnk", "left_fnger_1", "right_fingers", "finger", "camera", "lefft"])
+def test_the_nearest_name_is_that_of_difflib(name: str):
+    sides = [f"{side}_finger_{i}_link" for side in ("left", "right") for i in range(20)]
+    names = [*sides, *[one.removesuffix("_link") for one in sides], "left", "leaf", "knil_3_regnif_tfel"]
+    assert [nearest(name, names)] == (get_close_matches(name, names, n=1, cutoff=0.7) or [None])
+
+
+def test_nothing_is_suggested_when_a_compile_has_looked_for_long(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(suggest, "_STEPS_OF_A_COMPILE", 100)
+    with suggest.suggesting():
+        asked = [nearest("hnad", ["hand", "base"]) for _ in range(20)]
+    assert asked[0] == "hand"
+    assert asked[-1] is None
+    assert nearest("hnad", ["hand", "base"]) == "hand"
+
+
+def test_a_name_that_nobody_can_compare_by_eye_is_not_offered():
+    assert nearest("ab" * 5_000, ["ab" * 5_000 + "c", "ab"]) is None
+    assert nearest("hnad", ["ab" * 5_000, "hand"]) == "hand"
 
 
 def test_a_name_is_not_offered_for_itself():
