@@ -33,11 +33,15 @@ def schema_of(root: Path, packages: Mapping[str, Path], *, runs_xacro: bool = Tr
     return workspace_text(vocabularies)
 
 
+def _tell_unread(error: OSError) -> None:
+    to_stderr(f"'{error.filename}' cannot be read: {(error.strerror or '').lower()}; names may be missing\n")
+
+
 def _specs(root: Path) -> tuple[Path, ...]:
     from linkforge_compile.editor import TooManyFilesError, specs_below
 
     try:
-        specs = specs_below(root)
+        specs = specs_below(root, unread=_tell_unread)
     except TooManyFilesError as error:
         raise UsageError(f"there are {error} below '{root}'; name the folder of the robots") from error
     if not specs:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 SPEC_ENDINGS = (".robot.yaml", ".robot.yml")
@@ -21,17 +21,20 @@ class TooManyFilesError(Exception):
     """There is more below a folder than a repository of robots has; says what."""
 
 
-def specs_below(root: Path, at_most: int = MAX_SPECS) -> tuple[Path, ...]:
+def specs_below(
+    root: Path, at_most: int = MAX_SPECS, *, unread: Callable[[OSError], object] | None = None
+) -> tuple[Path, ...]:
     """Return the specs in a folder and below it, sorted; nothing hidden, nothing in linked folders and what tools made.
 
-    A link to one of them is the same spec once more, and left out.
+    A link to one of them is the same spec once more, and left out, and so are pipes and devices. `unread` takes the
+    error of each folder that cannot be read; None where nobody wants to know.
 
     Raises:
         TooManyFilesError: For more specs than `at_most`, or than MAX_FOLDERS folders.
 
     """
     found: list[Path] = []
-    for spec in _specs(root):
+    for spec in _specs(root, unread):
         found.append(spec)
         if len(found) > at_most:
             raise TooManyFilesError(f"more than {at_most} specs")
@@ -44,10 +47,17 @@ def _is_another(link: Path, files: set[str]) -> bool:
     return link.is_file() and os.path.realpath(link) not in files
 
 
-def _specs(root: Path) -> Iterator[Path]:
-    for number, (folder, inner, files) in enumerate(os.walk(root), start=1):
+def _is_special(path: Path) -> bool:
+    """Whether it is a pipe or a device, for which a reader may wait."""
+    # os.path answers for what may not be looked at as well, where pathlib raises.
+    return os.path.exists(path) and not os.path.isfile(path)  # noqa: PTH110, PTH113
+
+
+def _specs(root: Path, unread: Callable[[OSError], object] | None) -> Iterator[Path]:
+    for number, (folder, inner, files) in enumerate(os.walk(root, onerror=unread), start=1):
         if number > MAX_FOLDERS:
             raise TooManyFilesError(f"more than {MAX_FOLDERS} folders")
         # What is taken out here is not walked into.
         inner[:] = sorted(name for name in inner if not name.startswith(".") and name not in _NOT_SOURCES)
-        yield from (Path(folder, name) for name in files if name.endswith(SPEC_ENDINGS) and not name.startswith("."))
+        named = (Path(folder, name) for name in files if name.endswith(SPEC_ENDINGS) and not name.startswith("."))
+        yield from (path for path in named if not _is_special(path))

@@ -1,6 +1,11 @@
 """`linkforge check`, run as a program."""
 
+import errno
+import os
+from collections.abc import Callable
 from pathlib import Path
+
+import pytest
 
 from tests.cli.in_process import linkforge
 from tests.cli.test_compile import PENDULUM
@@ -110,3 +115,31 @@ def test_a_folder_without_specs_is_no_clean_one(tmp_path: Path):
     run = linkforge("check", "empty", "good.robot.yaml", cwd=tmp_path)
     assert run.returncode == 1
     assert "there is no spec, NAME.robot.yaml, in the folder 'empty' or below it [LF3067]" in run.stderr
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names")
+def test_a_pipe_that_is_found_by_searching_is_no_spec(tmp_path: Path):
+    os.mkfifo(tmp_path / "pipe.robot.yaml")
+    (tmp_path / "good.robot.yaml").write_text(PENDULUM)
+    assert linkforge("check", cwd=tmp_path).stderr.startswith("checked 1 spec:")
+
+
+def test_a_folder_that_cannot_be_read_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Its specs are not checked, so the check fails; and the schema of the workspace may lack their names."""
+    (tmp_path / "closed").mkdir()
+    (tmp_path / "good.robot.yaml").write_text(PENDULUM)
+    look: Callable[[str], object] = os.scandir
+
+    def scandir(folder: str) -> object:
+        if Path(folder).name == "closed":
+            raise PermissionError(errno.EACCES, "Permission denied", folder)
+        return look(folder)
+
+    monkeypatch.setattr(os, "scandir", scandir)
+    run = linkforge("check", ".", cwd=tmp_path)
+    assert run.returncode == 1
+    assert "error: './closed' cannot be read: permission denied [LF3002]" in run.stderr
+    assert "checked 1 spec: 1 error" in run.stderr
+    assert "closed' cannot be read: permission denied; names may be missing" in (
+        linkforge("schema", "--workspace", ".", cwd=tmp_path).stderr
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -55,14 +55,15 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.diagnostics.render.text import summary
 
     words, assignments = split_assignments(arguments.words)
-    meant = {word: _specs(word) for word in words or ["."]}
+    unread: list[OSError] = []
+    meant = {word: _specs(word, unread.append) for word in words or ["."]}
     specs = list(dict.fromkeys(spec for ours in meant.values() for spec in ours))
     if arguments.all_variants and arguments.variant is not None:
         raise UsageError("takes --variant or --all-variants, not both")
     if arguments.all_variants and "-" in specs:
         raise UsageError("--all-variants takes files, not standard input")
     # Specs that use one module share its faults: each is told and counted once.
-    found = {str(one): one for one in _without_specs(meant)}
+    found = {str(one): one for one in _without_specs(meant, unread)}
     reports = _without_parts({spec: _report(_checked(spec, assignments, arguments)) for spec in specs})
     for report in reports.values():
         for diagnostic in report.diagnostics:
@@ -78,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
     return FAULTY_SPEC if has_errors(told) else OK
 
 
-def _specs(word: str) -> tuple[str, ...]:
+def _specs(word: str, unread: Callable[[OSError], object]) -> tuple[str, ...]:
     """Return what a word of the command line means: itself, or every spec in a folder and below, if any."""
     # Path.is_dir raises for a name that is too long.
     if not os.path.isdir(word):  # noqa: PTH112
@@ -86,15 +87,19 @@ def _specs(word: str) -> tuple[str, ...]:
     from linkforge_compile.editor.specs import TooManyFilesError, specs_below
 
     try:
-        return tuple(map(str, specs_below(Path(word), _MAX_SPECS)))
+        return tuple(map(str, specs_below(Path(word), _MAX_SPECS, unread=unread)))
     except TooManyFilesError as error:
         raise UsageError(f"there are {error} below '{word}'; name the folders of the robots") from error
 
 
-def _without_specs(meant: Mapping[str, tuple[str, ...]]) -> Iterator[Diagnostic]:
-    from linkforge_compile.diagnostics.codes.modules import NO_SPEC_BELOW
+def _without_specs(meant: Mapping[str, tuple[str, ...]], unread: Sequence[OSError]) -> Iterator[Diagnostic]:
+    """Tell of folders that cannot be read, in which specs may lie; where there are none, of those that hold no spec."""
+    from linkforge_compile.diagnostics.codes.modules import NO_SPEC_BELOW, UNREADABLE_FILE
 
-    return (NO_SPEC_BELOW.at(None, path=word) for word, specs in meant.items() if not specs)
+    for error in unread:
+        yield UNREADABLE_FILE.at(None, path=error.filename, reason=(error.strerror or "").lower())
+    if not unread:
+        yield from (NO_SPEC_BELOW.at(None, path=word) for word, specs in meant.items() if not specs)
 
 
 def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Mapping[str | None, Compilation]:
