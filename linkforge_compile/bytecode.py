@@ -22,8 +22,8 @@ T = TypeVar("T")
 # Two pre-releases of Python may have one tag and two kinds of bytecode.
 _FOR = f"{sys.implementation.cache_tag}-{MAGIC_NUMBER[:2].hex()}"
 
-_BROKEN = (OSError, EOFError, ValueError, LookupError, TypeError)
-"""What reading a file raises that is not there, or that is not whole."""
+_BROKEN = (OSError, EOFError, ValueError, LookupError, TypeError, SystemError, MemoryError, OverflowError)
+"""What reading a file raises that is not there, or that is not whole: marshal trusts the lengths and code it finds."""
 
 
 def _stamp(files: Iterable[Path]) -> str:

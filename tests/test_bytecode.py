@@ -69,6 +69,13 @@ def test_a_broken_file_is_made_again(tmp_path: Path) -> None:
         assert _asked(tmp_path, "again") == "again"
 
 
+def test_a_file_of_code_whose_end_was_not_written_is_made_again(tmp_path: Path) -> None:
+    _asked(tmp_path, compile("def move(self):\n    self.moved = True\n", "joint.py", "exec"))
+    [place] = (tmp_path / "cache").rglob("*.marshal")
+    place.write_bytes(place.read_bytes()[:-4] + bytes(4))  # for which marshal raises SystemError
+    assert [_asked(tmp_path, "again"), _asked(tmp_path, "later")] == ["again", "again"]
+
+
 def test_nothing_is_left_where_python_leaves_no_bytecode(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "dont_write_bytecode", True)
     assert [_asked(tmp_path, "first"), _asked(tmp_path, "second")] == ["first", "second"]

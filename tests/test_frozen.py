@@ -361,6 +361,20 @@ def test_either_gives_the_fields_of_both(cls):
         assert all(isinstance(one, dataclasses.Field) for one in theirs)
 
 
+def test_a_thread_that_asks_for_fields_as_another_one_gets_them_gets_the_same():
+    @dataclass(frozen=True, slots=True)
+    class Arm(Mass):
+        name: str
+
+    class Forearm(Arm):
+        pass
+
+    asked = vars(Arm)["__dataclass_fields__"]  # what both threads have in hand
+    gotten = dataclasses.fields(Arm)
+    for cls in (Arm, Forearm):
+        assert tuple(asked.__get__(None, cls).values()) == gotten
+
+
 def test_with_a_field_of_the_standard_library_it_is_the_standard_librarys():
     @dataclass(frozen=True, slots=True)
     class Mass:

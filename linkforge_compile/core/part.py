@@ -108,8 +108,8 @@ class Inside(Element):
 
 def attribute_pairs(attributes: Sequence[tuple[str, str]] | Mapping[str, str]) -> tuple[tuple[str, str], ...]:
     """Return (name, value) pairs in the order given."""
-    if not attributes:
-        return ()
+    if attributes is _NOTHING:
+        return attributes  # nearly all
     pairs = attributes.items() if isinstance(attributes, Mapping) else attributes
     return tuple((name, value) for name, value in pairs)
 

@@ -54,7 +54,7 @@ def _copier_of(kind: type[Any]) -> _Copier:
     if kind.SHARED:
         copier = _keeping_the_last(kind, copier)
     _COPIERS[kind] = copier
-    if kind.with_prefix.__module__ == _HOME_OF_WITH_PREFIX:
+    if not _has_own_way(kind):
         _DIRECT[kind] = copier
     return copier
 
@@ -81,8 +81,6 @@ def is_harmless(prefix: str) -> bool:
 
 _OURS = f"{__name__.partition('.')[0]}."
 _COPIERS: dict[type, _Copier] = {}
-
-_HOME_OF_WITH_PREFIX = f"{_OURS}core.part"
 _DIRECT: dict[type, _Copier] = {}
 """The copiers of classes that have no `with_prefix` of their own: what holds such parts need not ask them for it."""
 
@@ -93,8 +91,13 @@ def _ask(part: Any, prefix: str) -> Any:
 
 def _ask_or_learn(part: Any, prefix: str, shared: Copies) -> Any:
     kind = part.__class__
-    has_own_way = kind.with_prefix.__module__ != _HOME_OF_WITH_PREFIX
-    return _ask(part, prefix) if has_own_way else _copier_of(kind)(part, prefix, shared)
+    return _ask(part, prefix) if _has_own_way(kind) else _copier_of(kind)(part, prefix, shared)
+
+
+def _has_own_way(kind: type[Any]) -> bool:
+    from linkforge_compile.core.part import Part  # which imports this module
+
+    return kind.with_prefix is not Part.with_prefix
 
 
 def _constructed_copy(part: Any, prefix: str, shared: Copies) -> Any:
@@ -138,7 +141,8 @@ def _written_copier(kind: type[Any]) -> _Copier:
 def _opened(kind: type[Any]) -> type[Any]:
     """Return the class without its refusal to set a field, which lets Python set slots in a fifth of the time.
 
-    It has the same slots, so that Python takes an object of it for one of the class once it is told to.
+    It has the same slots, so that Python takes an object of it for one of the class once it is told to. Whoever asks
+    the class for its `__subclasses__()` finds this one among them from the first copy on.
     """
     plain = {name: vars(object)[name] for name in ("__init__", "__setattr__", "__delattr__")}
     return type(f"Opened{kind.__name__}", (kind,), {"__slots__": (), **plain})

@@ -12,7 +12,15 @@ from linkforge_compile.core.exceptions import (
     ValidationErrorCode,
 )
 from linkforge_compile.core.models.geometry import Box, Sphere, Transform, Vector3
-from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
+from linkforge_compile.core.models.link import (
+    Collision,
+    Inertial,
+    InertiaTensor,
+    Link,
+    LinkPhysics,
+    Visual,
+    prefixed_links,
+)
 from linkforge_compile.core.models.material import Color, Material
 
 BALL = Sphere(0.1)
@@ -120,3 +128,42 @@ def test_a_prefix_reaches_names_and_materials():
     assert prefixed.collisions[0].name == "left_c"
     assert link.name == "base"
     assert Visual(BALL).with_prefix("left_").name is None
+
+
+class Watched(Link):
+    """A link of a user's own, who looks at what is set, and has a property and a slot for fields."""
+
+    __slots__ = ("inertial",)
+
+    def __setattr__(self, field, value):
+        if field == "physics" and value.mu > 5:
+            raise ValueError(f"mu {value.mu}")
+        super().__setattr__(field, value)
+
+    @property
+    def visuals(self):
+        return self.seen
+
+    @visuals.setter
+    def visuals(self, visuals):
+        self.seen = tuple(visuals)
+
+
+def test_a_link_of_a_class_of_ones_own_sets_its_fields_in_its_way():
+    link = Watched("base", Inertial(2.0), visuals=[Visual(BALL)])
+    assert (link.visuals, link.mass) == ((Visual(BALL),), 2.0)
+    with pytest.raises(ValueError, match=r"mu 9\.0"):
+        Watched("base", physics=LinkPhysics(mu=9.0))
+
+
+@pytest.mark.parametrize("nothing", [None, 0, False])
+def test_what_is_no_list_of_attributes_is_refused(nothing):
+    with pytest.raises(TypeError):
+        Link("base", extra_attributes=nothing)
+    with pytest.raises(TypeError):
+        Visual(BALL, extra_attributes=nothing)
+
+
+def test_links_take_a_prefix_from_whatever_gives_them():
+    links = [Link("a"), Link("b")]
+    assert [link.name for link in prefixed_links(iter(links), "left_")] == ["left_a", "left_b"]

@@ -4,6 +4,7 @@ import gc
 import sys
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import wraps
 from subprocess import run
 from types import MappingProxyType
 from weakref import ref
@@ -342,6 +343,27 @@ def test_a_link_of_a_class_of_ones_own_is_asked_for_its_copy():
     assert [link.name for link in robot.links] == ["left_marked_a"]
 
 
+def told(method):
+    """Wrap `with_prefix` as somebody does who wants to know of each call."""
+
+    @wraps(method)
+    def with_prefix(part, prefix):
+        return replace(method(part, prefix), name="told")
+
+    return with_prefix
+
+
+class Told(Visual):
+    with_prefix = told(Visual.with_prefix)
+
+
+def test_a_part_with_a_wrapped_way_of_its_own_is_asked_for_its_copy():
+    visuals = (Told(Box(Vector3(1, 1, 1))),)
+    merged = Robot("station").merge(Robot("arm", links=[Link("a", visuals=visuals)]), None, None, "left_")
+    assert merged.links[0].visuals[0].name == "told"
+    assert Link("a", visuals=visuals).with_prefix("left_").visuals[0].name == "told"
+
+
 class Weak(str):
     """A name of which one can tell whether anybody still has it."""
 
@@ -361,6 +383,14 @@ def test_a_material_that_visuals_share_stays_one():
     arm = Robot("station", links=[Link("table")]).merge(painted("skin"), None, None, "left_")
     copies = {id(visual.material) for link in arm.links for visual in link.visuals}
     assert len(copies) == 1
+
+
+def test_a_material_stays_one_for_the_links_beside_one_of_a_class_of_ones_own():
+    arm = painted("skin")
+    arm.links = (arm.links[0], Marked("m"), arm.links[1])
+    arm.prefix_all("left_")
+    assert arm.links.names == ("left_a", "left_marked_m", "left_b")
+    assert len({id(visual.material) for link in arm.links for visual in link.visuals}) == 1
 
 
 @pytest.mark.parametrize(

@@ -192,8 +192,8 @@ class Link(Renamable):
         extra_elements: Sequence[str] = (),
         source: SourceRef | None = None,
     ) -> None:
-        # What dataclass writes sets each field as if it were a renaming: that takes three times as long.
-        vars(self).update(
+        _set_fields(
+            self,
             name=name,
             inertial=inertial,
             physics=physics,
@@ -209,7 +209,8 @@ class Link(Renamable):
     def __post_init__(self) -> None:
         require_name(self.name, "link name", "LinkName")
         require_valid_characters(self.name, "link name", "LinkName")
-        vars(self).update(
+        _set_fields(
+            self,
             visuals=tuple(self.visuals),
             collisions=tuple(self.collisions),
             shape_order=_kinds(self.shape_order),
@@ -268,11 +269,29 @@ class Link(Renamable):
         return link
 
 
-def prefixed_links(links: Sequence[Link], prefix: str) -> list[Link]:
-    """Return links as `with_prefix` of each gives them; what they share stays shared, if all are plain Links."""
-    # Somebody else's class may have a way of its own.
-    if not is_harmless(prefix) or not {*map(type, links)} <= {Link}:
+def _set_fields(link: Link, **values: object) -> None:
+    """Set fields of a link that is being made."""
+    if type(link) is Link:
+        vars(link).update(values)  # a third of what it takes to set each as if it were a renaming
+        return
+    for name, value in values.items():  # somebody else's class may have a property or slot for one, or look at it
+        setattr(link, name, value)
+
+
+def prefixed_links(links: Iterable[Link], prefix: str) -> list[Link]:
+    """Return links as `with_prefix` of each gives them; what they share stays shared among those that have ours."""
+    links = tuple(links)
+    if not is_harmless(prefix):
         return [link.with_prefix(prefix) for link in links]
+    ours = [link for link in links if type(link).with_prefix is Link.with_prefix]
+    copies = _harmless_copies_of_links(ours, prefix)
+    if len(ours) == len(links):
+        return copies
+    made = iter(copies)  # somebody else's class may have a way of its own
+    return [next(made) if type(link).with_prefix is Link.with_prefix else link.with_prefix(prefix) for link in links]
+
+
+def _harmless_copies_of_links(links: Sequence[Link], prefix: str) -> list[Link]:
     names = [prefixed(prefix, link.name) for link in links]
     if not (all(names) and is_valid_name("".join(names))):  # a link that was renamed in place may have any name
         for name in names:
