@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from linkforge_compile.checks.circles import told_circles
 from linkforge_compile.checks.references import Use
 from linkforge_compile.checks.tree import parent_joints, way_up
-from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps
 from linkforge_compile.diagnostics.codes.model import (
@@ -49,10 +48,10 @@ def check_chains(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     find no chain. Between two branches (from one hand to the other, say) it takes the joints of both: that is
     allowed, but solvers for a single arm refuse it.
     """
-    above = parent_joints(robot)
+    ways = _Ways(robot)
     for group in robot.semantic.groups:
         for chain in group.chains:
-            meeting = _meeting_link(chain, robot, above)
+            meeting = ways.meeting_link(chain)
             if meeting is None or meeting == chain.base_link:
                 continue
             code, end = (CHAIN_UPWARD, "base_link") if meeting == chain.tip_link else (CHAIN_ACROSS, "tip_link")
@@ -122,37 +121,57 @@ def group_links(robot: Robot) -> Mapping[str, frozenset[str]]:
         order = tuple(TopologicalSorter({name: group.subgroups for name, group in groups.items()}).static_order())
     except CycleError:
         return {}
-    above = parent_joints(robot)
+    ways = _Ways(robot)
     moved = {joint.name: joint.child_link for joint in robot.semantic.virtual_joints}
     moved.update((joint.name, joint.child) for joint in robot.joints)
     links: dict[str, frozenset[str]] = {}
     for name in order:
         group = groups.get(name)
-        own = _own_links(group, robot, above, moved) if group else None
+        own = _own_links(group, ways, moved) if group else None
         if group and own is not None and links.keys() >= set(group.subgroups):
-            links[name] = own.union(*(links[subgroup] for subgroup in group.subgroups))
+            links[name] = own.union(*(links[subgroup] for subgroup in group.subgroups)) if group.subgroups else own
     return links
 
 
-def _own_links(
-    group: PlanningGroup, robot: Robot, above: Mapping[str, Joint], moved: Mapping[str, str]
-) -> frozenset[str] | None:
-    links = {*group.links, *(moved.get(joint, "") for joint in group.joints)}
-    for chain in group.chains:
-        meeting = _meeting_link(chain, robot, above)
+def _own_links(group: PlanningGroup, ways: _Ways, moved: Mapping[str, str]) -> frozenset[str] | None:
+    named = frozenset((*group.links, *(moved.get(joint, "") for joint in group.joints)))
+    chains = [ways.links(chain) for chain in group.chains]
+    whole = [links for links in chains if links is not None]
+    if len(whole) < len(chains):
+        return None
+    links = whole[0] if len(whole) == 1 and not named else named.union(*whole)
+    return links if links <= ways.known else None
+
+
+class _Ways:
+    """The ways of chains through a robot, each walked once: many groups may name one long chain."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.known = frozenset(robot.links.names)
+        self._above = parent_joints(robot)
+        self._meetings: dict[tuple[str, str], str | None] = {}
+        self._links: dict[tuple[str, str], frozenset[str]] = {}
+
+    def meeting_link(self, chain: Chain) -> str | None:
+        """Return the lowest link that both ends are or hang on; None if there is none or an end is unknown."""
+        ends = (chain.base_link, chain.tip_link)
+        if not self.known.issuperset(ends):
+            return None
+        if ends not in self._meetings:
+            above_base = frozenset(way_up(chain.base_link, self._above))
+            on_both = (link for link in way_up(chain.tip_link, self._above) if link in above_base)
+            self._meetings[ends] = next(on_both, None)
+        return self._meetings[ends]
+
+    def links(self, chain: Chain) -> frozenset[str] | None:
+        """Return the links that a chain moves, one object for all chains with its ends; None without a meeting link."""
+        meeting = self.meeting_link(chain)
         if meeting is None:
             return None
-        for end in (chain.base_link, chain.tip_link):
-            way = way_up(end, above)
-            links.update(way[: way.index(meeting)])
-        if meeting != chain.base_link:
-            links.add(meeting)  # as MoveIt does
-    return frozenset(links) if all(map(robot.has_link, links)) else None
-
-
-def _meeting_link(chain: Chain, robot: Robot, above: Mapping[str, Joint]) -> str | None:
-    """Return the lowest link that both ends are or hang on; None if there is none or an end is unknown."""
-    if not (robot.has_link(chain.base_link) and robot.has_link(chain.tip_link)):
-        return None
-    above_base = frozenset(way_up(chain.base_link, above))
-    return next((link for link in way_up(chain.tip_link, above) if link in above_base), None)
+        ends = (chain.base_link, chain.tip_link)
+        if ends not in self._links:
+            ways = [way_up(end, self._above) for end in ends]
+            below = (link for way in ways for link in way[: way.index(meeting)])
+            # With the link where they meet, as MoveIt does, unless the chain leads down from it.
+            self._links[ends] = frozenset(below) | ({meeting} - {chain.base_link})
+        return self._links[ends]
