@@ -118,3 +118,21 @@ def _search_path(variable: str) -> Iterator[Path]:
 def _real(paths: Iterable[Path]) -> tuple[Path, ...]:
     """Return the real ones of paths, without those that may not be looked at."""
     return tuple(dict.fromkeys(Path(real) for real in map(real_path, paths) if real is not None))
+
+
+# os.path answers for what may not be looked at as well, where pathlib raises.
+
+
+def exists(path: Path) -> bool:
+    """Whether there is anything at a path; no where that may not be looked at."""
+    return os.path.exists(path)  # noqa: PTH110 see above
+
+
+def is_file(path: Path) -> bool:
+    """Whether there is a regular file at a path; no where that may not be looked at."""
+    return os.path.isfile(path)  # noqa: PTH113 see above
+
+
+def is_folder(path: Path) -> bool:
+    """Whether there is a folder at a path; no where that may not be looked at."""
+    return os.path.isdir(path)  # noqa: PTH112 see above

@@ -35,7 +35,7 @@ MAY_IMPORT = {
     "modules": "source diagnostics bounds units syntax schema expressions importers roots",
     "core": "collector source units roots shape_order",
     "lowering": "source diagnostics bounds units syntax modules core roots shape_order",
-    "checks": "source diagnostics units core",
+    "checks": "source diagnostics units core roots",
     "backends": "bytecode collector source diagnostics bounds units core resources shape_order",
     "writers": "source units syntax core modules shape_order",
     "compare": "core backends shape_order",

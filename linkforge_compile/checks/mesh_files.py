@@ -22,6 +22,7 @@ from linkforge_compile.core.resolver import IResourceResolver
 from linkforge_compile.diagnostics import Gaps
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.pattern import pattern
+from linkforge_compile.roots import exists, is_file
 
 HEADER, TRIANGLE, SAMPLES = 84, 50, 128
 """How many bytes of a binary STL are before its triangles and in each, and how many of them are looked at."""
@@ -152,9 +153,7 @@ class MeshFinder:
             return None
         # A package may lie in several places, and the resolver takes the one that holds the file.
         path = folder / inside
-        # os.path answers for what may not be looked at as well, where pathlib raises.
-        is_there = os.path.exists(path)  # noqa: PTH110
-        return path if is_there else self._resolved(f"package://{package}/{inside}") or path
+        return path if exists(path) else self._resolved(f"package://{package}/{inside}") or path
 
     def _resolved(self, uri: str) -> Path | None:
         try:
@@ -166,8 +165,8 @@ class MeshFinder:
         """Return what lies in a folder that lacks this file, spelt like this; None where it is there."""
         names = self._listed(path.parent)
         if names is None:
-            return None if _is_file(path) else frozenset()
-        return None if path.name in names and _is_file(path) else names
+            return None if is_file(path) else frozenset()
+        return None if path.name in names and is_file(path) else names
 
     def _listed(self, folder: Path) -> frozenset[str] | None:
         if folder not in self._names:
@@ -176,11 +175,6 @@ class MeshFinder:
             except OSError:
                 self._names[folder] = None
         return self._names[folder]
-
-
-def _is_file(path: Path) -> bool:
-    # os.path answers for what may not be looked at as well, where pathlib raises.
-    return os.path.isfile(path)  # noqa: PTH113
 
 
 def look_at(path: Path, effort: Effort) -> MeshFile:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -22,6 +21,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     WIDE_MESH,
 )
 from linkforge_compile.diagnostics.codes.roots import UNSEEN_MESHES
+from linkforge_compile.roots import is_folder
 
 CAD_FORMATS = frozenset(
     ("step", "stp", "iges", "igs", "sldprt", "sldasm", "ipt", "iam", "catpart", "catproduct", "f3d", "3dm", "fcstd")
@@ -48,18 +48,13 @@ def check_mesh_files(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     for use in {(use.mesh.resource, use.mesh.scale): use for use in reversed(judged)}.values():
         path = finder.path(use.mesh.resource)
         if path and finder.names_instead_of(path) is not None:
-            missing.setdefault(path if _is_folder(path.parent) else path.parent, []).append(use)
+            missing.setdefault(path if is_folder(path.parent) else path.parent, []).append(use)
         elif diagnostic := _fault_in(meshes, use.mesh):
             yield diagnostic
     for path, uses in missing.items():
         yield _missing(path, uses[::-1], finder)
     if unseen := [use for use in judged if use.mesh.resource in finder.unseen]:
         yield _told_together(unseen, UNSEEN_MESHES, "file")
-
-
-def _is_folder(path: Path) -> bool:
-    # os.path answers for what may not be looked at as well, where pathlib raises.
-    return os.path.isdir(path)  # noqa: PTH112
 
 
 def _missing(path: Path, uses: Sequence[MeshUse], finder: MeshFinder) -> Diagnostic:

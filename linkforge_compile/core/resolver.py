@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 from linkforge_compile.pattern import pattern
-from linkforge_compile.roots import identity
+from linkforge_compile.roots import exists, identity
 
 _PACKAGE_URI = pattern(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
 _PACKAGE_NAME = pattern(r"<name>([^<]*)</name>")
@@ -58,8 +58,7 @@ class FileSystemResolver:
 
         """
         for candidate in self._candidates(uri, relative_to):
-            # os.path answers for what may not be looked at as well, where pathlib raises.
-            if os.path.exists(candidate):  # noqa: PTH110
+            if exists(candidate):
                 return candidate.absolute()
         raise FileNotFoundError(uri)
 

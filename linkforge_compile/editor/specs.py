@@ -6,6 +6,8 @@ import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from linkforge_compile.roots import exists, is_file
+
 SPEC_ENDINGS = (".robot.yaml", ".robot.yml")
 
 MAX_SPECS = 200
@@ -49,8 +51,7 @@ def _is_another(link: Path, files: set[str]) -> bool:
 
 def _is_special(path: Path) -> bool:
     """Whether it is a pipe or a device, for which a reader may wait."""
-    # os.path answers for what may not be looked at as well, where pathlib raises.
-    return os.path.exists(path) and not os.path.isfile(path)  # noqa: PTH110, PTH113
+    return exists(path) and not is_file(path)
 
 
 def _specs(root: Path, unread: Callable[[OSError], object] | None) -> Iterator[Path]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TypeAlias
@@ -12,6 +11,7 @@ from linkforge_compile.diagnostics.codes.modules import USE_OF_NOWHERE
 from linkforge_compile.modules.loader import Loader
 from linkforge_compile.modules.paths import names_in
 from linkforge_compile.modules.uses import UseSite, locate
+from linkforge_compile.roots import is_folder
 from linkforge_compile.source import SourceFile, Span
 
 FindMesh: TypeAlias = Callable[[str, Span, Diagnostics], Path | None]
@@ -44,7 +44,6 @@ def no_mesh(path: str, where: Span, sink: Diagnostics) -> Path | None:
 def misspelt_part(path: Path) -> tuple[str, tuple[str, ...]]:
     """Return the first part of a path that is not there, and the names that stand in its place."""
     missing = path
-    # os.path answers for what may not be looked at as well, where pathlib raises.
-    while not os.path.isdir(missing.parent) and missing.parent != missing:  # noqa: PTH112
+    while not is_folder(missing.parent) and missing.parent != missing:
         missing = missing.parent
     return missing.name, names_in(missing.parent)

@@ -11,7 +11,7 @@ from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.pattern import pattern
-from linkforge_compile.roots import Roots, as_walked
+from linkforge_compile.roots import Roots, as_walked, is_file, is_folder
 from linkforge_compile.source import Span
 
 # A stranger wrote what it is searched in: no character is tried twice.
@@ -58,7 +58,7 @@ def _in_source_tree(name: str, start: Path | None) -> Iterator[Path]:
 def _in_ament(name: str) -> Iterator[Path]:
     for prefix in _search_path("AMENT_PREFIX_PATH"):
         folder = prefix / "share" / name
-        if os.path.isdir(folder):  # noqa: PTH112 - answers for what may not be looked at as well
+        if is_folder(folder):
             yield folder
 
 
@@ -67,7 +67,7 @@ def _in_ros_1(name: str) -> Iterator[Path]:
     for root in _search_path("ROS_PACKAGE_PATH"):
         if _manifest_name(root) == name:
             yield root
-        if os.path.isfile(root / name / "package.xml"):  # noqa: PTH113 - answers for what may not be looked at as well
+        if is_file(root / name / "package.xml"):
             yield root / name
         yield from (path.parent for path in sorted(root.glob(f"*/{name}/package.xml")))
 
