@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.backends import render_srdf, render_urdf
 from linkforge_compile.bounds import Budget
+from linkforge_compile.collector import resting
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
+from linkforge_compile.diagnostics.suggest import suggesting
 from linkforge_compile.frozen import dataclass, replace
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
@@ -104,6 +106,8 @@ def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> ReadBack:
     return ReadBack(back, tuple(one for one in sink.sorted() if one.severity is Severity.ERROR))
 
 
+@resting()
+@suggesting()
 def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     from linkforge_compile.importers.srdf import with_srdf
     from linkforge_compile.importers.urdf import read_urdf
@@ -128,6 +132,8 @@ def _judge_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Judged]:
     return lambda tree: judged(meshes, replace(spec, tree=tree), loader)
 
 
+@resting()
+@suggesting()
 def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     sink = Diagnostics()
     try:

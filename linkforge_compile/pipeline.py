@@ -201,6 +201,7 @@ def _variants(path: Path, settings: Settings) -> Iterable[str]:
     return variants_of(spec) if spec else ()
 
 
+@suggesting()
 def parameters_of(
     path: str | Path, *, packages: Packages | None = None, allow_outside: bool = False
 ) -> tuple[Listing | None, tuple[Diagnostic, ...]]:

@@ -64,14 +64,18 @@ class Roots:
         is_installed = ".." not in named.parts and any(named.is_relative_to(prefix) for prefix in self.installed)
         return is_installed or any(real.is_relative_to(prefix) for prefix in _real(self.installed))
 
-    def told(self, path: Path) -> str | None:
-        """Return where a path leads that they do not hold, for a message; None for a link that may not be looked at.
+    def way_out(self, path: Path) -> str:
+        """Return how a path that they do not hold leads out of them, for a message: by a link in them, or to where.
 
-        Where links of other folders lead is none of a stranger's business: they are not followed.
+        Where links lead is none of a stranger's business, who may have made one to `/proc/self/exe`: none is followed.
         """
-        written = Path(os.path.normpath(path.absolute()))
-        is_inside = any(Path(folder) in self.folders for folder in map(real_path, written.parents) if folder)
-        return real_path(path) if is_inside else str(written)
+        link = next((step for step in (path, *path.parents) if self._has_link(step)), None)
+        return f"the link '{link}' leads out" if link else f"it leads to {os.path.normpath(path.absolute())}"
+
+    def _has_link(self, path: Path) -> bool:
+        # os.path answers for what may not be looked at as well, where pathlib raises.
+        around = real_path(path.parent) if os.path.islink(path) else None  # noqa: PTH114
+        return around is not None and any(Path(around).is_relative_to(folder) for folder in self.folders)
 
 
 ANYWHERE = Roots(is_anywhere=True)

@@ -42,7 +42,7 @@ MAY_IMPORT = {
     "pipeline": (
         "source diagnostics units syntax schema importers modules lowering checks backends core roots stack collector"
     ),
-    "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
+    "importing": "collector source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
     "launch": "diagnostics backends core modules pipeline stamps",
     "editor": "diagnostics syntax schema modules lowering core roots stack resources",
     "cli": (

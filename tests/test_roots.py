@@ -79,19 +79,34 @@ def test_what_is_refused_says_where_it_leads_and_what_may_be_read(tmp_path: Path
     ]
 
 
-def test_what_is_refused_tells_where_links_lead_in_the_folders_alone(tmp_path: Path):
-    """Whose links lie outside is somebody else: `/proc/self/cwd` would tell a stranger of a server's folders."""
-    (tmp_path / "secret").mkdir()
-    (tmp_path / "self").symlink_to(tmp_path / "secret")
-    folder = tmp_path / "cell"
-    ways = {}
-    for file in (str(tmp_path / "self" / "part.robot.yaml"), "../self/part.robot.yaml", "link/part.robot.yaml"):
-        spec = using(folder / "cell.robot.yaml", file)
-        if file.startswith("link"):
-            (folder / "link").symlink_to(tmp_path / "secret")
-        [diagnostic] = compile_file(spec).diagnostics
-        ways[file] = Path(diagnostic.notes[0].message.removeprefix("it leads to ")).parent.name
-    assert list(ways.values()) == ["self", "self", "secret"]
+@pytest.mark.parametrize(
+    ("file", "told"),
+    [
+        ("../self/part.robot.yaml", "it leads to TMP/self/part.robot.yaml"),
+        ("TMP/self/part.robot.yaml", "it leads to TMP/self/part.robot.yaml"),
+        ("link/part.robot.yaml", "the link 'TMP/cell/link' leads out"),
+        ("link/../part.robot.yaml", "the link 'TMP/cell/link' leads out"),
+        ("within/link/part.robot.yaml", "the link 'TMP/cell/within/link' leads out"),
+        ("exe.robot.yaml", "the link 'TMP/cell/exe.robot.yaml' leads out"),
+    ],
+)
+def test_what_is_refused_tells_of_no_link_where_it_leads(file: str, told: str, tmp_path: Path):
+    """`/proc/self/exe` would tell a stranger of a server's folders, be it his link or one outside of his."""
+    cell = tmp_path / "cell"
+    for folder in (tmp_path / "secret", cell / "deep"):
+        folder.mkdir(parents=True)
+    for link, target in (
+        (tmp_path / "self", tmp_path / "secret"),
+        (cell / "link", tmp_path / "self"),
+        (cell / "deep" / "link", tmp_path / "secret"),
+        (cell / "within", cell / "deep"),
+        (cell / "exe.robot.yaml", Path("/proc/self/exe")),
+    ):
+        link.symlink_to(target)
+    [diagnostic] = compile_file(using(cell / "cell.robot.yaml", file.replace("TMP", str(tmp_path)))).diagnostics
+    assert diagnostic.code.id == "LF3401"
+    assert diagnostic.notes[0].message == told.replace("TMP", str(tmp_path)).replace("/", os.sep)
+    assert not any("secret" in note.message or "python" in note.message for note in diagnostic.notes)
 
 
 @pytest.fixture

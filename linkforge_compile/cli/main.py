@@ -81,11 +81,32 @@ def _run(words: list[str]) -> int:
         print(f"linkforge {name}: {error}", file=sys.stderr)
         return WRONG_USAGE
     except OSError as error:
-        if error.errno not in _NOT_TO_BE_HAD or not error.filename:
+        reason = _of_the_command_line(error)
+        if reason is None:
             raise
-        print(f"linkforge {name}: '{_shown(str(error.filename))}': {error.strerror}", file=sys.stderr)
+        print(f"linkforge {name}: {reason}", file=sys.stderr)
         return WRONG_USAGE
     return code
+
+
+def _of_the_command_line(error: OSError) -> str | None:
+    """Return what is wrong with what the user named, or with where he stands; None for a fault of ours."""
+    if error.errno in _NOT_TO_BE_HAD and error.filename:
+        return f"'{_shown(str(error.filename))}': {error.strerror}"
+    if error.filename or _stands_somewhere():
+        return None
+    return "the folder it is called in is gone; enter one that exists"
+
+
+def _stands_somewhere() -> bool:
+    """Whether there is a working folder: somebody else may have removed it."""
+    from pathlib import Path
+
+    try:
+        Path.cwd()
+    except FileNotFoundError:
+        return False
+    return True
 
 
 _NOT_TO_BE_HAD = (errno.ENAMETOOLONG, errno.EACCES, errno.EPERM)

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from linkforge_compile.roots import exists, is_file
+from linkforge_compile.roots import exists, identity, is_file
 
 SPEC_ENDINGS = (".robot.yaml", ".robot.yml")
 
@@ -40,13 +40,13 @@ def specs_below(
         found.append(spec)
         if len(found) > at_most:
             raise TooManyFilesError(f"more than {at_most} specs")
-    files = {os.path.realpath(spec) for spec in found if not spec.is_symlink()}
+    files = {identity(spec) for spec in found if not spec.is_symlink()}
     return tuple(sorted(spec for spec in found if not spec.is_symlink() or _is_another(spec, files)))
 
 
 def _is_another(link: Path, files: set[str]) -> bool:
     """Whether a link leads to a file that is not found as itself; that of an editor's lock leads nowhere."""
-    return link.is_file() and os.path.realpath(link) not in files
+    return is_file(link) and identity(link) not in files
 
 
 def _is_special(path: Path) -> bool:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
+from linkforge_compile.diagnostics.suggest import suggesting
 from linkforge_compile.frozen import dataclass, field, replace
 from linkforge_compile.lowering import lower
 from linkforge_compile.modules import (
@@ -54,6 +55,7 @@ def vocabulary_of(
     return with_room(lambda: _vocabulary_of(spec, root, packages or {}, runs_xacro=runs_xacro))
 
 
+@suggesting()
 def _vocabulary_of(path: Path, root: Path, packages: Mapping[str, Path], *, runs_xacro: bool) -> Vocabulary:
     found = Vocabulary((_relative(path, root),), is_whole=False)
     sink, loader = Diagnostics(), Loader(packages, Roots.around(path, (root, *packages.values())))

@@ -1,7 +1,9 @@
 """How the command ends when linkforge is at fault, or is interrupted."""
 
 import errno
+import os
 import tempfile
+from contextlib import chdir
 from pathlib import Path
 
 import pytest
@@ -97,3 +99,31 @@ def test_a_name_that_no_file_can_have_is_no_fault_of_ours(capsys: pytest.Capture
     assert said.startswith(f"linkforge {words[0]}: '")
     assert said.endswith(": File name too long")
     assert len(said) < 200
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows removes no folder in which somebody stands")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("check",),
+        ("check", "any.robot.yaml"),
+        ("compile", "any.robot.yaml", "-o", "."),
+        ("import", "any.urdf"),
+        ("expand", "any.robot.yaml"),
+        ("diff", "any.robot.yaml", "any.urdf"),
+        ("explain", "any.robot.yaml", "links/base"),
+        ("params", "any.robot.yaml"),
+        ("deps", "any.robot.yaml"),
+        ("init", "arm"),
+    ],
+)
+def test_a_folder_that_is_gone_is_no_fault_of_ours(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, words: tuple[str, ...]
+):
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    with chdir(gone):
+        gone.rmdir()
+        code = main(words)
+    said = capsys.readouterr().err
+    assert (code, said) == (2, f"linkforge {words[0]}: the folder it is called in is gone; enter one that exists\n")

@@ -5,6 +5,7 @@ from textwrap import dedent
 
 import pytest
 
+from linkforge_compile import import_urdf
 from linkforge_compile.diagnostics import Code, Diagnostics, Gaps, Note, Severity, suggest
 from linkforge_compile.diagnostics.render.text import render_text, summary
 from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
@@ -56,6 +57,18 @@ def test_nothing_is_suggested_when_a_compile_has_looked_for_long(monkeypatch: py
     assert asked[0] == "hand"
     assert asked[-1] is None
     assert nearest("hnad", ["hand", "base"]) == "hand"
+
+
+def test_an_import_looks_no_longer_than_a_compile(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(suggest, "_STEPS_OF_A_COMPILE", 100)
+    joints = "".join(
+        f"<joint name='j{i}' type='fixed'><parent link='hnad'/><child link='l{i}'/></joint><link name='l{i}'/>"
+        for i in range(20)
+    )
+    told = import_urdf("r.urdf", text=f"<robot name='r'><link name='hand'/>{joints}</robot>").diagnostics
+    wrong = [one.message for one in told if one.message.startswith("no link named 'hnad'")]
+    assert "; did you mean 'hand'?" in wrong[0]
+    assert "; did you mean 'hand'?" not in wrong[-1]
 
 
 def test_a_name_that_nobody_can_compare_by_eye_is_not_offered():

@@ -1,11 +1,15 @@
 """A vendor's xacro as a module, unchanged: its arguments, its packages, its places, and what it may not do."""
 
+import errno
+import io
+import json
 import os
 from pathlib import Path
 
 import pytest
 
 from linkforge_compile import Compilation, compile_file, compile_text, import_urdf
+from linkforge_compile.importers.xacro import process
 
 pytest.importorskip("xacro")
 
@@ -247,6 +251,19 @@ def test_a_xacro_reads_within_the_roots(text: str, vendor: Path):
     assert diagnostic.code.id == "LF3401"
     assert text in arm.read_text("utf-8").splitlines()[diagnostic.span.line - 1]
     assert all(one.code.id != "LF3401" for one in compile_file(arm, allow_outside=True).diagnostics)
+
+
+def test_whether_what_may_not_be_looked_at_is_read_is_asked(monkeypatch: pytest.MonkeyPatch):
+    """In containers root runs tests, who may look at everything."""
+
+    def refuse(path: object) -> str:
+        raise PermissionError(errno.EACCES, "Permission denied", str(path))
+
+    asked = io.StringIO()
+    monkeypatch.setattr("os.path.realpath", refuse)
+    monkeypatch.setattr("sys.stdin", io.StringIO("false\n"))
+    assert not process._Run(asked)._may_read("/proc/1/exe.py", (Path("/proc"),))
+    assert json.loads(asked.getvalue()) == {"may_read": "/proc/1/exe.py"}
 
 
 ESCAPES = {

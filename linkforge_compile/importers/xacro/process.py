@@ -69,7 +69,7 @@ class _Run:
         xacro lets expressions reach anything in Python by a detour. What they do there is audited by Python: programs,
         the network, files that are written or removed, and the objects by which one gets at other code.
         """
-        own = tuple(Path(os.path.realpath(folder)) for folder in sys.path if folder)
+        own = tuple(real for folder in sys.path if folder and (real := _real(folder)))
 
         def refuse(event: str, arguments: tuple[object, ...]) -> None:
             if event in _HARMLESS:
@@ -90,9 +90,10 @@ class _Run:
             return False
         # Joined and no more: where `..` leads behind a link is for the asker to find out.
         named = Path.cwd() / os.fsdecode(path)
-        if named.suffix in _CODE or named.is_dir():
-            real = Path(os.path.realpath(named))
-            if any(real.is_relative_to(folder) for folder in own):
+        # os.path answers for what may not be looked at as well, where pathlib raises.
+        if named.suffix in _CODE or os.path.isdir(named):  # noqa: PTH112
+            real = _real(named)
+            if real and any(real.is_relative_to(folder) for folder in own):
                 return True
         return self._asked({"may_read": str(named)}) is True
 
@@ -202,6 +203,14 @@ class _Run:
             return step(element, *rest)
 
         return follow
+
+
+def _real(path: Path | str) -> Path | None:
+    """Return where links lead, None where one may not be looked at, as `roots.real_path` does: this imports nothing."""
+    try:
+        return Path(os.path.realpath(path))
+    except OSError:
+        return None
 
 
 def _fault(error: BaseException) -> _Answer:
