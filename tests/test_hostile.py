@@ -1,6 +1,7 @@
 """Hostile files, each checked by a process of its own with 512 MB and ten seconds: an answer, and no more than one."""
 
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -344,6 +345,12 @@ def test_a_fault_in_every_round_of_a_for_is_told_once_and_counted(tmp_path: Path
     told = refused(lambda _: HEAD + "  l_$(i): {for: {i: 2000}, inertial: {mass: $(-i - 1)}}\n", "LF5006", tmp_path)
     assert "more like this at the same place" in told
     assert told.count("[LF5006]") == 3
+
+
+def test_the_fault_of_25000_rounds_is_told_and_behind_it_that_there_are_more(tmp_path: Path):
+    rounds = "{for: {i: 25000}, inertial: {mass: $(1 / (i - i))}, visual: {sphere: $(-i - 1)}}"
+    told = refused(lambda _: f"{HEAD}  l_$(i): {rounds}\n", "LF3125", tmp_path)
+    assert re.findall(r"\[(LF\d+)\]", told) == ["LF3125", "LF3302"]
 
 
 def test_a_file_of_comments_that_ignore_is_read_in_time(tmp_path: Path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
 from enum import Enum, StrEnum
 from typing import TypeAlias
@@ -60,7 +61,9 @@ class Diagnostic:
 
     @property
     def order(self) -> tuple[int, str, int, int]:
-        """A sort key: reading order; what has no place comes first."""
+        """A sort key: reading order; what has no place comes first, and what ends the report last."""
+        if self.code.is_last:
+            return sys.maxsize, "", 0, 0
         return self.span.order if self.span else (-1, "", 0, 0)
 
     def __str__(self) -> str:
@@ -85,6 +88,8 @@ class Code:
     is_of_a_name: bool = False
     """Whether it tells of a name that is declared nowhere: all who use the name have one cause."""
     in_xml: str = ""
+    is_last: bool = False
+    """Whether it is told behind all others, wherever its place is."""
 
     @property
     def title(self) -> str:

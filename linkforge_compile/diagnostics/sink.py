@@ -19,7 +19,8 @@ MAX_AT_ONE_PLACE = 3
 """How often one kind of fault is told of one place; a `for` may give it in each of ten thousand rounds."""
 
 MAX_REPORTED = 10_000
-"""How many faults are looked at, those that are counted only among them."""
+"""How many errors are looked at, those among them that are counted only, or were told already: then one that is no
+news ends the compile."""
 
 _Place: TypeAlias = tuple[str, Span]
 
@@ -32,9 +33,9 @@ class BeyondLimitError(Exception):
         super().__init__(str(diagnostic))
 
 
-def too_many_errors(where: Span | None) -> BeyondLimitError:
+def too_many_errors(where: Span | None, *notes: Note) -> BeyondLimitError:
     """Return what to raise at the error that is one too many."""
-    return BeyondLimitError(TOO_MANY_ERRORS.at(where))
+    return BeyondLimitError(TOO_MANY_ERRORS.at(where, notes=notes))
 
 
 class Diagnostics:
@@ -47,6 +48,7 @@ class Diagnostics:
     def __init__(self) -> None:
         self._reported: dict[tuple[str, Span | None, str], Diagnostic] = {}
         self._errors = 0
+        self._errors_reported = 0
         # By their hashes, as a message may be long, and only their number is told.
         self._seen: set[int] = set()
         self._at: defaultdict[_Place, set[int]] = defaultdict(set)
@@ -55,26 +57,36 @@ class Diagnostics:
 
     def report(self, diagnostic: Diagnostic) -> None:
         """Keep a diagnostic, or count it where enough were told; raise BeyondLimitError where there is no end."""
-        key = (diagnostic.code.id, diagnostic.span, diagnostic.message)
-        number = hash(key)
+        is_error = diagnostic.severity is Severity.ERROR
+        self._errors_reported += is_error
+        is_told = self._is_to_be_told(diagnostic)
+        if is_error and is_told and self._errors >= MAX_TOLD:
+            raise too_many_errors(diagnostic.span)
+        if is_error and not is_told and self._errors_reported > MAX_REPORTED:
+            again = Note(f"{MAX_REPORTED:,} were found, most of them again and again at the same places")
+            raise too_many_errors(diagnostic.span, again)
+        if is_told:
+            self._errors += is_error
+            self._reported[diagnostic.code.id, diagnostic.span, diagnostic.message] = diagnostic
+
+    def _is_to_be_told(self, diagnostic: Diagnostic) -> bool:
+        """Whether a diagnostic is neither told already nor one too many, which is counted here."""
+        number = hash((diagnostic.code.id, diagnostic.span, diagnostic.message))
         if number in self._seen:
-            return
+            return False
         self._seen.add(number)
         is_error = diagnostic.severity is Severity.ERROR
-        if is_error and (self._errors >= MAX_TOLD or len(self._seen) > MAX_REPORTED):
-            raise too_many_errors(diagnostic.span)
-        if is_error and diagnostic.span is not None:
-            insort(self._error_starts[diagnostic.span.file], diagnostic.span.start)
         if diagnostic.span is not None:
+            if is_error:
+                insort(self._error_starts[diagnostic.span.file], diagnostic.span.start)
             at = self._at[diagnostic.code.id, diagnostic.span]
             at.add(number)
             if len(at) > MAX_AT_ONE_PLACE:
-                return
+                return False
         if not is_error and len(self._reported) - self._errors >= MAX_TOLD:
             self._left_out += 1
-            return
-        self._errors += is_error
-        self._reported[key] = diagnostic
+            return False
+        return True
 
     def end(self, beyond: BeyondLimitError) -> None:
         """Keep what ended the compile, however much was told before."""

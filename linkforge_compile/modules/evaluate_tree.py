@@ -47,6 +47,7 @@ class Expressions(Changing):
         super().__init__()
         self.budget = budget
         self._templates: dict[YamlScalar, Template | None] = {}
+        self._alone: dict[tuple[str, Span], YamlScalar] = {}
         self._live: dict[YamlList | YamlMap, bool] = {}
         self._sizes: dict[YamlList | YamlMap, tuple[int, int]] = {}
 
@@ -55,6 +56,13 @@ class Expressions(Changing):
         if scalar not in self._templates:
             self._templates[scalar] = parse_template(scalar.text, scalar.span, sink)
         return self._templates[scalar]
+
+    def alone(self, expression: str, where: Span) -> YamlScalar:
+        """Return a part of an expression as a scalar of its own, the same one each time that a `for` comes by."""
+        if (expression, where) not in self._alone:
+            whole = f"$({expression})"
+            self._alone[expression, where] = YamlScalar(whole, whole, where)
+        return self._alone[expression, where]
 
     def are_in(self, node: YamlNode) -> bool:
         """Whether a node or anything in it, keys too, holds an expression."""
@@ -294,8 +302,7 @@ class TreeEvaluator:
 
     def _traced(self, expression: str, where: Span) -> Span:
         """Return the place of a part of an expression as one that can tell where its value comes from."""
-        whole = f"$({expression})"
-        return ComputedSpan.of(where, ExpressionTrace(YamlScalar(whole, whole, where), self))
+        return ComputedSpan.of(where, ExpressionTrace(self.expressions.alone(expression, where), self))
 
     def _is_made_number(self, scalar: YamlScalar, value: Value) -> bool:
         return tell_made_number(scalar, value, self.expressions, self.scope_of(scalar), self.sink)

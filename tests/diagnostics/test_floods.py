@@ -3,6 +3,7 @@
 import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Code, Diagnostics, Severity
+from linkforge_compile.diagnostics import sink as flood
 from linkforge_compile.diagnostics.codes.bounds import MORE_WARNINGS, TOO_MANY_ERRORS
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
 from linkforge_compile.diagnostics.render.text import MOST_SHOWN, render_first, summary
@@ -55,6 +56,24 @@ def test_behind_a_thousand_errors_the_compile_ends():
         sink.report(ERROR.at(at(MAX_TOLD), name="x"))
     sink.end(beyond.value)
     assert (len(sink), sink.sorted()[-1].code) == (MAX_TOLD + 1, TOO_MANY_ERRORS)
+
+
+@pytest.mark.parametrize("words", ["same", "{}"])
+def test_behind_very_many_errors_of_one_place_what_is_new_is_told_and_one_more_of_them_ends_the_compile(
+    words: str, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(flood, "MAX_REPORTED", 50)
+    sink = Diagnostics()
+    sink.report_all(WARNING.at(at(3), name=number) for number in range(60))
+    sink.report_all(ERROR.at(at(2), name=words.format(number)) for number in range(50))
+    sink.report(ERROR.at(at(4), name="other"))
+    with pytest.raises(BeyondLimitError) as beyond:
+        sink.report(ERROR.at(at(2), name=words.format(1)))
+    sink.end(beyond.value)
+    errors = [one for one in sink.sorted() if one.severity is Severity.ERROR]
+    assert errors[-2].message == "no other"
+    assert errors[-1] == sink.sorted()[-1]
+    assert (errors[-1].code, errors[-1].span) == (TOO_MANY_ERRORS, at(2))
 
 
 def test_warnings_beyond_a_thousand_are_counted_and_end_nothing():
