@@ -235,8 +235,8 @@ def folders_and_devices(folder: Path) -> str:
 
 
 def many_unknown_overrides(folder: Path) -> str:
-    write(folder, "m.robot.yaml", PART)
-    names = "".join(f"        q{i}: {{inertial: {{mass: 1}}}}\n" for i in range(20_000))
+    write(folder, "m.robot.yaml", HEAD + "".join(f"  arm_l{i}:\n" for i in range(5_000)))
+    names = "".join(f"        arm_{i}: {{inertial: {{mass: 1}}}}\n" for i in range(20_000))
     return HEAD + f"modules:\n  m:\n    use: m.robot.yaml\n    parent: base\n    override:\n      links:\n{names}"
 
 

@@ -15,7 +15,7 @@ _LONGEST = 200
 _LEAST_LIKENESS = 0.7
 
 _STEPS_OF_A_NAME = 100_000
-_STEPS_OF_A_COMPILE = 10_000_000
+_STEPS_OF_A_COMPILE = 4_000_000
 """A step looks at a letter or a name and takes some tenths of a microsecond."""
 
 _STEPS_OF_A_COUNT = 10

@@ -92,10 +92,11 @@ class _Patch:
         base = with_tags_as_patched(base, patch, shape)
         entries = dict(base.entries)
         changes: list[Change] = []
+        missing: list[YamlEntry] = []
         for change in patch:
             name, value = change.name, change.value
             if shape.has_names and name not in base.entries and not shape.is_raw(name):
-                self._tell_missing(change, base, shape)
+                missing.append(change)
             elif _is_written_null(value):
                 self._delete(entries, change)
                 changes.append(Change(name, value.span))
@@ -109,6 +110,10 @@ class _Patch:
                 is_whole = not isinstance(new, YamlList) or isinstance(value, YamlList)
                 if is_whole and not is_merged and not new.span.changes:
                     changes.append(Change(name, value.span))
+        # An entry whose name is at fault may be any of them.
+        if missing and not any("$(" in name for name in base.entries):
+            for change in missing:
+                self._tell_missing(change, base, shape)
         chosen = [name for name in CHOICES.get(shape.title, ()) if is_said(patch.get(name))]
         for rival in CHOICES.get(shape.title, ()) if chosen else ():
             if rival not in chosen:
@@ -170,9 +175,9 @@ class _Patch:
             self._sink.report(NOTHING_TO_DELETE.at(change.key.span, field=change.name))
 
     def _tell_missing(self, change: YamlEntry, base: YamlMap, shape: Shape) -> None:
-        """Report an entry that is not there; silent where one may be, whose name is at fault."""
+        """Report an entry that is not there; silent where its own name is at fault."""
         name = change.name
-        if "$(" in name or any("$(" in other for other in base.entries):
+        if "$(" in name:
             return
         way = _way(name, base, shape)
         if way and isinstance(change.value, YamlFault):
@@ -190,9 +195,9 @@ class _Patch:
         for section in _SECTIONS if any(shape is shapes().under(section) for section in _SECTIONS) else ():
             if name in _names(self._whole, section):
                 return f"; write '{section}: {{{name}: …}}', for it is one of the {shapes().under(section).things}"
-        names = [f"'{other}'" for other in base.entries]
-        if not 0 < len(names) <= _SHOWN_NAMES or nearest(name, base.entries):
+        if not 0 < len(base.entries) <= _SHOWN_NAMES or nearest(name, base.entries):
             return ""
+        names = [f"'{other}'" for other in base.entries]
         return f"; there {'is' if len(names) == 1 else 'are'} {alternatives(names, 'and')}"
 
     def _report(
