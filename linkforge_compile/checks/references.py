@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Gaps, Note
@@ -109,9 +110,9 @@ SHOWN = 8
 """How many names a message spells out, and how many second places it shows."""
 
 
-def listed(names: Collection[str]) -> str:
-    """Return "'a', 'b' and 'c'", or the first few and how many more."""
-    quoted = [f"'{name}'" for name in names]
-    if len(quoted) > SHOWN:
-        quoted[SHOWN - 1 :] = [f"{len(quoted) - SHOWN + 1} more"]
+def listed(names: Collection[str], count: int | None = None) -> str:
+    """Return "'a', 'b' and 'c'", or the first few and how many more; of a `count` the first few are enough."""
+    quoted = [f"'{name}'" for name in islice(names, SHOWN)]
+    if (more := (count or len(names)) - SHOWN) > 0:
+        quoted[SHOWN - 1 :] = [f"{more + 1} more"]
     return " and ".join(filter(None, (", ".join(quoted[:-1]), quoted[-1])))

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.groups import group_links
+from linkforge_compile.checks.link_sets import LinkSets, group_links, moved_links
 from linkforge_compile.checks.ranges import ROUNDING, in_unit, is_known, missed_range, unit_in
 from linkforge_compile.checks.references import SHOWN, Use, listed, own_positions
 from linkforge_compile.core.models.joint import Joint, JointType
@@ -47,7 +47,10 @@ def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     pose outside the limits it never plans. Correct the value, or the group.
     """
     semantic = robot.semantic
-    links = group_links(robot)
+    if not semantic.group_states:
+        return
+    links = LinkSets(robot)
+    moving = group_links(robot, links)
     virtual = {joint.name: joint for joint in semantic.virtual_joints}
     for state in semantic.group_states:
         for name, key in own_positions(state).items():
@@ -56,8 +59,8 @@ def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             if joint is None:
                 continue
             use = _at_value(state, name, key)
-            members = links.get(state.group)
-            if members and _moved_link(joint) not in members:
+            members = moving.get(state.group)
+            if members and not members & links.bit(_moved_link(joint)):
                 yield use._replace(path=(key,)).told(
                     STATE_OUTSIDE_GROUP, joint=name, group=state.group, state=state.name
                 )
@@ -71,11 +74,15 @@ def check_states_taken_over(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     A position that comes from the state of another group is written into this one, and MoveIt ignores it where the
     joint is not in the group. Put the other group among the `subgroups` of this one, or take the name out.
     """
-    links = group_links(robot)
-    for state in robot.semantic.group_states:
-        members, own = links.get(state.group), own_positions(state)
+    states = robot.semantic.group_states
+    if not states:
+        return
+    links = LinkSets(robot)
+    moving = group_links(robot, links)
+    for state in states:
+        members, own = moving.get(state.group), own_positions(state)
         taken = [joint for name in state.joint_values if name not in own and (joint := robot.joints.get(name))]
-        outside = [joint.name for joint in taken if members and _moved_link(joint) not in members]
+        outside = [joint.name for joint in taken if members and not members & links.bit(joint.child)]
         if outside:
             them = "it" if len(outside) == 1 else "them"
             yield STATE_TAKES_OTHERS_ALONG.at(
@@ -147,21 +154,22 @@ def check_states_are_whole(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     semantic = robot.semantic
     if gaps or not semantic.group_states:
         return
-    links = group_links(robot)
-    moved = {joint.name: joint.child_link for joint in semantic.virtual_joints}
-    moved.update((joint.name, joint.child) for joint in robot.joints)
+    links, moved = LinkSets(robot), moved_links(robot)
+    moving = group_links(robot, links)
     passive = {joint.name for joint in semantic.passive_joints}
-    free = [
-        joint
-        for joint in robot.joints
+    free = {
+        joint.child: joint.name
+        for joint in reversed(robot.joints)
         if joint.type != JointType.FIXED and joint.mimic is None and joint.name not in passive
-    ]
+    }
+    movable = links.of(filter(robot.has_link, free)) or 0
     for state in semantic.group_states:
-        members = links.get(state.group, frozenset())
-        left = [joint.name for joint in free if joint.child in members and joint.name not in state.joint_values]
-        if left and all(moved.get(name) in members for name in state.joint_values):
+        members, placed = moving.get(state.group, 0), links.of(moved.get(name, "") for name in state.joint_values)
+        left = 0 if placed is None or placed & ~members else members & movable & ~placed
+        if left:
             use = Use(state.name, "", state.source)
-            yield use.told(STATE_INCOMPLETE, state=state.name, group=state.group, joints=listed(left))
+            joints = listed([free[link] for link in links.first(left, SHOWN)], left.bit_count())
+            yield use.told(STATE_INCOMPLETE, state=state.name, group=state.group, joints=joints)
 
 
 def _at_value(state: GroupState, joint: str, key: Key) -> Use:

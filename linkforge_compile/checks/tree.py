@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
 from linkforge_compile.checks.circles import Graph, circles, told_circles
 from linkforge_compile.checks.references import SHOWN, Use, listed, unknown
@@ -165,12 +165,3 @@ def parent_joints(robot: Robot) -> Mapping[str, Joint]:
     for joint in robot.joints:
         above.setdefault(joint.child, joint)
     return above
-
-
-def way_up(link: str, above: Mapping[str, Joint]) -> Sequence[str]:
-    """Return the link and all those that it hangs on, up to the root; once round where they hang in a circle."""
-    way = {link: None}
-    while (joint := above.get(link)) and joint.parent not in way:
-        link = joint.parent
-        way[link] = None
-    return tuple(way)

@@ -1,5 +1,9 @@
-from linkforge_compile.core import EndEffector, GroupState, PlanningGroup
-from tests.checks.robots import LEFT, chain, told, two_arms
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkforge_compile.checks.link_sets import LinkSets
+from linkforge_compile.core import Chain, EndEffector, GroupState, PlanningGroup
+from tests.checks.robots import LEFT, chain, fixed, robot, told, two_arms
 
 HAND = PlanningGroup("hand", links=("left_hand",))
 
@@ -60,3 +64,28 @@ def test_an_end_effector_that_no_group_carries_is_noted():
         "LF5616 end effector 'e': no planning group holds parent link 'left_arm', so MoveIt knows no arm for it"
     ]
     assert told(two_arms(groups=(LEFT, HAND), end_effectors=(EndEffector("e", "hand", "left_arm"),))) == []
+
+
+@given(st.lists(st.integers(0, 9), min_size=1, max_size=9), st.integers(0, 9), st.integers(0, 9))
+def test_a_chain_moves_what_hangs_between_its_ends_and_the_link_where_its_branches_meet(
+    parents: list[int], base: int, tip: int
+):
+    """A parent that is not above its link stands for a link that hangs on nothing."""
+    above = {f"l{link}": f"l{parent}" for link, parent in enumerate(parents, start=1) if parent < link}
+    names = ["l0", *(f"l{link}" for link in range(1, len(parents) + 1))]
+    ends = Chain(names[base % len(names)], names[tip % len(names)])
+    links = LinkSets(robot(" ".join(names), *(fixed(f"j_{child}", above[child], child) for child in above)))
+
+    def way_up(link: str) -> list[str]:
+        return [link, *(way_up(above[link]) if link in above else [])]
+
+    from_base, from_tip = way_up(ends.base_link), way_up(ends.tip_link)
+    meeting = next((link for link in from_tip if link in from_base), None)
+    moved = set(from_base) ^ set(from_tip) | {link for link in (meeting,) if link and link != ends.base_link}
+    assert links.meeting_link(ends) == meeting
+    assert links.between(ends) == (links.of(moved) if meeting else None)
+
+
+def test_a_chain_of_links_in_a_circle_is_none():
+    links = LinkSets(robot("a b c", fixed("j", "a", "b"), fixed("k", "b", "a"), fixed("l", "b", "c")))
+    assert [links.meeting_link(Chain(*ends)) for ends in ("ab", "ca", "cc")] == [None] * 3

@@ -1,0 +1,121 @@
+"""Sets of links as numbers with a bit for each link: thousands of long chains, and groups of groups, take no time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from functools import reduce
+from operator import or_
+from typing import TYPE_CHECKING
+
+from linkforge_compile.checks.tree import parent_joints
+from linkforge_compile.core.models.robot import Robot
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.srdf import Chain, PlanningGroup
+
+
+class LinkSets:
+    """The bits of a robot's links, in the order of the joints on which they hang, and the sets that chains are."""
+
+    def __init__(self, robot: Robot) -> None:
+        self._known = frozenset(robot.links.names)
+        self._above = parent_joints(robot)
+        self._names = [*dict.fromkeys((*self._above, *robot.links.names))]
+        self._places = {name: place for place, name in enumerate(self._names)}
+        self._ways_up: dict[str, int] = {}
+        self._lowest: dict[bytes, str] = {}
+
+    def bit(self, link: str) -> int:
+        """Return the set of one link, empty for a name that is none of the robot's."""
+        return 1 << self._places[link] if link in self._known else 0
+
+    def of(self, links: Iterable[str]) -> int | None:
+        """Return the set of links, None where one is none of the robot's."""
+        found = 0
+        for link in links:
+            bit = self.bit(link)
+            if not bit:
+                return None
+            found |= bit
+        return found
+
+    def first(self, links: int, count: int) -> Iterator[str]:
+        """Yield the first links of a set, at most so many."""
+        for _ in range(min(count, links.bit_count())):
+            lowest = links & -links
+            yield self._names[lowest.bit_length() - 1]
+            links ^= lowest
+
+    def meeting_link(self, chain: Chain) -> str | None:
+        """Return the lowest link that both ends are or hang on; None if there is none or an end is unknown."""
+        return self._lowest.get(_key(self._way_up(chain.base_link) & self._way_up(chain.tip_link)))
+
+    def between(self, chain: Chain) -> int | None:
+        """Return the set of the links that a chain moves; None without a meeting link."""
+        meeting = self.meeting_link(chain)
+        if meeting is None:
+            return None
+        below = self._way_up(chain.base_link) ^ self._way_up(chain.tip_link)
+        # With the link where they meet, as MoveIt does, unless the chain leads down from it.
+        return below if meeting == chain.base_link else below | self.bit(meeting)
+
+    def _way_up(self, link: str) -> int:
+        """Return the set of a link and all those that it hangs on; empty for one that is unknown or in a circle."""
+        way: list[str] = []
+        end = link
+        while end in self._known and end not in self._ways_up:
+            way.append(end)
+            self._ways_up[end] = 0  # what leads back to itself stays so
+            end = self._above[end].parent if end in self._above else ""
+        links = self._ways_up.get(end, 0)
+        for each in reversed(way) if links or end not in self._ways_up else ():
+            links |= self.bit(each)
+            self._ways_up[each] = links
+            self._lowest[_key(links)] = each
+        return self._ways_up.get(link, 0)
+
+
+def _key(links: int) -> bytes:
+    # The hash of a number is its remainder by 2**61 - 1, which is the same for most of the ways up one chain.
+    return links.to_bytes(links.bit_length() // 8 + 1, "little")
+
+
+def group_links(robot: Robot, links: LinkSets) -> Mapping[str, int]:
+    """Return the set of links that each group moves, which says its joints as well: a link hangs on one joint.
+
+    Without the groups that name something unknown, and without any while they contain one another in a circle.
+    """
+    from graphlib import CycleError, TopologicalSorter
+
+    groups = {group.name: group for group in reversed(tuple(robot.semantic.groups))}
+    try:
+        order = tuple(TopologicalSorter({name: group.subgroups for name, group in groups.items()}).static_order())
+    except CycleError:
+        return {}
+    moved = moved_links(robot)
+    moving: dict[str, int] = {}
+    for name in order:
+        group = groups.get(name)
+        own = _own_links(group, links, moved) if group else None
+        if group and own is not None and moving.keys() >= set(group.subgroups):
+            moving[name] = _union((own, *(moving[subgroup] for subgroup in group.subgroups)))
+    return moving
+
+
+def moved_links(robot: Robot) -> Mapping[str, str]:
+    """Return the link that each joint moves, the virtual ones among them."""
+    moved = {joint.name: joint.child_link for joint in robot.semantic.virtual_joints}
+    moved.update((joint.name, joint.child) for joint in robot.joints)
+    return moved
+
+
+def _own_links(group: PlanningGroup, links: LinkSets, moved: Mapping[str, str]) -> int | None:
+    """Return what a group moves without its subgroups; None where it names something unknown."""
+    named = links.of((*group.links, *(moved.get(joint, "") for joint in group.joints)))
+    chains = [links.between(chain) for chain in group.chains]
+    known = [one for one in (named, *chains) if one is not None]
+    return _union(known) if len(known) == 1 + len(chains) else None
+
+
+def _union(sets: Iterable[int]) -> int:
+    return reduce(or_, sets, 0)
