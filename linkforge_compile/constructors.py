@@ -1,4 +1,4 @@
-"""The codes of `__init__` and `__new__` for so many fields, compiled once for all classes that have as many.
+"""The codes of what makes objects of so many fields, compiled once for all classes that have as many.
 
 A class gives them the names of its fields, and in their cells what sets these. Python compiles a text in the time of
 ten such classes, so the codes of usual sizes are kept between processes.
@@ -30,12 +30,21 @@ def new_code(count: int) -> CodeType:
 
 
 @cache
+def filling_code(count: int) -> CodeType:
+    """Return that of a function that sets fields by name, and whose cells are `kind` and `opened`.
+
+    `opened` makes an object that refuses no field, which becomes one of the class `kind` in the end.
+    """
+    return _usual().get(_filling_name(count)) or _compiled(_filling(count)).popitem()[1]
+
+
+@cache
 def _usual() -> dict[str, CodeType]:
     return kept(__file__, "constructors", [Path(__file__)], lambda: _compiled("".join(map(_of_all_kinds, _USUAL))))
 
 
 def _of_all_kinds(count: int) -> str:
-    return _init(count, has_post_init=False) + _init(count, has_post_init=True) + _new(count)
+    return _init(count, has_post_init=False) + _init(count, has_post_init=True) + _new(count) + _filling(count)
 
 
 def _init(count: int, has_post_init: bool) -> str:
@@ -55,12 +64,23 @@ def _new(count: int) -> str:
     return f"def {_new_name(count)}(new):\n {made}\n return __new__\n"
 
 
+def _filling(count: int) -> str:
+    fields = [f"field_{number}" for number in range(count)]
+    lines = ["made = opened()", *(f"made.{field} = {field}" for field in fields), "made.__class__ = kind"]
+    filled = f" def fill({', '.join(fields)}):\n  " + "\n  ".join([*lines, "return made"])
+    return f"def {_filling_name(count)}(kind, opened):\n{filled}\n return fill\n"
+
+
 def _init_name(count: int, has_post_init: bool) -> str:
     return f"init_{count}_{has_post_init}"
 
 
 def _new_name(count: int) -> str:
     return f"new_{count}"
+
+
+def _filling_name(count: int) -> str:
+    return f"filling_{count}"
 
 
 def _compiled(text: str) -> dict[str, CodeType]:

@@ -9,6 +9,7 @@ from typing import Any, TypeAlias, TypeVar
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.frozen import fields, replace
+from linkforge_compile.unjudged import opened
 
 P = TypeVar("P")
 
@@ -126,7 +127,7 @@ def _written_copier(kind: type[Any]) -> _Copier:
         "        return part",
         "    copy = opened()",
     ]
-    scope: dict[str, Any] = {"kind": kind, "opened": _opened(kind), "FrozenMap": FrozenMap}
+    scope: dict[str, Any] = {"kind": kind, "opened": opened(kind), "FrozenMap": FrozenMap}
     scope |= {"direct": _DIRECT.get, "ask": _ask_or_learn, "copies": harmless_copies}
     for field in fields(kind):
         if field.name in kind.PREFIXED:
@@ -136,16 +137,6 @@ def _written_copier(kind: type[Any]) -> _Copier:
     exec("\n".join([*lines, "    copy.__class__ = kind", "    return copy"]), scope)
     copier: _Copier = scope["copy"]
     return copier
-
-
-def _opened(kind: type[Any]) -> type[Any]:
-    """Return the class without its refusal to set a field, which lets Python set slots in a fifth of the time.
-
-    It has the same slots, so that Python takes an object of it for one of the class once it is told to. Whoever asks
-    the class for its `__subclasses__()` finds this one among them from the first copy on.
-    """
-    plain = {name: vars(object)[name] for name in ("__init__", "__setattr__", "__delattr__")}
-    return type(f"Opened{kind.__name__}", (kind,), {"__slots__": (), **plain})
 
 
 def _prefixed(kind: str) -> str:

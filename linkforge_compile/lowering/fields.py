@@ -37,9 +37,12 @@ from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.syntax.xacro import xacro_facts
+from linkforge_compile.unjudged import unjudged
 
 T = TypeVar("T")
 Choice = TypeVar("Choice", bound=StrEnum)
+
+_made_vector, _made_pose = unjudged(Vector3), unjudged(Transform)
 
 
 class Fields(SpecObject):
@@ -147,13 +150,13 @@ class Fields(SpecObject):
         if isinstance(node, YamlList):
             xyz = self.vector3_at(node, "origin", LENGTH)
             ref = SourceRef(node, None, self.trail)
-            return Transform(xyz, is_stated=True, source=ref) if xyz else IDENTITY
+            return _made_pose(xyz, is_stated=True, source=ref) if xyz else IDENTITY
         pose = self.map_at(node, "origin")
         if pose is None:
             return IDENTITY
         xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
         is_stated = bool(xyz or rpy) or pose.said("xyz") is not None or pose.said("rpy") is not None
-        return Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **besides(pose))
+        return _made_pose(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **besides(pose))
 
     # Opening what is nested
 
@@ -262,7 +265,7 @@ class Fields(SpecObject):
     def vector3_at(self, node: YamlNode, field: str, measure: Measure) -> Vector3 | None:
         plain = plain_numbers(node, measure)
         numbers = plain if len(plain) == 3 else self.numbers_at(node, field, measure, 3)
-        return Vector3(*numbers) if numbers else None
+        return _made_vector(*numbers) if numbers else None
 
     def text_at(self, node: YamlNode, field: str) -> str | None:
         if isinstance(node, YamlScalar):

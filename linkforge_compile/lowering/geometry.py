@@ -12,8 +12,13 @@ from linkforge_compile.lowering.quantities import EXTENT, NOT_ZERO, Measure
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode
+from linkforge_compile.unjudged import unjudged
 
 _FACTOR = Measure(bound=NOT_ZERO)
+
+# What their constructors ask of numbers, EXTENT and _FACTOR have asked.
+_made_box, _made_sphere, _made_mesh = unjudged(Box), unjudged(Sphere), unjudged(Mesh)
+_made_cylinder, _made_capsule = unjudged(Cylinder), unjudged(Capsule)
 
 
 def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
@@ -36,15 +41,19 @@ def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
         size, rest = body.vector3("size", EXTENT, required="[0.1, 0.1, 0.1]"), besides(body)
     else:
         size, rest = shape.vector3_at(node, "box", EXTENT), _short(shape, node)
-    return None if size is None else shape.build(lambda: Box(size, **rest))
+    return None if size is None else _made_box(size, **rest)
 
 
 def _cylinder(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
-    return _round(Cylinder, shape.map_at(node, "cylinder"))
+    body = shape.map_at(node, "cylinder")
+    extents = body and _radius_and_length(body)
+    return _made_cylinder(*extents, **besides(body)) if body and extents else None
 
 
 def _capsule(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
-    return _round(Capsule, shape.map_at(node, "capsule"))
+    body = shape.map_at(node, "capsule")
+    extents = body and _radius_and_length(body)
+    return _made_capsule(*extents, **besides(body)) if body and extents else None
 
 
 def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
@@ -53,7 +62,7 @@ def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None
         radius, rest = body.number("radius", EXTENT, required="0.1"), besides(body)
     else:
         radius, rest = shape.number_at(node, "sphere", EXTENT), _short(shape, node)
-    return None if radius is None else shape.build(lambda: Sphere(radius, **rest))
+    return None if radius is None else _made_sphere(radius, **rest)
 
 
 def _mesh(shape: Fields, node: YamlNode, scope: FileScope) -> Geometry | None:
@@ -75,14 +84,8 @@ def _mesh_file(  # noqa: PLR0917 both forms of a mesh end here
     if not file.strip():
         fields.tell(NO_MESH_FILE, node.child("file") or node, owner=fields.title)
         return None
-    return fields.build(
-        lambda: Mesh(
-            scope.resource(file, node.child("file") or node),
-            scale,
-            is_scale_stated=node.child("scale") is not None,
-            **rest,
-        )
-    )
+    resource = scope.resource(file, node.child("file") or node)
+    return _made_mesh(resource, scale, is_scale_stated=node.child("scale") is not None, **rest)
 
 
 def _scale(mesh: Fields) -> Vector3 | None:
@@ -96,13 +99,9 @@ def _scale(mesh: Fields) -> Vector3 | None:
     return None if number is None else Vector3(number, number, number)
 
 
-def _round(kind: type[Cylinder | Capsule], body: Fields | None) -> Geometry | None:
-    if body is None:
-        return None
+def _radius_and_length(body: Fields) -> tuple[float, float] | None:
     radius, length = body.numbers(("radius", EXTENT, "0.1"), ("length", EXTENT, "0.5"))
-    if radius is None or length is None:
-        return None
-    return body.build(lambda: kind(radius, length, **besides(body)))
+    return None if radius is None or length is None else (radius, length)
 
 
 def _short(shape: Fields, node: YamlNode) -> Besides:

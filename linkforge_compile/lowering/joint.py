@@ -40,6 +40,7 @@ from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
+from linkforge_compile.unjudged import unjudged
 
 
 class _Motion(NamedTuple):
@@ -79,6 +80,9 @@ _ANY_MOTION = _TURNING._replace(
 _STAND_IN_TYPE = JointType.REVOLUTE
 _STAND_IN_AXIS = Vector3(0.0, 0.0, 1.0)
 _STAND_IN_LIMITS = JointLimits(-UNKNOWN, UNKNOWN, 1.0, 1.0)
+
+# What their constructors ask of values, the measures and what reads the others have asked.
+_made_limits, _made_dynamics, _made_joint = unjudged(JointLimits), unjudged(JointDynamics), unjudged(Joint)
 
 _AXES = {
     "x": Vector3(1.0, 0.0, 0.0),
@@ -172,6 +176,10 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
     if parent == child:
         fields.tell(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
         return None
+    parts = limits, dynamics, mimic, safety_controller, calibration
+    if parent and child and axis_as_written is None:
+        return _made_joint(name, joint_type, parent, child, origin, axis, *parts, **besides(fields))
+    # A name may be empty, and an axis too long to be made a unit vector.
     return fields.build(
         lambda: Joint(
             name,
@@ -180,11 +188,7 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
             child,
             origin,
             axis,
-            limits,
-            dynamics,
-            mimic,
-            safety_controller,
-            calibration,
+            *parts,
             axis_as_written=axis_as_written,
             **besides(fields),
         )
@@ -249,7 +253,7 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: _Motion) -> Jo
         upper = _STAND_IN_LIMITS.upper if has_range else None
     effort = _STAND_IN_LIMITS.effort if effort is None else effort
     velocity = _STAND_IN_LIMITS.velocity if velocity is None else velocity
-    return limits.build(lambda: JointLimits(lower, upper, effort, velocity, **besides(limits)))
+    return _made_limits(lower, upper, effort, velocity, **besides(limits))
 
 
 def _is_lost(fields: Fields, key: str) -> bool:
@@ -268,7 +272,7 @@ def _dynamics(fields: Fields, motion: _Motion) -> JointDynamics | None:
     if dynamics is None:
         return None
     damping, friction = dynamics.numbers(("damping", AMOUNT, ""), ("friction", motion.effort, ""))
-    return dynamics.build(lambda: JointDynamics(damping or 0.0, friction or 0.0, **besides(dynamics)))
+    return _made_dynamics(damping or 0.0, friction or 0.0, **besides(dynamics))
 
 
 def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:

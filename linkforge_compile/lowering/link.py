@@ -35,6 +35,7 @@ from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
+from linkforge_compile.unjudged import unjudged
 
 _MASS, _MASS_TO_SPREAD = Measure((Dimension.MASS,), NOT_NEGATIVE), Measure((Dimension.MASS,), ABOVE_ZERO)
 _DENSITY, _INERTIA = Measure((Dimension.DENSITY,), ABOVE_ZERO), Measure((Dimension.INERTIA,))
@@ -43,6 +44,10 @@ _MOMENTS = [(key, _INERTIA, "0.01") for key in ("ixx", "iyy", "izz")]
 _PRODUCTS = [(key, _INERTIA, "") for key in ("ixy", "ixz", "iyz")]
 
 _UNSAID_PHYSICS = LinkPhysics()
+
+# What their constructors ask of numbers, the measures above have asked.
+_made_inertial, _made_tensor = unjudged(Inertial), unjudged(InertiaTensor)
+_made_visual, _made_collision = unjudged(Visual), unjudged(Collision)
 
 Shapes = Sequence[Visual | None] | Sequence[Collision | None]
 
@@ -123,7 +128,7 @@ def _visual(shape: Fields | None, scope: FileScope) -> Visual | None:
         return None
     geometry, origin = lower_geometry(shape, scope), shape.origin()
     material, name = lower_visual_material(shape, scope), shape.text("name")
-    return Visual(geometry, origin, material, name, **besides(shape)) if geometry else None
+    return _made_visual(geometry, origin, material, name, **besides(shape)) if geometry else None
 
 
 def _collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) -> list[Collision | None]:
@@ -144,7 +149,7 @@ def _collision(shape: Fields | None, scope: FileScope) -> Collision | None:
     if shape is None:
         return None
     geometry, origin, name = lower_geometry(shape, scope), shape.origin(), shape.text("name")
-    return Collision(geometry, origin, name, **besides(shape)) if geometry else None
+    return _made_collision(geometry, origin, name, **besides(shape)) if geometry else None
 
 
 def _inertial(link: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
@@ -179,19 +184,17 @@ def _written(inertial: Fields, mass: float | None, origin: Transform) -> Inertia
         inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass'")
     if mass is None or tensor is None:
         return None
-    return inertial.build(lambda: Inertial(mass, origin, tensor, **besides(inertial)))
+    return _made_inertial(mass, origin, tensor, **besides(inertial))
 
 
 def _tensor(inertial: Fields) -> InertiaTensor | None:
     inertia = inertial.map("inertia")
     if inertia is None:
         return None
-    ixx, iyy, izz, *products = inertia.numbers(*_MOMENTS, *_PRODUCTS)
+    ixx, iyy, izz, ixy, ixz, iyz = inertia.numbers(*_MOMENTS, *_PRODUCTS)
     if ixx is None or iyy is None or izz is None:
         return None
-    return inertia.build(
-        lambda: InertiaTensor(ixx, iyy, izz, *(product or 0.0 for product in products), **besides(inertia))
-    )
+    return _made_tensor(ixx, iyy, izz, ixy or 0.0, ixz or 0.0, iyz or 0.0, **besides(inertia))
 
 
 def _one_of_mass_and_density(inertial: Fields) -> bool:
