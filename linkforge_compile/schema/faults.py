@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 def without_faults(tree: YamlMap, sink: Diagnostics, *, is_included: bool) -> YamlMap:
     """Report every place where a file is not shaped as the language; return it without them."""
     errors = (error for error in _errors(tree, is_included) if not _is_in_reserved_name(error))
-    found = (judgement for error in errors for judgement in explain(error, tree))
+    found = (judgement for error in errors for judgement in _explained(error, tree))
     # Each is explained with all that is near it: of the hundred thousand faults of a hostile file, those that are told.
     judgements = list(islice(found, MAX_TOLD + 1))
     return _told(tree, judgements, sink)
@@ -42,8 +42,20 @@ def computed_without_faults(node: YamlNode, written: YamlNode, key: str, schema:
     shown = YamlMap({key: YamlEntry(name, written)}, node.span)
     whole: Schema = {"type": "object", "properties": {key: schema}}
     errors = Draft7Validator(whole).iter_errors({key: _plain(shown.entries[key].value)})
-    judgements = [one for error in errors for one in explain(error, shown) if len(one.path) > 1]
+    judgements = [one for error in errors for one in _explained(error, shown) if len(one.path) > 1]
     return _told(tree, judgements, sink).entries[key].value
+
+
+def _explained(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
+    yield from explain(error, tree)
+    _let_go(error)
+
+
+def _let_go(error: ValidationError) -> None:
+    """Part an error from those behind it: they hold one another, and in a compile Python's collector rests."""
+    for inner in error.context or ():
+        inner.parent = None
+        _let_go(inner)
 
 
 def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> YamlMap:
