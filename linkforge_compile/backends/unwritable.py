@@ -10,6 +10,7 @@ from linkforge_compile.backends.markup import is_writable, require_writable
 from linkforge_compile.backends.parts import Held
 from linkforge_compile.backends.parts import Part as WordedPart
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.models.link import LinkPhysics
 from linkforge_compile.core.part import Element, Part, attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.backends import UNWRITABLE
@@ -30,6 +31,8 @@ def _is_surely_writable(value: object) -> bool:
     """Whether a field is texts that XML can hold, or parts, which are looked at by themselves; any other may be so."""
     if isinstance(value, str):
         return is_writable(value)
+    if isinstance(value, LinkPhysics):
+        return type(value.self_collide) is type(value.gravity) is bool
     return isinstance(value, Part) or (isinstance(value, tuple) and all(map(_is_surely_writable, value)))
 
 
@@ -70,6 +73,10 @@ def _in_value(value: object, where: SourceRef | None, *path: str) -> Iterator[Di
             yield from refused(partial(require_writable, value), where, *path)
     elif isinstance(value, Element):
         return
+    elif isinstance(value, LinkPhysics):
+        # No element of its own, and its constructor takes its truths as they come.
+        for name in ("self_collide", "gravity"):
+            yield from _in_value(getattr(value, name), value.source or where, name)
     elif isinstance(value, Mapping):
         for key, inner in value.items():
             yield from _in_value(key, where, *path)

@@ -11,7 +11,7 @@ from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.geometry import Capsule, Mesh, Sphere, Vector3
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointType
-from linkforge_compile.core.models.link import Link, Visual
+from linkforge_compile.core.models.link import Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.models.planning import PlanningGroup
 from linkforge_compile.core.models.robot import Robot
@@ -105,6 +105,8 @@ UNWRITABLE = {
     "frame": robot(sensors=[Sensor("s", SensorType.IMU, "base", imu_info=IMUInfo(), frame=TOLL)]),
     "always on": robot(sensors=[Sensor("s", SensorType.IMU, "base", imu_info=IMUInfo(), always_on=TOLL)]),
     "visualize": robot(sensors=[Sensor("s", SensorType.IMU, "base", imu_info=IMUInfo(), visualize=TOLL)]),
+    "self-collide": Robot("r", links=[Link("base", physics=LinkPhysics(self_collide=TOLL))]),
+    "gravity": Robot("r", links=[Link("base", physics=LinkPhysics(gravity=TOLL))]),
     "static": robot(gazebo_elements=[GazeboElement("base", static=TOLL)]),
     "interface": robot(ros2_controls=[Ros2Control("c", "system", "p", [Ros2ControlJoint("j", [TOLL])])]),
     "parameter": robot(
