@@ -156,6 +156,15 @@ def test_a_link_of_a_class_of_ones_own_sets_its_fields_in_its_way():
         Watched("base", physics=LinkPhysics(mu=9.0))
 
 
+def test_a_link_of_a_class_of_ones_own_is_copied_in_its_way():
+    link = Watched("base", Inertial(2.0), visuals=[Visual(BALL, name="v")], collisions=[Collision(BALL)])
+    for copied in (link.with_prefix("left_"), *prefixed_links([link], "left_")):
+        assert (type(copied), copied.name, copied.mass) == (Watched, "left_base", 2.0)
+        assert [visual.name for visual in copied.visuals] == ["left_v"]
+        assert copied.seen == copied.visuals
+    assert (link.name, link.visuals[0].name) == ("base", "v")
+
+
 @pytest.mark.parametrize("nothing", [None, 0, False])
 def test_what_is_no_list_of_attributes_is_refused(nothing):
     with pytest.raises(TypeError):

@@ -261,16 +261,22 @@ class Link(Renamable):
         )
 
     def _copy(self, name: str, visuals: Iterable[Visual], collisions: Iterable[Collision]) -> Link:
+        if type(self) is not Link:
+            from copy import copy
+
+            link = copy(self)
+            _set_fields(link, name=name, visuals=tuple(visuals), collisions=tuple(collisions))
+            return link
         attributes = vars(self).copy()
         attributes["name"] = name
         attributes["visuals"], attributes["collisions"] = tuple(visuals), tuple(collisions)
-        link = object.__new__(type(self))
+        link = object.__new__(Link)
         object.__setattr__(link, "__dict__", attributes)  # half of what it takes to fill the one that it has
         return link
 
 
 def _set_fields(link: Link, **values: object) -> None:
-    """Set fields of a link that is being made."""
+    """Set fields of a link that is being made or copied."""
     if type(link) is Link:
         vars(link).update(values)  # a third of what it takes to set each as if it were a renaming
         return
