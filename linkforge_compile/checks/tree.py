@@ -66,7 +66,7 @@ def check_second_parents(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
 
 def _way_to_one_parent(joint: Joint, first: Joint) -> str:
     source, other = joint.source, first.source
-    if source and other and source.key and (source.key, source.trail) == (other.key, other.trail):
+    if source and other and source.key is not None and (source.span, source.trail) == (other.span, other.trail):
         return "'child' must name what 'for' counts, to be another each time"
     return "correct the 'child' of one"
 

@@ -32,8 +32,8 @@ from linkforge_compile.lowering.quantities import (
     plain_numbers,
     si_number,
 )
-from linkforge_compile.lowering.spec_object import SpecObject
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.lowering.spec_object import SpecObject, made_ref
+from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.syntax.xacro import xacro_facts
@@ -114,11 +114,16 @@ class Fields(SpecObject):
 
     def text(self, key: str, *, required: str = "") -> str | None:
         """Read a scalar as it was written: text, or a reference to a name."""
-        # Most of what may be said is not, and is asked for by the thousand.
-        if key not in self.node.entries and not required:
+        # Most of what may be said is not, or is a scalar, and is asked for by the thousand.
+        entry = self.node.entries.get(key)
+        if entry is None and not required:
             return None
-        node = self.said(key, required)
-        return None if node is None else self.text_at(node, key)
+        if entry is not None:
+            node = entry.value
+            if node.__class__ is YamlScalar and node.value is not None:
+                return node.text
+        said = self.said(key, required)
+        return None if said is None else self.text_at(said, key)
 
     def name(self, key: str, kind: str, *, required: str = "") -> str | None:
         """Read the name that a thing of this kind takes; its characters are judged."""
@@ -133,12 +138,12 @@ class Fields(SpecObject):
 
     def choice(self, key: str, choices: type[Choice], *, required: str = "") -> Choice | None:
         """Read one word of an enumeration."""
-        node = self.said(key, required)
-        text = None if node is None else self.text_at(node, key)
-        if text is None or node is None:
+        text = self.text(key, required=required)
+        if text is None:
             return None
         by_word = _by_word(choices)
         if text not in by_word:
+            node = self.node.entries[key].value
             self.tell(UNKNOWN_CHOICE, node, near=by_word, field=key, choices=", ".join(by_word), name=text)
         return by_word.get(text)
 
@@ -149,8 +154,7 @@ class Fields(SpecObject):
             return IDENTITY
         if isinstance(node, YamlList):
             xyz = self.vector3_at(node, "origin", LENGTH)
-            ref = SourceRef(node, None, self.trail)
-            return _made_pose(xyz, is_stated=True, source=ref) if xyz else IDENTITY
+            return _made_pose(xyz, is_stated=True, source=made_ref(node, None, self.trail)) if xyz else IDENTITY
         pose = self.map_at(node, "origin")
         if pose is None:
             return IDENTITY
@@ -163,14 +167,15 @@ class Fields(SpecObject):
     def map(self, key: str, *, required: str = "") -> Fields | None:
         """Open the object under a key."""
         # As for `text`.
-        if key not in self.node.entries and not required:
+        entry = self.node.entries.get(key)
+        if entry is None and not required:
             return None
-        node = self.said(key, required)
+        node = entry.value if entry is not None and entry.value.__class__ is YamlMap else self.said(key, required)
         return None if node is None else self.map_at(node, key)
 
     def map_at(self, node: YamlNode, field: str) -> Fields | None:
         """Open an object that stands at a node, such as an item of a list."""
-        if isinstance(node, YamlMap):
+        if node.__class__ is YamlMap:
             path = f"{self.path}.{field}" if self.path else field
             return Fields(node, self.owner, self.sink, self.trail, None, path)
         self.tell_kind(node, field, "a map")
@@ -185,7 +190,7 @@ class Fields(SpecObject):
             if not isinstance(node, YamlMap) and is_null(node):
                 node = YamlMap({}, entry.key.span)
             if isinstance(node, YamlMap):
-                yield name, lower(Fields(node, owner, self.sink, self.trail, entry.key.span), name)
+                yield name, lower(Fields(node, owner, self.sink, self.trail, entry.key), name)
                 continue
             self.tell_kind(node, owner, "a map")
             yield name, None
@@ -200,14 +205,14 @@ class Fields(SpecObject):
             for entry in inner.node if inner else ():
                 yield outer.key, entry
 
-    def arranged(self, owner: str, key: Span, *written: YamlEntry, **nodes: YamlNode) -> Fields:
+    def arranged(self, owner: str, key: YamlNode, *written: YamlEntry, **nodes: YamlNode) -> Fields:
         """Return an object whose fields stand in the tree as keys or apart: its `source` finds them by field.
 
         `written` are entries that stand in the tree as they are; `nodes` go before one of the same name.
         """
         entries = {entry.name: entry for entry in written}
         entries |= {name: YamlEntry(YamlScalar(name, name, node.span), node) for name, node in nodes.items()}
-        return Fields(YamlMap(entries, key), owner, self.sink, self.trail, key)
+        return Fields(YamlMap(entries, key.span), owner, self.sink, self.trail, key)
 
     def items(self, key: str) -> tuple[YamlNode, ...]:
         """Return the items of a list; one thing that is no list is a list of one; () where nothing is said."""
@@ -273,10 +278,11 @@ class Fields(SpecObject):
         self.tell_kind(node, field, "text")
         return None
 
-    def name_is_valid(self, name: str, kind: str, where: YamlNode | SourceRef) -> bool:
-        """Tell of a name that URDF readers do not take; True where they do."""
-        if is_valid_name(name):
-            return True
+    def name_is_valid(self, name: str, kind: str, where: YamlNode | None = None) -> bool:
+        """Tell of a name that URDF readers do not take, without `where` at the object; True where they do."""
+        return is_valid_name(name) or self._tell_invalid(name, kind, where or self.ref)
+
+    def _tell_invalid(self, name: str, kind: str, where: YamlNode | SourceRef) -> bool:
         if facts := xacro_facts(name):
             for each in facts:
                 self.tell(XACRO_EXPRESSION, where, text=each["text"], ours=each["ours"])

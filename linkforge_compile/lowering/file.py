@@ -23,7 +23,7 @@ from linkforge_compile.lowering.material import lower_materials
 from linkforge_compile.lowering.mesh_solids import MeshReader
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
+from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
 from linkforge_compile.units import Quantity, number_text
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def lower_file(
         ros2_controls=_ros2_controls(file),
         gazebo_elements=gazebo_elements_of(file),
         semantic=semantic.description if semantic else None,
-        source=SourceRef(tree, said.span if said else None, trail),
+        source=SourceRef(tree, said, trail),
         **outer_extras_of(file),
     )
     gaps = _gaps(tree, [name for parts in (links, joints) for name, part in parts.items() if part is None])
@@ -105,11 +105,12 @@ def _gaps(tree: YamlMap, lost: Iterable[str]) -> Gaps:
     brought = [f"{name}_$(…)" for name in modules]  # whatever names those have
     # An entry that is indented stands among the keys of the one above.
     sections = [node for name in _SECTIONS_OF_NAMES if isinstance(node := tree.get(name), YamlMap)]
-    inside = [name for section in sections for entry in section for name in names_at_fault(entry.value)]
+    faulty = [entry for section in sections for entry in section if _has_fault(entry.value)]
+    inside = [name for entry in faulty for name in names_at_fault(entry.value)]
     return gaps_of(
         [
             *lost,
-            *_without_mimic(tree.get("joints")),
+            *_without_mimic(faulty, tree.get("joints")),
             *names_at_fault(tree),
             *names_at_fault(semantic),
             *brought,
@@ -118,10 +119,16 @@ def _gaps(tree: YamlMap, lost: Iterable[str]) -> Gaps:
     )
 
 
-def _without_mimic(joints: YamlNode | None) -> list[str]:
+def _has_fault(node: YamlNode) -> bool:
+    """Whether a field of a map is at fault."""
+    return isinstance(node, YamlMap) and YamlFault in [entry.value.__class__ for entry in node.entries.values()]
+
+
+def _without_mimic(faulty: Iterable[YamlEntry], joints: YamlNode | None) -> list[str]:
     """Return the joints that follow another, but whose `mimic` has a fault, so that nobody knows which."""
-    entries = joints if isinstance(joints, YamlMap) else ()
-    return [entry.name for entry in entries if _has_lost(entry.value, ("mimic",))]
+    entries = joints.entries if isinstance(joints, YamlMap) else {}
+    followers = [entry for entry in faulty if entries.get(entry.name) is entry]
+    return [entry.name for entry in followers if _has_lost(entry.value, ("mimic",))]
 
 
 def _has_lost(node: YamlNode | None, sections: tuple[str, ...]) -> bool:

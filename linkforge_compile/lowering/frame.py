@@ -27,10 +27,10 @@ def lower_frames(file: Fields) -> Iterator[Frame]:
 
 
 def _frame(fields: Fields, name: str) -> Frame:
-    valid = fields.name_is_valid(name, "frame", fields.ref)
+    valid = fields.name_is_valid(name, "frame")
     said = fields.text("joint")
     joint_name = f"{name}_joint" if said is None else said
-    valid &= said is None or fields.name_is_valid(said, "joint", fields.node.get("joint") or fields.ref)
+    valid &= said is None or fields.name_is_valid(said, "joint", fields.node.get("joint"))
     ends = Ends(fields.text("parent", required="base"), name, fields.origin())
     joint = joint_between(fields, joint_name if valid else None, JointType.FIXED, ends)
     return Frame(name, joint_name, Link(name, source=fields.ref) if joint else None, joint)

@@ -25,7 +25,7 @@ def lower_gazebo_elements(file: Fields) -> Iterator[GazeboElement]:
         entries = file.node.get(section)
         for entry in entries if isinstance(entries, YamlMap) else ():
             if isinstance(entry.value, YamlMap) and "gazebo" in entry.value.entries:
-                owner = Fields(entry.value, f"{kind} '{entry.name}'", file.sink, file.trail, entry.key.span)
+                owner = Fields(entry.value, f"{kind} '{entry.name}'", file.sink, file.trail, entry.key)
                 yield from lower_gazebo(owner, entry.name, {entry.name: entry.value})
     yield from lower_gazebo(file, None, joints_of(file.node))
 

@@ -110,7 +110,7 @@ class Joining:
         fields = module_fields(module, self._sink)
         if not module.prefix or not fields:
             return True
-        return fields.name_is_valid(module.prefix, "prefix", fields.node.get("prefix") or fields.ref)
+        return fields.name_is_valid(module.prefix, "prefix", fields.node.get("prefix"))
 
     def _clashes(self, component: Robot) -> Iterator[Clash]:
         """Yield every part whose final name is taken already; materials that are equal may share one."""

@@ -144,7 +144,7 @@ def read_joint_of_any_type(fields: Fields, name: str) -> None:
 
 def _joint(fields: Fields, name: str, links: Sequence[str]) -> Joint | None:
     """Lower one joint; of the file's `links`, one that it may hang on is the example where it says none."""
-    valid_name = name if fields.name_is_valid(name, "joint", fields.ref) else None
+    valid_name = name if fields.name_is_valid(name, "joint") else None
     joint_type = fields.choice("type", JointType, required="revolute")
     base = _some_base(fields, links) if fields.said("parent") is None else ""
     ends = Ends(fields.text("parent", required=base), fields.text("child", required="arm"), fields.origin())

@@ -59,7 +59,7 @@ def lower_links(file: Fields, scope: FileScope) -> Iterator[tuple[str, Link | No
 
 def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
     """Lower one link; a faulty part of it is left out, so None only for a name that no link may have."""
-    valid = fields.name_is_valid(name, "link", fields.ref)
+    valid = fields.name_is_valid(name, "link")
     visuals = [_visual(fields.map_at(node, "visual"), scope) for node in fields.items("visual")]
     collisions = _collisions(fields, visuals, scope)
     inertial, physics = _inertial(fields, collisions or visuals, scope), _physics(fields)

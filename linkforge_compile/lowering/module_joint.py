@@ -73,7 +73,7 @@ def _name(module: Fields, default: str) -> str | None:
             return joint.name("name", "joint")
     elif said is not None:
         return module.name("joint", "joint")
-    return default if module.name_is_valid(default, "joint", module.ref) else None
+    return default if module.name_is_valid(default, "joint") else None
 
 
 def _as_joint(module: Fields, name: str) -> Fields:
@@ -83,4 +83,4 @@ def _as_joint(module: Fields, name: str) -> Fields:
     ends = {key: entry for key in ("parent", "origin") if (entry := module.node.entries.get(key))}
     named = said if isinstance(said, YamlScalar) else said and said.child("name")
     node = YamlMap({**fields, **ends}, module.node.span)
-    return Fields(node, f"joint '{name}'", module.sink, module.trail, named.span if named else module.key)
+    return Fields(node, f"joint '{name}'", module.sink, module.trail, named or module.key)

@@ -41,7 +41,7 @@ def _lower(fields: Fields, name: str) -> ModuleJoint:
     for end in _ENDS:
         if (said := fields.node.get(end)) is not None:
             fields.tell(MOUNT_SAYS_ENDS, said, owner=fields.owner, field=end)
-    valid_name = name if fields.name_is_valid(name, "joint", fields.ref) else None
+    valid_name = name if fields.name_is_valid(name, "joint") else None
     joint_type = fields.choice("type", JointType, required="revolute")
     ends = Ends(WORLD, fields.text("child", required="hip"), Transform.identity())
     return ModuleJoint(name, joint_between(fields, valid_name, joint_type, ends), gazebo_of(fields, name))

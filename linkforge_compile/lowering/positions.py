@@ -40,7 +40,7 @@ def _in_transmissions(file: Fields) -> Iterator[_Position]:
         for entry in joints if isinstance(joints, YamlMap) else ():
             if isinstance(entry.value, YamlMap):
                 owner = f"transmission joint '{entry.name}'"
-                yield _Position(entry.name, Fields(entry.value, owner, file.sink, file.trail, entry.key.span), "offset")
+                yield _Position(entry.name, Fields(entry.value, owner, file.sink, file.trail, entry.key), "offset")
 
 
 def _in_gazebo_blocks(file: Fields) -> Iterator[_Position]:

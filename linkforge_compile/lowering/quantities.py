@@ -146,14 +146,16 @@ def plain_number(node: YamlNode, measure: Measure) -> float | None:
 
 def plain_numbers(node: YamlNode, measure: Measure) -> tuple[float, ...]:
     """Return the numbers that a list says where each is one for `plain_number`; none for anything else."""
-    if not isinstance(node, YamlList):
+    if node.__class__ is not YamlList:
         return ()
+    least, most = measure.least, measure.most
     numbers: list[float] = []
+    # There are so many vectors that what `plain_number` asks is asked here.
     for item in node.items:
-        number = plain_number(item, measure)
-        if number is None:
+        value = item.value if item.__class__ is YamlScalar else None
+        if not (value.__class__ is float or value.__class__ is int) or not least <= value <= most:
             return ()
-        numbers.append(number)
+        numbers.append(float(value))
     return tuple(numbers)
 
 

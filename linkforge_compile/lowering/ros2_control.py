@@ -79,7 +79,7 @@ def _interfaces(part: Fields, key: str) -> Iterator[Interface]:
         yield from (interface for _, interface in part.each(key, "interface", _interface) if interface is not None)
         return
     for name, node in part.named_items(key):
-        yield Interface(name, source=SourceRef(node, node.span, part.trail))
+        yield Interface(name, source=SourceRef(node, None, part.trail))
 
 
 def _interface(interface: Fields, name: str) -> Interface:

@@ -10,8 +10,10 @@ from linkforge_compile.diagnostics import Code, Diagnostics, notes_of_changes
 from linkforge_compile.diagnostics.codes.model import MISSING_FIELD, REFUSED, WRONG_KIND
 from linkforge_compile.lowering.quantities import found
 from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import leaves_in
 from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlNode
+from linkforge_compile.unjudged import unjudged
 
 _NEEDED_IN_XML = {
     "axis": """an <axis>; write '<axis xyz="0 0 1"/>'""",
@@ -23,17 +25,20 @@ _NEEDED_IN_XML = {
 
 T = TypeVar("T")
 
+made_ref = unjudged(SourceRef)
+"""Makes one of the many that a robot has; those for a message take the constructor."""
+
 
 class SpecObject:
     """A map of the tree that an object of the IR is made of.
 
-    `owner` is the named thing whose fields these are, as messages say it: "joint 'elbow'"; `key` is where the object's
-    name stands, None for one without a name; `path` is the way from the owner to this object: "limits",
-    "inertial.inertia", empty for the owner itself; `ref` is what the object of the IR has as its `source`.
+    `owner` is the named thing whose fields these are, as messages say it: "joint 'elbow'"; `key` is the node of the
+    object's name, None for one without a name; `path` is the way from the owner to this object: "limits",
+    "inertial.inertia", empty for the owner itself.
     """
 
     # There is one for every map of a spec: to make a frozen one takes four times as long.
-    __slots__ = ("key", "node", "owner", "path", "ref", "sink", "trail")
+    __slots__ = ("key", "node", "owner", "path", "sink", "trail")
 
     def __init__(  # noqa: PLR0917 as above: arguments by name take longer
         self,
@@ -41,12 +46,16 @@ class SpecObject:
         owner: str,
         sink: Diagnostics,
         trail: tuple[Span, ...] = (),
-        key: Span | None = None,
+        key: Located | None = None,
         path: str = "",
     ) -> None:
         self.node, self.owner, self.sink = node, owner, sink
         self.trail, self.key, self.path = trail, key, path
-        self.ref = SourceRef(node, key, trail)
+
+    @property
+    def ref(self) -> SourceRef:
+        """What the object of the IR has as its `source`."""
+        return made_ref(self.node, self.key, self.trail)
 
     @property
     def title(self) -> str:

@@ -122,7 +122,7 @@ def _passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
         return
     for node in semantic.items("passive_joints"):
         name = semantic.text_at(node, "passive_joints")
-        item = semantic.arranged("passive_joints", node.span, name=node)
+        item = semantic.arranged("passive_joints", node, name=node)
         if name is None:
             continue
         if name in first:
@@ -162,8 +162,8 @@ def _long(semantic: Fields, owner: str, entry: YamlEntry, short: str, **ends: Ya
     """Return an entry in its long form, with the names that it stands under as fields."""
     said = entry.value
     if isinstance(said, YamlMap):
-        return semantic.arranged(owner, entry.key.span, *said, **ends)
-    return semantic.arranged(owner, entry.key.span, **ends, **{short: said})
+        return semantic.arranged(owner, entry.key, *said, **ends)
+    return semantic.arranged(owner, entry.key, **ends, **{short: said})
 
 
 def _sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:

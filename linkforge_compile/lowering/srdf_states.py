@@ -65,13 +65,11 @@ def written_states(semantic: Fields) -> Iterator[WrittenState]:
             values = YamlMap({}, entry.key.span)
         if not isinstance(values, YamlMap):
             semantic.tell_kind(values, owner, "a map of positions by joint")
-            yield WrittenState(group.text, entry.name, semantic.arranged(owner, entry.key.span), None)
+            yield WrittenState(group.text, entry.name, semantic.arranged(owner, entry.key), None)
             continue
         said = tuple(value for value in values if value.name not in EXTRA_KEYS and values.get(value.name) is not None)
         raw = (value for value in values if value.name in EXTRA_KEYS)
-        yield WrittenState(
-            group.text, entry.name, semantic.arranged(owner, entry.key.span, *said, *raw, group=group), said
-        )
+        yield WrittenState(group.text, entry.name, semantic.arranged(owner, entry.key, *said, *raw, group=group), said)
 
 
 def resolve_states(written: Sequence[WrittenState], around: Surroundings) -> list[GroupState]:

@@ -30,7 +30,7 @@ def lower_transmissions(file: Fields) -> Iterator[Transmission]:
 
 
 def _transmission(written: Mapping[str, Located], fields: Fields, name: str) -> Transmission | None:
-    valid = fields.name_is_valid(name, "transmission", fields.ref)
+    valid = fields.name_is_valid(name, "transmission")
     kind = fields.text("type", required="transmission_interface/SimpleTransmission")
     joints = dict(fields.each("joints", "transmission joint", partial(_joint, written)))
     actuators = dict(fields.each("actuators", "transmission actuator", _actuator))

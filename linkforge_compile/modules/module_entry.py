@@ -50,7 +50,7 @@ def read_entry(entry: YamlEntry, tree: TreeEvaluator, folder: Path | None, trail
     if not isinstance(body, YamlMap):
         if not isinstance(body, YamlFault):
             tree.sink.report(NOT_A_MODULE.at(body.span, name=name, found=found(body)))
-        return ModuleEntry(name, SourceRef(YamlFault(body.span), entry.key.span, trail), is_named=False)
+        return ModuleEntry(name, SourceRef(YamlFault(body.span), entry.key, trail), is_named=False)
     rest = YamlMap({key: inner for key, inner in body.entries.items() if key not in {"with", "override"}}, body.span)
     fields = tree.node(rest, module_shape())
     assert isinstance(fields, YamlMap), "a map that is computed is a map"
@@ -58,11 +58,11 @@ def read_entry(entry: YamlEntry, tree: TreeEvaluator, folder: Path | None, trail
     override = _override(body.get("override"), name, tree)
     if key is None:
         # What its name would have made, such as that of its joint, is not judged.
-        fault = SourceRef(YamlFault(body.span), entry.key.span, trail)
+        fault = SourceRef(YamlFault(body.span), entry.key, trail)
         return ModuleEntry(name, fault, is_named=False, arguments=arguments, tree=None if is_computed else tree)
     read = ModuleEntry(
         name,
-        SourceRef(fields, entry.key.span, trail),
+        SourceRef(fields, entry.key, trail),
         is_named=not isinstance(override, YamlFault),
         arguments=arguments,
         tree=None if is_computed or body is not written else tree,

@@ -35,18 +35,18 @@ class Located(Protocol):
 class SourceRef:
     """Where an object was written.
 
-    `node` is the object's own node, `key` the span of its name where a named map holds it;
-    `trail` lists the `use` that brought its file in, then the use of that file, and so on outwards.
+    `node` is the object's own node, `key` that of its name where a named map holds it: not its span, which is made
+    when somebody asks. `trail` lists the `use` that brought its file in, then the use of that file, and so on outwards.
     """
 
     node: Located
-    key: Span | None = None
+    key: Located | None = None
     trail: tuple[Span, ...] = ()
 
     @property
     def span(self) -> Span:
         """The name if the object has one, else the whole node."""
-        return self.key or self.node.span
+        return self.node.span if self.key is None else self.key.span
 
     def at(self, *path: str | int) -> Span:
         """Return the span of the deepest node that exists on the path, this object's own for none."""

@@ -36,7 +36,7 @@ class Spec:
         modules = []
         for key, spec in self.modules.items():
             use = uses[key]
-            ref = SourceRef(use.value, use.key.span, trail)
+            ref = SourceRef(use.value, use.key, trail)
             inner = (use.key.span, *trail)
             if spec is None:
                 modules.append(Instance(key, None, ref, f"{key}_", trail=inner))

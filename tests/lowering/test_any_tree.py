@@ -115,6 +115,6 @@ def near_schema(schema: dict, name: str) -> st.SearchStrategy[YamlNode]:
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(near("robot"), near("robot"), near("module"))
 def test_no_tree_is_a_traceback(tree, module, entry):
-    hand = Instance("hand", module if isinstance(module, YamlMap) else None, SourceRef(entry, SPAN), "hand_")
+    hand = Instance("hand", module if isinstance(module, YamlMap) else None, SourceRef(entry, YamlFault(SPAN)), "hand_")
     body = tree if isinstance(tree, YamlMap) else mapping({})
     assert lower(Instance("body", body, modules=(hand, hand)), Diagnostics()).robot is not None

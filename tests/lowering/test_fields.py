@@ -128,7 +128,7 @@ def test_an_entry_without_a_value_is_an_empty_object_at_its_name():
     entries = dict(fields.each("links", "link", lambda link, name: (name, link.key)))
     assert entries["arm"] is None
     name, key = entries["base"]
-    assert (name, str(key)) == ("base", "spec.yaml:1:9")
+    assert (name, str(key.span)) == ("base", "spec.yaml:1:9")
     assert told(fields) == ["spec.yaml:1:22: error: link 'arm' takes a map, found 3 [LF5001]"]
 
 

@@ -62,7 +62,7 @@ JOINT = Leaf(span(2, 9, 30), (("limits", LIMITS),))
 
 
 def test_a_reference_finds_the_deepest_node_that_exists():
-    elbow = SourceRef(JOINT, key=span(2, 3, 4))
+    elbow = SourceRef(JOINT, key=Leaf(span(2, 3, 4)))
     assert elbow.span == span(2, 3, 4)
     assert elbow.at("limits", "upper") == span(2, 25, 3)
     assert elbow.at("limits", "lower") == LIMITS.span
@@ -70,7 +70,7 @@ def test_a_reference_finds_the_deepest_node_that_exists():
 
 
 def test_a_path_may_end_at_a_key_itself():
-    elbow = SourceRef(JOINT, key=span(2, 3, 4))
+    elbow = SourceRef(JOINT, key=Leaf(span(2, 3, 4)))
     assert elbow.at("limits", Key("upper")) == span(7, 7, 5)
     assert elbow.at("limits", Key("lower")) == LIMITS.span
 
