@@ -146,7 +146,7 @@ def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
 
 def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
     from linkforge_compile.backends.limits import check_written_twice
-    from linkforge_compile.backends.parts import worded_parts_of_urdf
+    from linkforge_compile.backends.parts import doubtful_parts_of_urdf
     from linkforge_compile.backends.relative_paths import lost_on_the_way
     from linkforge_compile.importers.losses import unread
     from linkforge_compile.importers.srdf import with_srdf
@@ -171,7 +171,7 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     whole, compiled = both
     sink.report_all(compiled.faults)
     if compiled.robot is not None:
-        sink.report_all(check_written_twice(worded_parts_of_urdf(compiled.robot).with_extras))
+        sink.report_all(check_written_twice(doubtful_parts_of_urdf(compiled.robot).with_extras))
         sink.report_all(_losses(whole, compiled.robot, sink.places_of(LOSSES)))
         if settings.output is not None:
             sink.report_all(lost_on_the_way(compiled.robot, settings.output, MESH_BESIDE_THE_URDF))

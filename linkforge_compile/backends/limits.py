@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.backends.element import InsideError, RestatedAttributeError, inside_of, place_of_attribute
 from linkforge_compile.backends.markup import spelled
 from linkforge_compile.backends.namespaces import undeclared_prefixes
-from linkforge_compile.backends.parts import Held, Part, Worded, worded_parts_in, worded_parts_of_urdf
+from linkforge_compile.backends.parts import Doubtful, Held, Part, doubtful_parts_in, doubtful_parts_of_urdf
 from linkforge_compile.backends.srdf import render_srdf
 from linkforge_compile.backends.unwritable import unwritable_raw, unwritable_texts
 from linkforge_compile.backends.urdf import capsules, render_urdf, require_dialect, stated_version
@@ -43,13 +43,13 @@ def urdf_limits(robot: Robot, *, gazebo: Gazebo = "gz") -> Iterator[Diagnostic]:
 
     """
     require_dialect(gazebo)
-    worded = worded_parts_of_urdf(robot)
-    yield from check_texts(robot, worded)
-    yield from check_written_twice(worded.with_extras)
-    yield from check_attributes(worded.with_extras, robot, partial(render_urdf, robot, gazebo=gazebo))
+    doubtful = doubtful_parts_of_urdf(robot)
+    yield from check_texts(robot, doubtful)
+    yield from check_written_twice(doubtful.with_extras)
+    yield from check_attributes(doubtful.with_extras, robot, partial(render_urdf, robot, gazebo=gazebo))
     yield from check_capsules(robot)
     yield from check_version(robot)
-    yield from check_turns(robot, worded.with_extras)
+    yield from check_turns(robot, doubtful.with_extras)
     yield from check_materials_of_one_name(robot)
     if robot.sensors:
         from linkforge_compile.backends.urdf.sensor_limits import sensor_limits
@@ -62,17 +62,17 @@ def srdf_limits(robot: Robot) -> Iterator[Diagnostic]:
     if not robot.says_semantic:
         # To ask for its semantic part would make one.
         return
-    worded = worded_parts_in(robot.semantic)
-    yield from unwritable_texts(worded.parts)
-    yield from undeclared_prefixes(robot.semantic, worded.with_extras)
-    yield from check_attributes(worded.with_extras, robot, partial(render_srdf, robot))
+    doubtful = doubtful_parts_in(robot.semantic)
+    yield from unwritable_texts(doubtful.parts)
+    yield from undeclared_prefixes(robot.semantic, doubtful.with_extras)
+    yield from check_attributes(doubtful.with_extras, robot, partial(render_srdf, robot))
 
 
-def check_texts(robot: Robot, worded: Worded) -> Iterator[Diagnostic]:
+def check_texts(robot: Robot, doubtful: Doubtful) -> Iterator[Diagnostic]:
     """XML holds no control characters, extras must be well-formed, and only some names can be those of tags."""
     yield from unwritable_raw(robot, robot.source)
-    yield from unwritable_texts(worded.parts)
-    yield from undeclared_prefixes(robot, worded.with_extras)
+    yield from unwritable_texts(doubtful.parts)
+    yield from undeclared_prefixes(robot, doubtful.with_extras)
 
 
 def check_attributes(parts: Sequence[Held], robot: Robot, render: Callable[[], str]) -> Iterator[Diagnostic]:

@@ -1,15 +1,19 @@
-"""The parts of a robot that hold more than numbers, at any depth: looked for once, for whoever looks into them."""
+"""The parts of a robot that XML may be unable to write, at any depth: looked for once, for whoever looks into them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cache
+from itertools import chain
 from operator import attrgetter
+from types import NoneType
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.backends.element import inside_of
+from linkforge_compile.backends.markup import is_writable
+from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.interface import Interface
-from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.link import Link, LinkPhysics
 from linkforge_compile.core.part import Element
 from linkforge_compile.core.part import Part as BasePart
 from linkforge_compile.frozen import fields
@@ -26,48 +30,82 @@ Part: TypeAlias = Element | Link | Interface
 class Held(NamedTuple):
     """A part, where it was written, else what holds it, and the parts around it, outermost first.
 
-    `said` are its fields with more in them than a number, by name, without those that every part has.
+    `doubtful` are its fields, by name, with texts in them that XML may be unable to hold.
     """
 
     part: Part
     where: SourceRef | None
     around: tuple[Part, ...]
-    said: list[tuple[str, object]]
+    doubtful: list[tuple[str, object]]
 
 
-class Worded(NamedTuple):
-    """The parts that hold more than numbers, and those of them that hold what no field says."""
+class Doubtful(NamedTuple):
+    """The parts that may be unwritable, by their fields or what no field says, and those of them that say such."""
 
     parts: list[Held]
     with_extras: list[Held]
 
 
-def worded_parts_of_urdf(robot: Robot) -> Worded:
-    """Return the parts with more than numbers in them that the URDF of a robot writes."""
-    return worded_parts_in(
-        (
-            tuple(robot.materials.values()),
-            robot.links,
-            robot.joints,
-            robot.sensors,
-            robot.transmissions,
-            robot.ros2_controls,
-            robot.gazebo_elements,
-        )
+def doubtful_parts_of_urdf(robot: Robot) -> Doubtful:
+    """Return such parts of what the URDF of a robot writes."""
+    return doubtful_parts_in(
+        tuple(robot.materials.values()),
+        robot.links,
+        robot.joints,
+        robot.sensors,
+        robot.transmissions,
+        robot.ros2_controls,
+        robot.gazebo_elements,
     )
 
 
-def worded_parts_in(value: object) -> Worded:
-    """Return a part, or those in collections of them, and what is in these, `extra_inside` among them.
+def doubtful_parts_in(*sections: object) -> Doubtful:
+    """Return such parts among parts, or collections of them, and what is in these, `extra_inside` among them.
 
-    Those that hold numbers alone, which are most, are left out: XML can write every one of these.
+    Those of numbers and plain texts alone, which are nearly all, are left out: XML can write every one of these.
     """
-    found = Worded([], [])
-    _gather(value, None, (), found)
+    found = Doubtful([], [])
+    for section in sections:
+        if not _are_plain((section,)):
+            _gather(section, None, (), found)
     return found
 
 
-def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], found: Worded) -> None:
+def _are_plain(values: Collection[object]) -> bool:
+    """Whether there is certainly no doubtful part in values of any classes.
+
+    Those of a class are asked together, and then the values of each of its fields: a tenth of the walk through all.
+    """
+    return all(_are_plain_of(kind, values) for kind in set(map(type, values)))
+
+
+def _are_plain_of(kind: type, values: Collection[object]) -> bool:
+    """Answer for those of the values that are of a class."""
+    if issubclass(kind, _PARTS):
+        return _are_plain_parts([value for value in values if value.__class__ is kind and isinstance(value, _PARTS)])
+    if issubclass(kind, str):
+        return "".join([value for value in values if isinstance(value, str)]).isprintable()
+    if issubclass(kind, tuple | Index):
+        collections = [value for value in values if isinstance(value, tuple | Index)]
+        return _are_plain(list(chain.from_iterable(collections)))
+    return issubclass(kind, _WITHOUT_TEXT) or all(
+        _is_surely_writable(value) for value in values if value.__class__ is kind
+    )
+
+
+def _are_plain_parts(parts: Sequence[Part]) -> bool:
+    kind: type = parts[0].__class__
+    names, values_of, extras_of = _ways_into(kind)
+    if any(map(any, map(extras_of, parts))):
+        return False
+    columns = zip(*map(values_of, parts), strict=True) if names else ()
+    return all(
+        _are_plain(column) and not (name == RAW_XML and any(column))
+        for name, column in zip(names, columns, strict=True)
+    )
+
+
+def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], found: Doubtful) -> None:
     if isinstance(value, _PARTS):
         _gather_part(value, where, around, found)
     elif isinstance(value, tuple):  # before what is asked of base classes, which takes long
@@ -83,30 +121,54 @@ def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], fo
             _gather(inner, where, around, found)
 
 
-def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], found: Worded) -> None:
+def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], found: Doubtful) -> None:
     kind: type = part.__class__
     names, values_of, extras_of = _ways_into(kind)
-    said = [pair for pair in zip(names, values_of(part), strict=True) if pair[1]] if names else []
     has_extras = any(extras_of(part))
-    if not (said or has_extras):
+    if not (names or has_extras):
         return
+    inside: list[object] = []
+    doubtful: list[tuple[str, object]] = []
+    for name, value in zip(names, values_of(part), strict=True):
+        if isinstance(value, Element):
+            inside.append(value)
+        elif value:
+            if name == RAW_XML or not _is_surely_writable(value):
+                doubtful.append((name, value))
+            if value.__class__ is not str:
+                inside.append(value)
     where = part.source or where
-    held = Held(part, where, around, said)
-    found.parts.append(held)
+    if doubtful or has_extras:
+        held = Held(part, where, around, doubtful)
+        found.parts.append(held)
+        if has_extras:
+            found.with_extras.append(held)
+            inside.insert(0, inside_of(part))
     around = (*around, part)
-    if has_extras:
-        found.with_extras.append(held)
-        _gather(inside_of(part), where, around, found)
-    for _, inner in said:
-        if inner.__class__ is not str:
-            _gather(inner, where, around, found)
+    for inner in inside:
+        _gather(inner, where, around, found)
+
+
+def _is_surely_writable(value: object) -> bool:
+    """Whether a field is texts that XML can hold, or parts, which are looked at by themselves; any other may be so."""
+    if isinstance(value, str):
+        # What Python would print as it stands has none of the characters that XML cannot hold.
+        return value.isprintable() or is_writable(value)
+    if isinstance(value, LinkPhysics):
+        return type(value.self_collide) is type(value.gravity) is bool
+    return isinstance(value, BasePart) or (isinstance(value, tuple) and all(map(_is_surely_writable, value)))
 
 
 # A union takes three times as long to ask.
 _PARTS = (Element, Link, Interface)
 
+_WITHOUT_TEXT = (float, int, NoneType)
+
 # What is neither one of them nor a collection.
 _HOLD_NONE = (str, BasePart)
+
+RAW_XML = "raw_xml"
+"""The field of a plugin that is XML, and not text."""
 
 _Values: TypeAlias = Callable[[Part], tuple[object, ...]]
 

@@ -7,11 +7,10 @@ from functools import partial
 
 from linkforge_compile.backends.element import Extended, place_of_attribute, raw_texts, require_attribute_name
 from linkforge_compile.backends.markup import is_writable, require_writable
-from linkforge_compile.backends.parts import Held
-from linkforge_compile.backends.parts import Part as WordedPart
+from linkforge_compile.backends.parts import RAW_XML, Held, Part
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.link import LinkPhysics
-from linkforge_compile.core.part import Element, Part, attribute_pairs
+from linkforge_compile.core.part import Element, attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.backends import UNWRITABLE
 from linkforge_compile.source import Key, SourceRef
@@ -19,21 +18,11 @@ from linkforge_compile.source import Key, SourceRef
 
 def unwritable_texts(parts: Iterable[Held]) -> Iterator[Diagnostic]:
     """Yield an error for each text in parts of a robot that cannot be written as XML."""
-    for part, where, _, said in parts:
+    for part, where, _, doubtful in parts:
         if part.extra_attributes or part.extra_elements:
             yield from unwritable_raw(part, where)
-        for name, value in said:
-            if name == "raw_xml" or not _is_surely_writable(value):
-                yield from _in_field(part, name, value, where)
-
-
-def _is_surely_writable(value: object) -> bool:
-    """Whether a field is texts that XML can hold, or parts, which are looked at by themselves; any other may be so."""
-    if isinstance(value, str):
-        return is_writable(value)
-    if isinstance(value, LinkPhysics):
-        return type(value.self_collide) is type(value.gravity) is bool
-    return isinstance(value, Part) or (isinstance(value, tuple) and all(map(_is_surely_writable, value)))
+        for name, value in doubtful:
+            yield from _in_field(part, name, value, where)
 
 
 def unwritable_raw(part: Extended, where: SourceRef | None) -> Iterator[Diagnostic]:
@@ -49,8 +38,8 @@ def unwritable_raw(part: Extended, where: SourceRef | None) -> Iterator[Diagnost
             yield from refused(partial(raw_elements, text), source, *path)
 
 
-def _in_field(part: WordedPart, name: str, value: object, where: SourceRef | None) -> Iterator[Diagnostic]:
-    if name == "raw_xml" and isinstance(value, str):
+def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> Iterator[Diagnostic]:
+    if name == RAW_XML and isinstance(value, str):
         from linkforge_compile.backends.raw import raw_elements
 
         yield from refused(lambda: raw_elements(value), where, name)

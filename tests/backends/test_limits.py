@@ -1,11 +1,12 @@
 """What a format or its readers cannot take is told beforehand."""
 
+from contextlib import suppress
 from dataclasses import fields, replace
 
 import pytest
 
 from linkforge_compile.backends import srdf_limits, urdf_limits
-from linkforge_compile.backends.parts import _ways_into
+from linkforge_compile.backends.parts import _ways_into, doubtful_parts_in
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.geometry import Capsule, Mesh, Sphere, Vector3
@@ -137,6 +138,20 @@ def test_the_semantic_part_is_its_own_formats_affair():
     faulty = Robot("r", semantic=semantic)
     assert not told(faulty)
     assert [diagnostic.code.id for diagnostic in srdf_limits(faulty)] == ["LF7001"]
+
+
+def test_nothing_is_taken_for_plain_that_xml_may_be_unable_to_hold():
+    whole = everything()
+    assert not doubtful_parts_in(whole.links, whole.joints, whole.sensors).parts
+    changed = []
+    for part in parts(whole):
+        texts = [field.name for field in fields(part) if type(getattr(part, field.name)) is str]
+        changes = [{name: TOLL} for name in texts] + [{"extra_attributes": [("a", TOLL)]}, {"extra_elements": ["<a>"]}]
+        for change in changes:
+            with suppress(RobotModelError, TypeError):  # its constructor refuses it, or has no such field
+                changed.append(replace(part, **change))
+    assert len(changed) > 200
+    assert [part for part in changed if not doubtful_parts_in([part]).parts] == []
 
 
 FORCES = Sensor("ft", SensorType.FORCE_TORQUE, "tool", force_torque_info=ForceTorqueInfo())
