@@ -25,7 +25,7 @@ from linkforge_compile.modules.expansion import MAX_DEPTH
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import definitions
 from linkforge_compile.schema.repetition import LONG_FORM, WORDS
-from linkforge_compile.syntax import reader
+from linkforge_compile.syntax import nodes
 from linkforge_compile.units import Dimension, number_text, spellings_of, units_of
 
 HERE = Path(__file__).parent
@@ -229,7 +229,7 @@ def _bounds() -> str:
     mebibyte = 1024 * 1024
     bounds: dict[str, int | str] = {
         "size of a spec or data file": f"{MAX_FILE_BYTES // mebibyte} MiB",
-        "depth of nested lists and maps": reader.MAX_DEPTH,
+        "depth of nested lists and maps": nodes.MAX_DEPTH,
         "modules within modules": MAX_DEPTH,
         "files included from included files": includes.MAX_DEPTH,
         "included files in all": includes.MAX_INCLUDES,

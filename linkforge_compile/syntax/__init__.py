@@ -2,6 +2,7 @@
 
 from linkforge_compile.syntax.nodes import (
     ScalarValue,
+    Tags,
     YamlEntry,
     YamlFault,
     YamlList,
@@ -11,7 +12,7 @@ from linkforge_compile.syntax.nodes import (
     is_null,
     leaves_in,
 )
-from linkforge_compile.syntax.reader import Tags, read, read_data
+from linkforge_compile.syntax.reader import read, read_data
 from linkforge_compile.syntax.scalars import has_expression, scalar_value, word_value
 
 __all__ = [

@@ -12,9 +12,9 @@ from yaml.events import ScalarEvent
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics.ignores import Ignore
 from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax.event_reader import MAX_READ_TWICE, PARSER
 from linkforge_compile.syntax.ignore_words import IGNORE_WORDS
 from linkforge_compile.syntax.marks import Marks
-from linkforge_compile.syntax.reader import MAX_READ_TWICE, PARSER
 
 _COMMENT = re.compile(r"(?<!\S)#[ \t]*linkforge:[ \t]*ignore(?!\w)(?P<codes>(?:[ \t,]+(?i:LF)\w+)*)")
 _MEANT_AS_ONE = re.compile(rf"(?<!\S)#[^#\r\n]*?(?<!\w){IGNORE_WORDS.pattern}(?:[ \t,:=]+(?i:LF)\w+)*")

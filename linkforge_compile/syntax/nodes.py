@@ -6,7 +6,7 @@ by a node of its value with the expression's span, so a tree without expressions
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TypeAlias
 
 from linkforge_compile.frozen import dataclass
@@ -15,6 +15,9 @@ from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.units import Quantity
 
 ScalarValue: TypeAlias = None | bool | int | float | str | Quantity
+
+MAX_DEPTH = 100
+"""How deep lists and maps may nest: every later stage walks the tree by recursion."""
 
 
 class YamlScalar(NamedTuple):
@@ -176,6 +179,9 @@ class YamlFault:
 
 
 YamlNode: TypeAlias = YamlScalar | YamlList | YamlMap | YamlFault
+
+Tags: TypeAlias = Mapping[str, Callable[[YamlScalar], YamlNode]]
+"""What a scalar with a tag becomes, by the tag; a fault of it is for the function to report."""
 
 
 def _span(place: Span | SourceFile, begin: int, end: int) -> Span:

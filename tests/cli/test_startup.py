@@ -93,7 +93,7 @@ UNSAID_BY_TWO = {
 }
 
 NEEDLESS = {
-    *("jinja2", "networkx", "lxml", "difflib", "jsonschema"),
+    *("jinja2", "networkx", "lxml", "difflib", "jsonschema", "yaml"),
     *("copy", "dataclasses", "decimal", "fractions", "inspect", "random", "shutil"),
 }
 """Packages that no robot without faults needs."""

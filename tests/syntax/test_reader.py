@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterator
 from textwrap import dedent
+from typing import NoReturn
 
 import pytest
 import yaml
@@ -12,18 +13,25 @@ from hypothesis import strategies as st
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, read, reader
+from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, event_reader, read, reader
+from linkforge_compile.syntax.quick_reader import NotSimpleError
 
 PARSERS = [yaml.BaseLoader, *([yaml.CBaseLoader] if yaml.__with_libyaml__ else [])]
 
 
-@pytest.fixture(params=PARSERS, ids=lambda parser: parser.__name__)
-def _each_parser(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """PyYAML without libyaml reads the same trees and tells the same faults."""
-    monkeypatch.setattr(reader, "PARSER", request.param)
+def _refuse(*_: object) -> NoReturn:
+    raise NotSimpleError
 
 
-pytestmark = pytest.mark.usefixtures("_each_parser")
+@pytest.fixture(params=[None, *PARSERS], ids=lambda parser: parser.__name__ if parser else "quick")
+def _each_reader(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is simple is read alike by each parser of PyYAML, with libyaml or without, and the faults are the same."""
+    if request.param is not None:
+        monkeypatch.setattr(event_reader, "PARSER", request.param)
+        monkeypatch.setattr(reader, "read_quickly", _refuse)
+
+
+pytestmark = pytest.mark.usefixtures("_each_reader")
 
 
 UNCLOSED = UNCLOSED_EXPRESSION.message
@@ -237,8 +245,8 @@ def test_a_field_of_a_flow_map_may_be_left_empty():
 
 @pytest.mark.skipif(not yaml.__with_libyaml__, reason="without libyaml, its own parser reads all")
 def test_only_a_file_of_common_size_is_read_by_the_slow_parser(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(reader, "PARSER", yaml.CBaseLoader)
-    monkeypatch.setattr(reader, "MAX_READ_TWICE", 10)
+    monkeypatch.setattr(event_reader, "PARSER", yaml.CBaseLoader)
+    monkeypatch.setattr(event_reader, "MAX_READ_TWICE", 10)
     assert read_text("a: {b:}\n")[1] == []
     assert read_text("a: {bcdef:}\n")[1] == ["1:10 this is not YAML: found unexpected ':'"]
 
