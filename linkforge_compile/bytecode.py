@@ -22,8 +22,8 @@ T = TypeVar("T")
 # Two pre-releases of Python may have one tag and two kinds of bytecode.
 _FOR = f"{sys.implementation.cache_tag}-{MAGIC_NUMBER[:2].hex()}"
 
-_BROKEN = (OSError, EOFError, ValueError, LookupError, TypeError, SystemError, MemoryError, OverflowError)
-"""What reading a file raises that is not there, or that is not whole: marshal trusts the lengths and code it finds."""
+_HASH_BYTES = 8
+"""A file begins with a hash of the rest: marshal trusts what it finds, and code with a bit that fell over may crash."""
 
 
 def _stamp(files: Iterable[Path]) -> str:
@@ -49,13 +49,12 @@ def kept(module: str, name: str, files: Iterable[Path], make: Callable[[], T]) -
         made_from = _stamp(files)
     except OSError:
         return make()  # somebody is replacing them
-    try:
-        left_from, left = marshal.loads(place.read_bytes())
+    content = _left(place)
+    if content is not None:
+        left_from, left = marshal.loads(content)
         if left_from == made_from:
             value: T = left
             return value
-    except _BROKEN:
-        pass  # made anew
     made = make()
     if not sys.dont_write_bytecode:
         with suppress(OSError):
@@ -64,12 +63,22 @@ def kept(module: str, name: str, files: Iterable[Path], make: Callable[[], T]) -
     return made
 
 
+def _left(place: Path) -> bytes | None:
+    """Return what an earlier process left at a place; None for nothing, and for what is not as it was left."""
+    try:
+        whole = place.read_bytes()
+    except OSError:
+        return None
+    content = whole[_HASH_BYTES:]
+    return content if source_hash(content) == whole[:_HASH_BYTES] else None
+
+
 def _leave(place: Path, content: bytes) -> None:
     """Put a file in its place in one step, since another process may read it meanwhile."""
     place.parent.mkdir(parents=True, exist_ok=True)
     beside = place.with_name(f"{place.name}.{os.getpid()}")
     try:
-        beside.write_bytes(content)
+        beside.write_bytes(source_hash(content) + content)
         beside.replace(place)
     finally:
         beside.unlink(missing_ok=True)
