@@ -223,6 +223,7 @@ def pipes(folder: Path) -> str:
     for name in ("f.robot.yaml", "g.yaml", "h.yaml", "package.xml"):
         os.mkfifo(folder / name)
     return HEAD + (
+        "  l: {visual: {mesh: 'package://q/a.stl'}}\n"
         "modules: {a: {use: f.robot.yaml, parent: base}, b: {use: package://p/a.robot.yaml, parent: base}}\n"
         "include: [g.yaml]\ndata: {d: h.yaml}\n"
     )
@@ -369,6 +370,15 @@ def test_a_urdf_of_comments_is_imported_in_time(tmp_path: Path):
     write(tmp_path, "a.urdf", "<robot name='r'><link name='a'/>" + "<!-- b -->\n" * 20_000 + "</robot>")
     done = run("import", "a.urdf", folder=tmp_path)
     assert (done.returncode, done.stdout.count("# b\n"), done.stderr) == (0, 20_000, "")
+
+
+@pytest.mark.parametrize(
+    ("mesh", "told"), [("m$(i).stl", ["LF6021"] * 3 + ["LF5404"]), ("package://p$(i)/m.stl", ["LF5404"])]
+)
+def test_many_meshes_that_are_nowhere_are_looked_for_in_time(mesh: str, told: list[str], tmp_path: Path):
+    meshes = f"{{for: {{i: 6000}}, mesh: {mesh}}}"
+    lines = refused(lambda _: f"{HEAD}  l: {{visual: [{meshes}], collision: visual}}\n", "LF5404", tmp_path)
+    assert sorted(re.findall(r"\[(LF\d+)\]", lines)) == sorted(told)
 
 
 def test_many_groups_of_long_chains_are_checked_in_time(tmp_path: Path):

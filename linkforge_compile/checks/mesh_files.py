@@ -36,6 +36,9 @@ LARGEST = 8 * 1024 * 1024
 PIECES, PIECE = 8, 8192
 """How many pieces of a mesh that is text are looked at, and how many bytes each has."""
 
+MOST_PACKAGES = 500
+"""In so many packages meshes are looked for."""
+
 LFS_POINTER = b"version https://git-lfs"
 
 _CORNER = pattern(rb"^[ \t]*v(?:ertex)?[ \t]+(\S{1,40})[ \t]+(\S{1,40})[ \t]+(\S{1,40})(?=\s)", re.MULTILINE)
@@ -124,14 +127,23 @@ class MeshFinder:
         self._folder = _folder_of(robot)
         self._packages: dict[str, Path | None] = {}
         self._names: dict[Path, frozenset[str] | None] = {}
+        self._open_folders: dict[Path, bool] = {}
 
     def path(self, resource: str) -> Path | None:
         """Return where a mesh is or should be; None where this machine cannot tell, or a check may not look."""
         path = self._path(resource)
-        if path is None or self._may_look(path):
+        if path is None or self._may_look_at(path):
             return path
         self.unseen.add(resource)
         return None
+
+    def _may_look_at(self, path: Path) -> bool:
+        """Whether a check may look at a file; to follow the way to its folder takes long, so what that gave is kept."""
+        folder = path.parent
+        if folder not in self._open_folders:
+            self._open_folders[folder] = self._may_look(folder)
+        is_plain = self._open_folders[folder] and path.name != ".." and not os.path.islink(path)  # noqa: PTH114 see roots
+        return is_plain or self._may_look(path)
 
     def _path(self, resource: str) -> Path | None:
         if not resource or "\0" in resource:
@@ -147,6 +159,8 @@ class MeshFinder:
 
     def _in_package(self, package: str, inside: str) -> Path | None:
         if package not in self._packages:
+            if len(self._packages) >= MOST_PACKAGES:
+                return None
             self._packages[package] = self._resolved(f"package://{package}/")
         folder = self._packages[package]
         if folder is None or not inside:

@@ -28,6 +28,9 @@ CAD_FORMATS = frozenset(
 )
 """Endings of what CAD programs work on, which nothing that reads URDF loads."""
 
+MOST_ALONE = 100
+"""So many files that are missing in folders that are there are told one by one, and the rest by their folders."""
+
 FINE = 10_000
 """How many triangles make a collision costly where the same mesh is seen."""
 
@@ -39,7 +42,8 @@ def check_mesh_files(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     macOS, and not on Linux. An empty file, or the pointer that Git LFS leaves where nothing was fetched, holds none; a
     mesh more than 100 m wide is in millimetres: write `scale: 0.001`. Meshes in packages that this machine does not
     have, and those of other schemes than `package` and `file`, are not looked for, nor are those outside of the
-    folders that a spec may make us read. Each file is told of once, and a folder that is not there with all its files.
+    folders that a spec may make us read. Each file is told of once, and a folder that is not there with all its files;
+    behind a hundred files so is one that is there.
     """
     finder = meshes.finder
     missing: dict[Path, list[MeshUse]] = {}
@@ -48,7 +52,8 @@ def check_mesh_files(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     for use in {(use.mesh.resource, use.mesh.scale): use for use in reversed(judged)}.values():
         path = finder.path(use.mesh.resource)
         if path and finder.names_instead_of(path) is not None:
-            missing.setdefault(path if is_folder(path.parent) else path.parent, []).append(use)
+            is_alone = len(missing) < MOST_ALONE and is_folder(path.parent)
+            missing.setdefault(path if is_alone else path.parent, []).append(use)
         elif diagnostic := _fault_in(meshes, use.mesh):
             yield diagnostic
     for path, uses in missing.items():
@@ -105,9 +110,10 @@ def check_fine_collisions(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]
     hull, or a mesh of some hundred triangles.
     """
     fine: list[tuple[MeshUse, int]] = []
+    seen = {(use.link.name, use.mesh) for use in meshes.uses if not isinstance(use.shape, Collision)}
     for use in meshes.uses:
-        is_seen = any(visual.geometry == use.mesh for visual in use.link.visuals)
-        file = meshes.file(use.mesh) if isinstance(use.shape, Collision) and is_seen else None
+        is_both = isinstance(use.shape, Collision) and (use.link.name, use.mesh) in seen
+        file = meshes.file(use.mesh) if is_both else None
         if file and file.triangles and file.triangles >= FINE:
             fine.append((use, file.triangles))
     if fine:

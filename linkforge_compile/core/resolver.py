@@ -9,11 +9,11 @@ from itertools import islice
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
+from linkforge_compile.manifest import package_name
 from linkforge_compile.pattern import pattern
 from linkforge_compile.roots import exists, identity
 
 _PACKAGE_URI = pattern(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
-_PACKAGE_NAME = pattern(r"<name>([^<]*)</name>")
 _WINDOWS_DRIVE = pattern(r"^/(?=[A-Za-z]:)")
 _LEVELS_UP = 10
 
@@ -84,19 +84,9 @@ class FileSystemResolver:
                 yield Path(folder)
         start = Path(identity(start))
         for folder in islice((start, *start.parents), _LEVELS_UP):
-            if folder.name == package or _declared_package(folder) == package:
+            if folder.name == package or package_name(folder) == package:
                 yield folder
 
 
 def _folders_of(variable: str) -> list[Path]:
     return [Path(entry) for entry in os.environ.get(variable, "").split(os.pathsep) if entry.strip()]
-
-
-def _declared_package(folder: Path) -> str | None:
-    """Return the name in the folder's package.xml, None where there is no readable one."""
-    try:
-        text = (folder / "package.xml").read_text("utf-8", errors="replace")
-    except OSError:
-        return None
-    name = _PACKAGE_NAME.search(text)
-    return name[1].strip() if name else None

@@ -92,6 +92,8 @@ class Loader:
         self.roots = roots
         self.judge: Judge = _nothing_wrong
         self.runs_xacro = True
+        self.packages_around: dict[Path, Mapping[str, Path]] = {}
+        """The packages near a folder by their names, once somebody asked; nothing that a spec names is read there."""
         self._sources: list[SourceFile] = []
         self._specs: dict[str, Whole | None] = {}  # by real path
         self._data: dict[str, YamlNode | None] = {}  # by real path

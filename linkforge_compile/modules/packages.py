@@ -6,17 +6,17 @@ import os
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain, islice
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
 from linkforge_compile.frozen import dataclass
-from linkforge_compile.pattern import pattern
-from linkforge_compile.roots import Roots, as_walked, is_file, is_folder
+from linkforge_compile.manifest import package_name
+from linkforge_compile.roots import as_walked, is_file, is_folder
 from linkforge_compile.source import Span
 
-# A stranger wrote what it is searched in: no character is tried twice.
-_NAME = pattern(r"<name>([^<]*)</name>")
-_MANIFEST_BYTES = 1024 * 1024
+if TYPE_CHECKING:
+    from linkforge_compile.modules.loader import Loader
 
 _SOURCES = "src"
 """The folder of a workspace of ROS in which its packages and repositories lie."""
@@ -51,7 +51,7 @@ def find_package(name: str, declared: Mapping[str, Path], start: Path | None) ->
 def _in_source_tree(name: str, start: Path | None) -> Iterator[Path]:
     folder = as_walked(start) if start else None
     for candidate in (folder, *folder.parents) if folder else ():
-        if _manifest_name(candidate) == name:
+        if package_name(candidate) == name:
             yield candidate
 
 
@@ -65,7 +65,7 @@ def _in_ament(name: str) -> Iterator[Path]:
 def _in_ros_1(name: str) -> Iterator[Path]:
     """A path may lead to the package, to the folder that holds it, or to one of repositories that hold it."""
     for root in _search_path("ROS_PACKAGE_PATH"):
-        if _manifest_name(root) == name:
+        if package_name(root) == name:
             yield root
         if is_file(root / name / "package.xml"):
             yield root / name
@@ -76,9 +76,9 @@ def unknown_package(
     where: Span | None,
     name: str,
     start: Path | None,
+    loader: Loader,
     *,
     near: Iterable[str],
-    roots: Roots,
     notes: Iterable[Note] = (),
 ) -> Diagnostic:
     """Return what tells that a package is nowhere, and where one of its name lies that was not searched.
@@ -87,16 +87,19 @@ def unknown_package(
     one that is meant, and what lies beside a stranger's package is none of its business. To its user it is told.
     `packages` of the file is no way to one outside of the roots, for it adds none to them.
     """
-    seen = _seen_around(name, start)
+    seen = _seen_around(start, loader).get(name) if start else None
     option = f"--package {name}=FOLDER"
-    way = option if seen and not roots.hold(seen) else f"'packages' of this file or {option}"
+    way = option if seen and not loader.roots.hold(seen) else f"'packages' of this file or {option}"
     found = [Note(f"there is one; write --package {name}={_quoted(_from_here(seen))}")] if seen else []
     return UNKNOWN_PACKAGE.at(where, name=name, way=way, near=near, notes=(*notes, *found))
 
 
-def _seen_around(name: str, start: Path | None) -> Path | None:
-    folders = islice(_folders_around(as_walked(start)) if start else (), _MOST_FOLDERS)
-    return next((folder for folder in folders if _manifest_name(folder) == name), None)
+def _seen_around(start: Path, loader: Loader) -> Mapping[str, Path]:
+    """Return the packages near a folder, the nearest one of each name; looked for once in a compile."""
+    if start not in loader.packages_around:
+        folders = reversed([*islice(_folders_around(as_walked(start)), _MOST_FOLDERS)])
+        loader.packages_around[start] = {name: folder for folder in folders if (name := package_name(folder))}
+    return loader.packages_around[start]
 
 
 def _folders_around(start: Path) -> Iterator[Path]:
@@ -145,21 +148,3 @@ def _quoted(path: str) -> str:
 
 def _search_path(variable: str) -> Iterator[Path]:
     return (Path(entry) for entry in os.environ.get(variable, "").split(os.pathsep) if entry)
-
-
-def _manifest_name(folder: Path) -> str | None:
-    """Return the name in a folder's package.xml, None where there is none.
-
-    Read as text: one tag of a file that strangers wrote is not worth an XML parser and its entities.
-    """
-    manifest = folder / "package.xml"
-    try:
-        if not manifest.is_file():  # a pipe of that name would make us wait
-            return None
-        with manifest.open("rb") as stream:
-            text = stream.read(_MANIFEST_BYTES).decode("utf-8", errors="replace")
-    except OSError:
-        return None
-    first, *behind = text.split("<!--")
-    match = _NAME.search("".join((first, *(piece.partition("-->")[2] for piece in behind))))
-    return match[1].strip() if match else None

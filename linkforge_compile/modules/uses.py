@@ -170,7 +170,7 @@ def _in_package(site: UseSite, path: str, loader: Loader, sink: Diagnostics) -> 
     declared = {**site.packages, **loader.packages}
     folder = find_package(name, declared, site.user.folder)
     if folder is None:
-        sink.report(unknown_package(site.where, name, site.user.folder, near=declared, roots=loader.roots))
+        sink.report(unknown_package(site.where, name, site.user.folder, loader, near=declared))
         return None
     return Target(follow(folder, match[2]), Package(name, folder))
 

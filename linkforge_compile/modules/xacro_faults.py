@@ -94,8 +94,8 @@ class Telling:
             near = {**(self.use.packages or {}), **self.loader.packages}
             name = asked.lost[-1]
             looked = [Note("it is looked for here", place)] if where and place else []
-            folder, roots = self.use.path.parent, self.loader.roots
-            self.sink.report(unknown_package(where or place, name, folder, near=near, roots=roots, notes=looked))
+            folder = self.use.path.parent
+            self.sink.report(unknown_package(where or place, name, folder, self.loader, near=near, notes=looked))
         elif failed.kind == "ArgException":
             self._unset(failed.reason, place, failed.arguments or {})
         else:

@@ -1,0 +1,30 @@
+"""The name of a package of ROS, as the package.xml in its folder says it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from linkforge_compile.pattern import pattern
+from linkforge_compile.roots import is_file
+
+# A stranger wrote what it is searched in: no character is tried twice.
+_NAME = pattern(r"<name>([^<]*)</name>")
+_MOST_BYTES = 1024 * 1024
+
+
+def package_name(folder: Path) -> str | None:
+    """Return the name in a folder's package.xml, None where there is none.
+
+    Read as text: one tag of a file that strangers wrote is not worth an XML parser and its entities.
+    """
+    manifest = folder / "package.xml"
+    if not is_file(manifest):  # a pipe of that name would make us wait
+        return None
+    try:
+        with manifest.open("rb") as stream:
+            text = stream.read(_MOST_BYTES).decode("utf-8", errors="replace")
+    except OSError:
+        return None
+    first, *behind = text.split("<!--")
+    match = _NAME.search("".join((first, *(piece.partition("-->")[2] for piece in behind))))
+    return match[1].strip() if match else None
