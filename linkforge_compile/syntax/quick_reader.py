@@ -19,11 +19,13 @@ from linkforge_compile.pattern import pattern
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax.nodes import MAX_DEPTH, ScalarValue, YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import is_cut_expression, is_overflow, scalar_value
+from linkforge_compile.unjudged import unjudged
 
 _Match: TypeAlias = Callable[..., re.Match[str] | None]
 """What matches a compiled pattern with a text, from an index on where one is given."""
 
 _new = tuple.__new__  # the constructor of a named tuple takes twice as long
+_made_map, _made_list = unjudged(YamlMap), unjudged(YamlList)
 
 _END: Final = "\0"
 """Ends the text, which has none itself."""
@@ -136,6 +138,8 @@ class _Reader:
     def _skipped(self, at: int) -> int:
         """Return where the next thing stands that is neither a blank, a line's end, nor a comment."""
         text = self._text
+        if text[at] == " " and text[at + 1] not in " #\n":
+            return at + 1
         while True:
             found = _BLANKS(text, at)
             assert found is not None, "it matches nothing, too"
@@ -195,7 +199,7 @@ class _Reader:
                 raise NotSimpleError
         self._at, self._indent = at, deep
         self._count(2 * len(entries))
-        return YamlMap(entries, file, begin, self._end)
+        return _made_map(entries, file, begin, self._end)
 
     def _odd_key(self, at: int, known: _Plain) -> str:
         """Return the key at `at` that has blanks or colons in it, or begins as few do; empty where there is none."""
@@ -274,7 +278,7 @@ class _Reader:
         if self._indent > indent:
             raise NotSimpleError
         self._count(len(items))
-        return YamlList(tuple(items), self._file, begin, self._end)
+        return _made_list(tuple(items), self._file, begin, self._end)
 
     def _inside(self, at: int, depth: int) -> YamlNode:
         """Read the node at `at`, in brackets or itself in some."""
@@ -309,7 +313,7 @@ class _Reader:
                 items.append(self._inside(self._end, depth + 1))
                 self._count(1)
                 is_closed = self._closing("]")
-        return YamlList(tuple(items), self._file, begin, self._end)
+        return _made_list(tuple(items), self._file, begin, self._end)
 
     def _words(self, at: int) -> list[YamlNode] | None:
         """Read a list that has plain texts in it up to its bracket, None where it has something else."""
@@ -362,4 +366,4 @@ class _Reader:
             entries[name] = _new(YamlEntry, (_new(YamlScalar, (name, name, file, key_at, None)), value, None))
         self._count(2 * len(entries))
         self._end = at
-        return YamlMap(entries, file, begin, at)
+        return _made_map(entries, file, begin, at)
