@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NotRequired, TypedDict
+from typing import TYPE_CHECKING, NotRequired, TypedDict, TypeVar
 
-from linkforge_compile.core.part import Inside
+from linkforge_compile.core.part import Element, Inside
 from linkforge_compile.core.raw_xml import RawXml
+from linkforge_compile.frozen import replace
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
     from linkforge_compile.lowering.fields import Fields
 
+
+E = TypeVar("E", bound=Element)
 
 EXTRA_KEYS = frozenset({"extra", "extra_attributes", "extra_inside"})
 
@@ -43,6 +46,13 @@ def besides(fields: Fields) -> Besides:
     if EXTRA_KEYS.isdisjoint(fields.node.entries):
         return {"source": fields.ref}
     return {"source": fields.ref, **outer_extras_of(fields), "extra_inside": tuple(_insides(fields))}
+
+
+def with_extras(part: E, fields: Fields) -> E:
+    """Return a part with what its object says raw; for the many that say nothing, quicker than `besides`."""
+    if EXTRA_KEYS.isdisjoint(fields.node.entries):
+        return part
+    return replace(part, **besides(fields))
 
 
 def outer_extras_of(fields: Fields) -> OuterExtras:

@@ -17,7 +17,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.diagnostics.codes.names import INVALID_NAME, NAME_TWICE
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
-from linkforge_compile.lowering.extra import besides
+from linkforge_compile.lowering.extra import with_extras
 from linkforge_compile.lowering.quantities import (
     ANGLE,
     BARE,
@@ -33,7 +33,7 @@ from linkforge_compile.lowering.quantities import (
     si_number,
 )
 from linkforge_compile.lowering.spec_object import SpecObject, made_ref
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.syntax.xacro import xacro_facts
@@ -133,6 +133,8 @@ class Fields(SpecObject):
 
     def vector3(self, key: str, measure: Measure = BARE, *, required: str = "") -> Vector3 | None:
         """Read a list of three numbers in SI units."""
+        if key not in self.node.entries and not required:
+            return None
         node = self.said(key, required)
         return None if node is None else self.vector3_at(node, key, measure)
 
@@ -152,6 +154,8 @@ class Fields(SpecObject):
         node = self.said("origin")
         if node is None:
             return IDENTITY
+        if plain := _plain_pose(node, self.trail):
+            return plain
         if isinstance(node, YamlList):
             xyz = self.vector3_at(node, "origin", LENGTH)
             return _made_pose(xyz, is_stated=True, source=made_ref(node, None, self.trail)) if xyz else IDENTITY
@@ -160,7 +164,8 @@ class Fields(SpecObject):
             return IDENTITY
         xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
         is_stated = bool(xyz or rpy) or pose.said("xyz") is not None or pose.said("rpy") is not None
-        return _made_pose(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **besides(pose))
+        made = _made_pose(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, source=pose.ref)
+        return with_extras(made, pose)
 
     # Opening what is nested
 
@@ -291,6 +296,24 @@ class Fields(SpecObject):
         reason = "it is empty" if wrong is None else f"{wrong!r} may not stand in one"
         self.tell(INVALID_NAME, where, name=name, kind=kind, reason=reason)
         return False
+
+
+def _plain_pose(node: YamlNode, trail: tuple[Span, ...]) -> Transform | None:
+    """Return the pose of a map of plain vectors, without opening it; None for what has to be looked at."""
+    vectors: dict[str, Vector3] = {}
+    for key, entry in node.entries.items() if isinstance(node, YamlMap) else ():
+        measure = _OF_A_POSE.get(key)
+        numbers = plain_numbers(entry.value, measure) if measure else ()
+        if len(numbers) != 3:
+            return None
+        vectors[key] = _made_vector(*numbers)
+    if not vectors:
+        return None
+    xyz, rpy = vectors.get("xyz", IDENTITY.xyz), vectors.get("rpy", IDENTITY.rpy)
+    return _made_pose(xyz, rpy, is_stated=True, source=made_ref(node, None, trail))
+
+
+_OF_A_POSE = {"xyz": LENGTH, "rpy": ANGLE}
 
 
 @cache

@@ -22,6 +22,7 @@ from linkforge_compile.lowering.link import lower_links
 from linkforge_compile.lowering.material import lower_materials
 from linkforge_compile.lowering.mesh_solids import MeshReader
 from linkforge_compile.lowering.scope import FileScope
+from linkforge_compile.lowering.spec_object import has_fault
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
 from linkforge_compile.units import Quantity, number_text
@@ -105,7 +106,12 @@ def _gaps(tree: YamlMap, lost: Iterable[str]) -> Gaps:
     brought = [f"{name}_$(…)" for name in modules]  # whatever names those have
     # An entry that is indented stands among the keys of the one above.
     sections = [node for name in _SECTIONS_OF_NAMES if isinstance(node := tree.get(name), YamlMap)]
-    faulty = [entry for section in sections for entry in section if _has_fault(entry.value)]
+    faulty = [
+        entry
+        for section in sections
+        for entry in section
+        if isinstance(entry.value, YamlMap) and has_fault(entry.value)
+    ]
     inside = [name for entry in faulty for name in names_at_fault(entry.value)]
     return gaps_of(
         [
@@ -117,11 +123,6 @@ def _gaps(tree: YamlMap, lost: Iterable[str]) -> Gaps:
             *inside,
         ]
     )
-
-
-def _has_fault(node: YamlNode) -> bool:
-    """Whether a field of a map is at fault."""
-    return isinstance(node, YamlMap) and YamlFault in [entry.value.__class__ for entry in node.entries.values()]
 
 
 def _without_mimic(faulty: Iterable[YamlEntry], joints: YamlNode | None) -> list[str]:

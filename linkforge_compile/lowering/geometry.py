@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Vector3
 from linkforge_compile.diagnostics.codes.model import NO_GEOMETRY, NO_MESH_FILE, SEVERAL_GEOMETRIES
-from linkforge_compile.lowering.extra import Besides, besides
+from linkforge_compile.lowering.extra import Besides, besides, with_extras
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import EXTENT, NOT_ZERO, Measure
 from linkforge_compile.lowering.scope import FileScope
@@ -47,13 +47,13 @@ def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
 def _cylinder(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "cylinder")
     extents = body and _radius_and_length(body)
-    return _made_cylinder(*extents, **besides(body)) if body and extents else None
+    return with_extras(_made_cylinder(*extents, source=body.ref), body) if body and extents else None
 
 
 def _capsule(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "capsule")
     extents = body and _radius_and_length(body)
-    return _made_capsule(*extents, **besides(body)) if body and extents else None
+    return with_extras(_made_capsule(*extents, source=body.ref), body) if body and extents else None
 
 
 def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:

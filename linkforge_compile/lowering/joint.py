@@ -24,7 +24,7 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_AXIS,
     ZERO_AXIS,
 )
-from linkforge_compile.lowering.extra import besides
+from linkforge_compile.lowering.extra import besides, with_extras
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import (
     AMOUNT,
@@ -169,30 +169,34 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
     axis, axis_as_written = _axis(fields, joint_type)
     limits = _limits(fields, joint_type, motion)
     dynamics, mimic = _dynamics(fields, motion), _mimic(fields, motion)
-    safety_controller, calibration = _safety_controller(fields, motion), _calibration(fields, motion)
+    safety, calibration = _safety_controller(fields, motion), _calibration(fields, motion)
     parent, child, origin = ends
     if name is None or parent is None or child is None:
         return None
     if parent == child:
         fields.tell(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
         return None
-    parts = limits, dynamics, mimic, safety_controller, calibration
-    if parent and child and axis_as_written is None:
-        return _made_joint(name, joint_type, parent, child, origin, axis, *parts, **besides(fields))
+
     # A name may be empty, and an axis too long to be made a unit vector.
-    return fields.build(
-        lambda: Joint(
+    make = _made_joint if parent and child and axis_as_written is None else Joint
+    joint = fields.build(
+        lambda: make(
             name,
             joint_type,
             parent,
             child,
             origin,
             axis,
-            *parts,
+            limits,
+            dynamics,
+            mimic,
+            safety,
+            calibration,
             axis_as_written=axis_as_written,
-            **besides(fields),
+            source=fields.ref,
         )
     )
+    return joint and with_extras(joint, fields)
 
 
 def _joint_of_no_type(fields: Fields, name: str | None, ends: Ends) -> Joint | None:
@@ -253,7 +257,7 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: _Motion) -> Jo
         upper = _STAND_IN_LIMITS.upper if has_range else None
     effort = _STAND_IN_LIMITS.effort if effort is None else effort
     velocity = _STAND_IN_LIMITS.velocity if velocity is None else velocity
-    return _made_limits(lower, upper, effort, velocity, **besides(limits))
+    return with_extras(_made_limits(lower, upper, effort, velocity, source=limits.ref), limits)
 
 
 def _is_lost(fields: Fields, key: str) -> bool:
@@ -272,7 +276,7 @@ def _dynamics(fields: Fields, motion: _Motion) -> JointDynamics | None:
     if dynamics is None:
         return None
     damping, friction = dynamics.numbers(("damping", AMOUNT, ""), ("friction", motion.effort, ""))
-    return _made_dynamics(damping or 0.0, friction or 0.0, **besides(dynamics))
+    return with_extras(_made_dynamics(damping or 0.0, friction or 0.0, source=dynamics.ref), dynamics)
 
 
 def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:

@@ -26,7 +26,7 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_KIND,
 )
 from linkforge_compile.frozen import replace
-from linkforge_compile.lowering.extra import besides, outer_extras_of
+from linkforge_compile.lowering.extra import besides, outer_extras_of, with_extras
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.geometry import lower_geometry
 from linkforge_compile.lowering.material import lower_visual_material
@@ -45,9 +45,9 @@ _PRODUCTS = [(key, _INERTIA, "") for key in ("ixy", "ixz", "iyz")]
 
 _UNSAID_PHYSICS = LinkPhysics()
 
-# What their constructors ask of numbers, the measures above have asked.
+# What their constructors ask of values, the measures and what reads the others have asked.
 _made_inertial, _made_tensor = unjudged(Inertial), unjudged(InertiaTensor)
-_made_visual, _made_collision = unjudged(Visual), unjudged(Collision)
+_made_visual, _made_collision, _made_link = unjudged(Visual), unjudged(Collision), unjudged(Link)
 
 Shapes = Sequence[Visual | None] | Sequence[Collision | None]
 
@@ -66,17 +66,15 @@ def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
     shape_order = _shape_order(fields, visuals, collisions)
     if not valid:
         return None
-    return fields.build(
-        lambda: Link(
-            name,
-            inertial,
-            physics,
-            [visual for visual in visuals if visual],
-            [collision for collision in collisions if collision],
-            shape_order=shape_order,
-            source=_source(fields),
-            **outer_extras_of(fields),
-        )
+    return _made_link(
+        name,
+        inertial,
+        physics,
+        tuple([visual for visual in visuals if visual]),
+        tuple([collision for collision in collisions if collision]),
+        shape_order=shape_order,
+        source=_source(fields),
+        **outer_extras_of(fields),
     )
 
 
@@ -88,7 +86,7 @@ def _source(link: Fields) -> SourceRef:
     return replace(link.ref, node=YamlMap({"visual": lost, "collision": lost, **link.node.entries}, link.node.span))
 
 
-def _shape_order(link: Fields, visuals: Shapes, collisions: Shapes) -> Sequence[str]:
+def _shape_order(link: Fields, visuals: Shapes, collisions: Shapes) -> tuple[str, ...]:
     said = [name for name in link.node.entries if name in _OF_ORDER]
     if "shape_order" not in said and said != ["collision", "visual"]:
         return ()
@@ -128,7 +126,8 @@ def _visual(shape: Fields | None, scope: FileScope) -> Visual | None:
         return None
     geometry, origin = lower_geometry(shape, scope), shape.origin()
     material, name = lower_visual_material(shape, scope), shape.text("name")
-    return _made_visual(geometry, origin, material, name, **besides(shape)) if geometry else None
+    made = _made_visual(geometry, origin, material, name, source=shape.ref) if geometry else None
+    return made and with_extras(made, shape)
 
 
 def _collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) -> list[Collision | None]:
@@ -149,22 +148,23 @@ def _collision(shape: Fields | None, scope: FileScope) -> Collision | None:
     if shape is None:
         return None
     geometry, origin, name = lower_geometry(shape, scope), shape.origin(), shape.text("name")
-    return _made_collision(geometry, origin, name, **besides(shape)) if geometry else None
+    made = _made_collision(geometry, origin, name, source=shape.ref) if geometry else None
+    return made and with_extras(made, shape)
 
 
 def _inertial(link: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
     """Lower the inertial: as written, or computed from these shapes; without `inertial`, none."""
-    if link.node.get("inertial") is None:
-        return None
     inertial = link.map("inertial")
+    if inertial is None and link.node.get("inertial") is None:
+        return None
     # What is faulty has been told: a stand-in keeps the checks from telling of a link without mass as well.
     return (inertial and _written_or_computed(link, inertial, shapes, scope)) or Inertial(DEFAULT_LINK_MASS)
 
 
 def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
     written = inertial.node.get("inertia") is not None
-    mass = inertial.number("mass", _MASS if written else _MASS_TO_SPREAD)
-    density = inertial.number("density", _DENSITY)
+    mass_taken = _MASS if written else _MASS_TO_SPREAD
+    mass, density = inertial.numbers(("mass", mass_taken, ""), ("density", _DENSITY, ""))
     origin = inertial.origin()
     if written:
         return _written(inertial, mass, origin)
@@ -184,7 +184,7 @@ def _written(inertial: Fields, mass: float | None, origin: Transform) -> Inertia
         inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass'")
     if mass is None or tensor is None:
         return None
-    return _made_inertial(mass, origin, tensor, **besides(inertial))
+    return with_extras(_made_inertial(mass, origin, tensor, source=inertial.ref), inertial)
 
 
 def _tensor(inertial: Fields) -> InertiaTensor | None:
@@ -194,7 +194,8 @@ def _tensor(inertial: Fields) -> InertiaTensor | None:
     ixx, iyy, izz, ixy, ixz, iyz = inertia.numbers(*_MOMENTS, *_PRODUCTS)
     if ixx is None or iyy is None or izz is None:
         return None
-    return _made_tensor(ixx, iyy, izz, ixy or 0.0, ixz or 0.0, iyz or 0.0, **besides(inertia))
+    made = _made_tensor(ixx, iyy, izz, ixy or 0.0, ixz or 0.0, iyz or 0.0, source=inertia.ref)
+    return with_extras(made, inertia)
 
 
 def _one_of_mass_and_density(inertial: Fields) -> bool:

@@ -17,7 +17,7 @@ _EXPECTED = f"'{PAIRS}' or a list of the words '{VISUAL}' and '{COLLISION}'"
 
 def lower_shape_order(
     link: Fields, visuals: Sequence[object | None], collisions: Sequence[object | None]
-) -> Sequence[str]:
+) -> tuple[str, ...]:
     """Return the kinds of a link's shapes as they are written out, () where that goes without saying.
 
     None among the shapes is one that is lost. What is faulty is told, and leaves the order of the keys.
