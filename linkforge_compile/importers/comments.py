@@ -27,6 +27,8 @@ class Comments(NamedTuple):
 
 def placed_comments(document: XmlDocument, draft: Draft, tree: YamlMap) -> Comments:
     """Return every comment of a document but banners, and those in elements that are kept raw, which have theirs."""
+    if "<!--" not in document.root.file.counted:
+        return Comments({}, {})
     placing = _Placing(document.root, draft, tree)
     above: YamlNode | None = next(iter(tree)).key
     for item in without_banners(document.content):

@@ -43,7 +43,7 @@ def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None
         name = posixpath.basename(file.name).removesuffix(".xml") if file.path else "NAME.urdf"
         sink.report(STILL_XACRO.at(xacro.span, tag=xacro.tag, name=f"{name}.xacro"))
         return None
-    if moved and not any(root.children):
+    if moved and not root.children:
         sink.report(NOTHING_EXPANDED.at(root.span))
         return None
     if root.get("name") is None:
@@ -61,5 +61,5 @@ def _first_of_xacro(root: XmlElement) -> XmlElement | None:
         element = waiting.pop()
         if element.tag.startswith("xacro:"):
             return element
-        waiting += reversed(tuple(element.children))
+        waiting += reversed(element.children)
     return None

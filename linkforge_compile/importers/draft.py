@@ -6,14 +6,24 @@ import math
 import re
 from collections.abc import Collection, Iterable, Mapping
 from types import MappingProxyType
+from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW
 from linkforge_compile.frozen import replace
 from linkforge_compile.importers.prefixed import NO_SHAPES, Shapes
-from linkforge_compile.importers.xml import XmlAttribute, XmlElement
+from linkforge_compile.importers.xml import Bounds, XmlAttribute, XmlElement
 from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value, word_value
+from linkforge_compile.syntax import (
+    ScalarValue,
+    YamlEntry,
+    YamlList,
+    YamlMap,
+    YamlNode,
+    YamlScalar,
+    scalar_value,
+    word_value,
+)
 from linkforge_compile.units import UNITS, WIDEST_ANGLE, Dimension, number_text
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]{1,400}(?:\.[0-9]{0,400})?|\.[0-9]{1,400})(?:[eE][+-]?[0-9]{1,4})?")
@@ -23,6 +33,10 @@ _TIDY = re.compile(r"-?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?")
 _DEGREES = {Dimension.ANGLE: "deg", Dimension.ANGULAR_VELOCITY: "deg/s"}
 _MOST_DECIMALS = 3
 """So many digits behind the point may an angle in degrees have: more is no round angle, but a coincidence."""
+
+
+Where: TypeAlias = Span | XmlAttribute | XmlElement | YamlNode
+"""A span, or whatever the place of a node is that of."""
 
 
 class DeclinedError(Exception):
@@ -60,6 +74,8 @@ class Draft:
         self.raw: set[XmlElement] = set()
         self.told: list[Diagnostic] = []
         self._elements: dict[YamlNode, list[XmlElement]] = {}
+        # A robot says the same numbers again and again.
+        self._numbers: dict[tuple[str, Dimension | None], tuple[str, ScalarValue] | None] = {}
 
     def tell(self, sink: Diagnostics) -> None:
         """Report what is to be told; what is kept raw for the same reason at many places is told at the first."""
@@ -72,64 +88,58 @@ class Draft:
 
     # Scalars
 
-    def text(self, text: str, span: Span) -> YamlScalar:
+    def text(self, text: str, where: Where) -> YamlScalar:
         """Return text in which nothing is an expression."""
         escaped = text.replace("$(", "$$(")
-        return YamlScalar(escaped, escaped, span)
+        return YamlScalar(escaped, escaped, *_bounds(where))
 
-    def word(self, text: str, span: Span) -> YamlScalar:
+    def word(self, text: str, where: Where) -> YamlScalar:
         """Return text that a plugin reads: without quotes where that is the same text."""
         escaped = text.replace("$(", "$$(")
-        return YamlScalar(escaped, word_value(escaped), span)
+        return YamlScalar(escaped, word_value(escaped), *_bounds(where))
 
-    def number(self, text: str, span: Span, unit: Dimension | None = None) -> YamlScalar | None:
+    def number(self, text: str, where: Where, unit: Dimension | None = None) -> YamlScalar | None:
         """Return a number as it is written, None for what is none, or none that a double can hold.
 
         An angle is in degrees where that is exactly the same double, and says `rad` where it would be taken for
         degrees.
         """
-        value = number_of(text)
-        if value is None:
-            return None
-        digits = text.strip() if _TIDY.fullmatch(text.strip()) else number_text(value)
-        if not value:
-            digits = digits.removeprefix("-")
-        if unit in _DEGREES and (degrees := _degrees(value, _DEGREES[unit])):
-            return YamlScalar(degrees, degrees, span)
-        if unit is Dimension.ANGLE and abs(value) > WIDEST_ANGLE:
-            return YamlScalar(f"{digits} rad", f"{digits} rad", span)
-        return YamlScalar(digits, scalar_value(digits), span)
+        asked = text, unit
+        if asked not in self._numbers:
+            self._numbers[asked] = _spelled(text, unit)
+        spelled = self._numbers[asked]
+        return YamlScalar(spelled[0], spelled[1], *_bounds(where)) if spelled else None
 
     # Lists and maps
 
-    def list_of(self, items: Iterable[YamlNode], span: Span) -> YamlList:
+    def list_of(self, items: Iterable[YamlNode], where: Where) -> YamlList:
         """Return a list; each item stands for the element that it was made from."""
         kept = tuple(items)
         for item in kept:
             for element in self._elements.get(item, ()):
                 self.keys[element] = item
-        return YamlList(kept, span)
+        return YamlList(kept, *_bounds(where))
 
-    def map_of(self, entries: Mapping[str, YamlNode | None], span: Span) -> YamlMap:
+    def map_of(self, entries: Mapping[str, YamlNode | None], where: Where) -> YamlMap:
         """Return a map without the entries of None; each key stands for the element that its value was made from."""
         made = {}
         for name, node in entries.items():
             if node is not None:
-                key = self.text(name, node.span)
+                key = self.text(name, node)
                 made[key.text] = YamlEntry(key, node)
                 for element in self._elements.get(node, ()):
                     self.keys[element] = key
-        return YamlMap(made, span)
+        return YamlMap(made, *_bounds(where))
 
-    def named(self, entries: Mapping[str, tuple[XmlAttribute, YamlNode]], span: Span) -> YamlMap | None:
+    def named(self, entries: Mapping[str, tuple[XmlAttribute, YamlNode]], where: Where) -> YamlMap | None:
         """Return a map keyed by names that stand in the file, None for an empty one."""
         made = {}
         for name, (attribute, node) in entries.items():
-            key = self.text(name, attribute.span)
+            key = self.text(name, attribute)
             made[key.text] = YamlEntry(key, node)
             for element in self._elements.get(node, ()):
                 self.keys[element] = key
-        return YamlMap(made, span) if made else None
+        return YamlMap(made, *_bounds(where)) if made else None
 
     def one_or_list(self, items: list[YamlNode]) -> YamlNode | None:
         """Return nothing, one thing, or a list of them."""
@@ -146,6 +156,34 @@ class Draft:
     def stands_for(self, node: YamlNode, *others: YamlNode) -> None:
         """Note that a node says what was made into others."""
         self.made(node, *(element for other in others for element in self._elements.get(other, ())))
+
+
+def _bounds(where: Where) -> Bounds:
+    """Return where a node stands; its span is computed as somebody asks for it, which few do."""
+    match where:
+        case XmlAttribute() | XmlElement():
+            return where.bounds
+        case YamlScalar() | YamlList() | YamlMap() if where.end is not None:
+            return where.place, where.begin, where.end
+        case Span():
+            return where, 0, 0
+        case _:
+            return where.span, 0, 0
+
+
+def _spelled(text: str, unit: Dimension | None) -> tuple[str, ScalarValue] | None:
+    """Return how a number is written, and what that is in YAML; None for what is none."""
+    value = number_of(text)
+    if value is None:
+        return None
+    digits = text.strip() if _TIDY.fullmatch(text.strip()) else number_text(value)
+    if not value:
+        digits = digits.removeprefix("-")
+    if unit in _DEGREES and (degrees := _degrees(value, _DEGREES[unit])):
+        return degrees, degrees
+    if unit is Dimension.ANGLE and abs(value) > WIDEST_ANGLE:
+        return f"{digits} rad", f"{digits} rad"
+    return digits, scalar_value(digits)
 
 
 def number_of(text: str) -> float | None:

@@ -25,7 +25,7 @@ _Key: TypeAlias = tuple[str | None, ...]
 
 def losses(document: XmlDocument, again: XmlDocument) -> Iterator[Diagnostic]:
     """Yield what two documents do not both say, told at the place in the first."""
-    one, other = said(document.root), said(again.root)
+    one, other = said(document.root, again.root)
     yield from _differences(one, other)
     yield from recolored(one, other)
 
@@ -44,7 +44,7 @@ def unread(tree: YamlNode, again: YamlNode | None, name: str = "robot") -> Itera
 
 
 def _differences(one: Said, again: Said) -> Iterator[Diagnostic]:
-    if one == again:
+    if one.number == again.number:
         return
     yield from _attributes(one, again)
     if one.text != again.text:
@@ -54,19 +54,19 @@ def _differences(one: Said, again: Said) -> Iterator[Diagnostic]:
 
 def _attributes(one: Said, again: Said) -> Iterator[Diagnostic]:
     ours, theirs = dict(one.attributes), dict(again.attributes)
-    for name in dict.fromkeys((*one.element.attributes, *again.element.attributes)):
+    for name in dict.fromkeys((*one.element.values, *again.element.values)):
         if ours.get(name) == theirs.get(name):
             continue
         what = f"'{name}' of <{one.tag}>"
-        attribute, other = one.element.attributes.get(name), again.element.attributes.get(name)
-        if attribute is None and (one.tag, name) == ("robot", "version"):
+        was, now = one.element.get(name), again.element.get(name)
+        if was is None and (one.tag, name) == ("robot", "version"):
             yield VERSION_FOR_CAPSULE.at(_capsule(one).span)
-        elif attribute is None:
+        elif was is None:
             yield COMES_IN_ADDITION.at(one.element.span, what=what)
-        elif other is None:
-            yield DOES_NOT_COME_OUT.at(attribute.span, what=what)
+        elif now is None:
+            yield DOES_NOT_COME_OUT.at(one.element.attributes[name].span, what=what)
         else:
-            yield _other(what, attribute.value, other.value, attribute.span)
+            yield _other(what, was, now, one.element.attributes[name].span)
 
 
 def _capsule(one: Said) -> XmlElement:
@@ -76,7 +76,7 @@ def _capsule(one: Said) -> XmlElement:
         element = waiting.pop()
         if element.tag == "capsule":
             return element
-        waiting += reversed(tuple(element.children))
+        waiting += reversed(element.children)
     return one.element
 
 
@@ -108,11 +108,11 @@ def _children(one: Said, again: Said) -> Iterator[Diagnostic]:
 
 def _without(children: Iterable[Said], others: Iterable[Said]) -> list[Said]:
     """Return those of the children that have no equal among the others, each of which is the equal of one."""
-    left = Counter(others)
+    left = Counter(other.number for other in others)
     alone = []
     for child in children:
-        if left[child] > 0:
-            left[child] -= 1
+        if left[child.number] > 0:
+            left[child.number] -= 1
         else:
             alone.append(child)
     return alone

@@ -57,12 +57,12 @@ def recolored(robot: Said, again: Said) -> Iterator[Diagnostic]:
 
 def _first_recolored(shapes: Iterable[_Shown], ours: Iterable[_Shown]) -> XmlElement | None:
     """Return the first of the shapes that is there as well, but not in its color; each is there as often as here."""
-    left = Counter(ours)
-    there = {shape for shape, _ in left}
+    left = Counter((shape.number, color) for shape, color in ours)
+    there = {number for number, _ in left}
     for shape, color in shapes:
-        if left[shape, color] > 0:
-            left[shape, color] -= 1
-        elif shape in there:
+        if left[shape.number, color] > 0:
+            left[shape.number, color] -= 1
+        elif shape.number in there:
             return shape.element
     return None
 

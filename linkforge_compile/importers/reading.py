@@ -37,8 +37,9 @@ class Reading:
 
     def __init__(self, draft: Draft, element: XmlElement) -> None:
         self.draft, self.element = draft, element
-        self._attributes = dict(element.attributes)
-        self._children = list(element.children)
+        self._attributes = element.attributes
+        # A robot has thousands, which are taken one by one.
+        self._children = dict.fromkeys(element.children)
         self._text_is_taken = False
         self._inside: dict[str, YamlNode] = {}
         self._left: YamlMap | None = None
@@ -62,12 +63,12 @@ class Reading:
         if name not in self._attributes:
             return None
         attribute = self._attributes.pop(name)
-        return self.draft.text(attribute.value, attribute.span)
+        return self.draft.text(attribute.value, attribute)
 
     def name(self, name: str = "name") -> YamlScalar:
         """Take an attribute that names something, and must be there."""
         attribute = self.attribute(name)
-        return self.draft.text(attribute.value, attribute.span)
+        return self.draft.text(attribute.value, attribute)
 
     def number(
         self, name: str, unit: Dimension | None = None, *, default: float | None = None, above: float | None = None
@@ -76,7 +77,7 @@ class Reading:
         if name not in self._attributes:
             return None
         attribute = self._attributes.pop(name)
-        node = self.draft.number(attribute.value, attribute.span, unit)
+        node = self.draft.number(attribute.value, attribute, unit)
         if node is None:
             raise DeclinedError(f"{name} is no finite number: '{attribute.value}'", attribute.span)
         if above is not None and float(attribute.value) <= above:
@@ -94,12 +95,12 @@ class Reading:
         if name not in self._attributes:
             return None
         attribute = self._attributes.pop(name)
-        nodes = [self.draft.number(text, attribute.span, unit) for text in attribute.value.split()]
+        nodes = [self.draft.number(text, attribute, unit) for text in attribute.value.split()]
         if len(nodes) != count:
             raise DeclinedError(f"{name} takes {count} numbers, found '{attribute.value}'", attribute.span)
         if None in nodes:
             raise DeclinedError(f"{name} takes finite numbers, found '{attribute.value}'", attribute.span)
-        return YamlList(tuple(node for node in nodes if node is not None), attribute.span)
+        return YamlList(tuple([node for node in nodes if node is not None]), *attribute.bounds)
 
     # Children
 
@@ -131,7 +132,7 @@ class Reading:
         reading = Reading(self.draft, child)
         node = read(reading)
         self._keep_left(reading)
-        self._children.remove(child)
+        del self._children[child]
         self.draft.made(node, child)
         return node
 
@@ -171,7 +172,7 @@ class Reading:
         """Read a child: one node or None; what is at fault is told already. None where it is declined."""
         mark = len(self.draft.told)
         try:
-            if refused := self.draft.refused.get(child.span):
+            if self.draft.refused and (refused := self.draft.refused.get(child.span)):
                 raise DeclinedError(refused.reason, refused.span)
             reading = Reading(self.draft, child)
             node = read(reading)
@@ -179,13 +180,13 @@ class Reading:
             # What was told of its parts, that they were kept raw or left out, is no longer so.
             del self.draft.told[mark:]
             if child in self.draft.at_fault:
-                self._children.remove(child)
+                del self._children[child]
                 self._names_at_fault |= {*_names_in(child)}
                 return (YamlFault(child.span),)
             self.draft.told.append(KEPT_RAW.at(declined.span, tag=child.tag, reason=declined.reason))
             return None
         self._keep_left(reading)
-        self._children.remove(child)
+        del self._children[child]
         if node is not None:
             self.draft.made(node, child)
         return (node,)
@@ -213,7 +214,7 @@ class Reading:
         if self.element.text.strip() and not self._text_is_taken:
             raise self.declined("it holds text")
         rest = {name: node for name, node in self.rest().items() if node is not None}
-        self._left = self.draft.map_of(rest, self.span) if rest else None
+        self._left = self.draft.map_of(rest, self.element) if rest else None
 
     def is_spent(self) -> bool:
         """Whether nothing is left of the element: text is, though there is no place for it, for that is to be told."""
@@ -222,10 +223,12 @@ class Reading:
 
     def map(self, **entries: YamlNode | None) -> YamlMap:
         """Return the object of the element: these entries, then what nobody has taken."""
-        return self.draft.map_of({**entries, **self.rest()}, self.span)
+        return self.draft.map_of({**entries, **self.rest()}, self.element)
 
     def rest(self) -> dict[str, YamlNode | None]:
         """Return what nobody has taken as `extra` and the like; text has no place in them and is lost."""
+        if self.is_spent() and not self._inside and not self._names_at_fault:
+            return {}
         text = " ".join(self.element.text.split())
         if text and not self._text_is_taken:
             shown = text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."

@@ -1,4 +1,4 @@
-"""What a document says, as values that are equal where two documents say the same, in whatever order and spelling.
+"""What documents say, with numbers that are equal where they say the same, in whatever order and spelling.
 
 Left out is what goes without saying, such as the pose of no motion; a material that is named has what the robot says
 of that name. Numbers that the formats define are the same where they are the same double, all else where it is the
@@ -7,13 +7,12 @@ same text, but for the space around its words.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import TypeAlias
 
-from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.importers.draft import number_of
 from linkforge_compile.importers.xml import XmlElement
+from linkforge_compile.named_tuple import NamedTuple
 
 Value: TypeAlias = tuple[float | str, ...]
 """The words of a text, numbers among them as what they are."""
@@ -52,52 +51,74 @@ _HAVE_NO_AXIS = ("fixed", "floating")
 _MATERIAL_OF_VISUAL = "robot/link/visual/material"
 
 
-@dataclass(frozen=True, slots=True)
-class Said:
-    """An element; equal to any that says the same."""
+class Said(NamedTuple):
+    """What an element says; `number` is that of all that say the same in the documents that were read with it."""
 
-    element: XmlElement = field(compare=False)
+    element: XmlElement
+    number: int
     tag: str
     attributes: frozenset[tuple[str, Value]]
     text: Value
-    children: tuple[Said, ...] = field(compare=False)
-    content: frozenset[tuple[Said, int]]
-    """The children, each with how often it is there."""
+    children: tuple[Said, ...]
 
 
-def said(robot: XmlElement) -> Said:
-    """Return what a document's element says."""
-    return _Reader(robot).said(robot, "robot", robot)
+def said(*robots: XmlElement) -> list[Said]:
+    """Return what the elements of documents say that are to be compared."""
+    words = _Words()
+    return [_Reader(robot, words).said(robot, "robot", robot) for robot in robots]
+
+
+_Content: TypeAlias = tuple[str, frozenset[tuple[str, Value]], Value, tuple[int, ...]]
+"""A tag, attributes, text and the numbers of what stands in an element, in their order."""
+
+
+class _Words:
+    """What was read of documents, for a robot says the same again and again."""
+
+    def __init__(self) -> None:
+        self.numbers: dict[_Content, int] = {}
+        self.attributes: dict[tuple[str, bool, tuple[tuple[str, str], ...]], frozenset[tuple[str, Value]]] = {}
+        self.values: dict[str, Value] = {}
 
 
 class _Reader:
-    def __init__(self, robot: XmlElement) -> None:
-        self._values: dict[str, Value] = {}
+    def __init__(self, robot: XmlElement, words: _Words) -> None:
+        self._words = words
         self._materials: dict[str, XmlElement] = {}
         declared = [child for child in robot.children if child.tag == "material"]
         for material in (*declared, *_materials_of_visuals(robot)):
-            if (name := material.get("name")) and any(material.children):
+            if (name := material.get("name")) and material.children:
                 self._materials.setdefault(name, material)
         self._declared = set(self._materials.values())
 
     def said(self, element: XmlElement, path: str, owner: XmlElement) -> Said:
         """Return what an element says that stands in another."""
         known = element
-        if path == _MATERIAL_OF_VISUAL and not any(element.children):
+        if path == _MATERIAL_OF_VISUAL and not element.children:
             known = self._materials.get(element.get("name") or "", element)
-        inside = (self.said(child, f"{path}/{child.tag}", element) for child in self._children(known, path))
-        children = tuple(child for child in inside if not _goes_without_saying(child, f"{path}/{child.tag}", element))
-        stated_at = {**known.attributes, **element.attributes}
-        unsaid = {} if path == _AXIS and owner.get("type") in _HAVE_NO_AXIS else _UNSAID.get(path, {})
-        if _QUATERNION in stated_at:
+        inside = [(f"{path}/{child.tag}", child) for child in self._children(known, path)]
+        said = [(where, self.said(child, where, element)) for where, child in inside]
+        children = tuple([child for where, child in said if not _goes_without_saying(child, where, element)])
+        values = element.values if known is element else {**known.values, **element.values}
+        has_axis = path != _AXIS or owner.get("type") not in _HAVE_NO_AXIS
+        attributes = self._attributes(path, values, has_axis=has_axis)
+        text = self._read(path, element.text) if element.text else ()
+        content = element.tag, attributes, text, tuple(sorted([child.number for child in children]))
+        numbers = self._words.numbers
+        return Said(element, numbers.setdefault(content, len(numbers)), element.tag, attributes, text, children)
+
+    def _attributes(self, path: str, values: Mapping[str, str], *, has_axis: bool) -> frozenset[tuple[str, Value]]:
+        asked = path, has_axis, tuple(values.items())
+        known = self._words.attributes.get(asked)
+        if known is not None:
+            return known
+        unsaid = _UNSAID.get(path, {}) if has_axis else {}
+        if _QUATERNION in values:
             unsaid = {name: value for name, value in unsaid.items() if name != "rpy"}
-        read = self._numbers if path.startswith(_WITH_NUMBERS) else _words
-        attributes = {
-            name: (attribute.value,) if name in _NAMES else read(attribute.value)
-            for name, attribute in stated_at.items()
-        }
-        stated = frozenset((name, value) for name, value in attributes.items() if unsaid.get(name) != value)
-        return Said(element, element.tag, stated, read(element.text), children, frozenset(Counter(children).items()))
+        read = {name: (text,) if name in _NAMES else self._read(path, text) for name, text in values.items()}
+        stated = frozenset([(name, value) for name, value in read.items() if unsaid.get(name) != value])
+        self._words.attributes[asked] = stated
+        return stated
 
     def _children(self, element: XmlElement, path: str) -> Iterable[XmlElement]:
         """Return what stands in an element; in the robot, every material that is said anywhere."""
@@ -106,16 +127,15 @@ class _Reader:
         others = (child for child in element.children if child not in self._declared)
         return (*self._materials.values(), *others)
 
-    def _numbers(self, text: str) -> Value:
-        value = self._values.get(text)
+    def _read(self, path: str, text: str) -> Value:
+        words = text.split()
+        if not words or not path.startswith(_WITH_NUMBERS):
+            return tuple(words)
+        value = self._words.values.get(text)
         if value is None:
-            numbers = ((number_of(word), word) for word in text.split())
-            value = self._values[text] = tuple(word if number is None else number for number, word in numbers)
+            numbers = ((number_of(word), word) for word in words)
+            value = self._words.values[text] = tuple(word if number is None else number for number, word in numbers)
         return value
-
-
-def _words(text: str) -> Value:
-    return tuple(text.split())
 
 
 def _goes_without_saying(one: Said, path: str, owner: XmlElement) -> bool:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_right
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TypeAlias
 from xml.parsers import expat
 
@@ -19,28 +19,35 @@ from linkforge_compile.diagnostics.codes.importing import (
     TOO_MANY_ELEMENTS,
     TOO_MUCH_INSIDE,
 )
-from linkforge_compile.frozen import dataclass, field
+from linkforge_compile.frozen import dataclass
+from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 
 MOST_ELEMENTS = 250_000
 MOST_INSIDE = 100_000
 
-_LINE_START = re.compile("\r\n|\r|\n")
 _TAG = re.compile(r"<[^\s/>]+")
 _ATTRIBUTE = re.compile(r"""\s*([^\s=/>]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
-_CLOSING = re.compile(r"\s*/>")
 # Only the very start of a document may hold a declaration; generated files have comments and blank lines before it.
 _DECLARATION = re.compile(r"(?:\s|<!--(?:(?!-->).)*-->)*(<\?xml\s(?:(?!\?>).)*\?>)", re.DOTALL)
+_NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
-@dataclass(frozen=True, slots=True)
-class XmlAttribute:
-    """An attribute: its value as XML means it, and the span of what stands between the quotes."""
+Bounds: TypeAlias = tuple[Span | SourceFile, int, int]
+"""Where something stands, as nodes of a spec know it: its span, or its file and the indexes between which it stands."""
+
+
+class XmlAttribute(NamedTuple):
+    """An attribute, its value as XML means it; its place is that of what stands between the quotes."""
 
     name: str
     value: str
-    span: Span
+    bounds: Bounds
+
+    @property
+    def span(self) -> Span:
+        return _span(*self.bounds)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,32 +59,84 @@ class XmlComment:
     follows: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class XmlElement:
-    """An element; its span is that of `<tag`. Names keep their prefixes: namespaces are not resolved."""
+class XmlElement(NamedTuple):
+    """An element. Names keep their prefixes: namespaces are not resolved.
+
+    A tuple, and its places are computed as they are asked for: a robot of 2,000 links has 40,000, and those of the
+    document that it compiles to are asked for nothing but what they say. It stands in its file from `begin` to `end`.
+    """
 
     tag: str
-    attributes: Mapping[str, XmlAttribute]
+    values: Mapping[str, str]
+    """What its attributes say, by their names."""
     content: tuple[XmlContent, ...]
-    span: Span
-    raw: str = field(repr=False)
-    """The whole element as it stands in the file."""
+    children: tuple[XmlElement, ...]
+    """The elements of the content."""
+    text: str
+    """The text that stands directly in the element, in one."""
+    file: SourceFile
+    begin: int
+    end: int
+
+    @property
+    def attributes(self) -> dict[str, XmlAttribute]:
+        """The attributes with their places, looked for anew each time."""
+        # Expat gives their values, the text their places.
+        text = self.file.counted
+        attributes: dict[str, XmlAttribute] = {}
+        place = _end_of_name(text, self.begin)
+        for name, value in self.values.items():
+            written = _attribute_at(text, place)
+            begin, end = written.span(2 if written[2] is not None else 3)
+            attributes[name] = XmlAttribute(name, value, (self.file, begin, end))
+            place = written.end()
+        return attributes
+
+    @property
+    def bounds(self) -> Bounds:
+        """Where `<tag` stands."""
+        return self.file, self.begin, self.begin + len(self.tag) + 1
+
+    @property
+    def span(self) -> Span:
+        return _span(*self.bounds)
+
+    @property
+    def raw(self) -> str:
+        """The whole element as it stands in the file."""
+        return self.file.counted[self.begin : self.end]
 
     def get(self, name: str) -> str | None:
-        attribute = self.attributes.get(name)
-        return attribute.value if attribute else None
+        return self.values.get(name)
 
-    @property
-    def children(self) -> Iterator[XmlElement]:
-        return (item for item in self.content if isinstance(item, XmlElement))
+    # Equal to itself alone: elements that say the same stand at several places.
 
-    @property
-    def text(self) -> str:
-        """The text that stands directly in the element, in one."""
-        return "".join(item for item in self.content if isinstance(item, str))
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __ne__(self, other: object) -> bool:
+        return self is not other
+
+    def __hash__(self) -> int:
+        return id(self)
 
 
 XmlContent: TypeAlias = "XmlElement | XmlComment | str"
+
+
+def _span(place: Span | SourceFile, begin: int, end: int) -> Span:
+    return place if isinstance(place, Span) else place.between(begin, end)
+
+
+def _end_of_name(text: str, begin: int) -> int:
+    tag = _TAG.match(text, begin)
+    return tag.end() if tag else begin
+
+
+def _attribute_at(text: str, place: int) -> re.Match[str]:
+    written = _ATTRIBUTE.match(text, place)
+    assert written, "expat has read an attribute here"
+    return written
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -108,16 +167,13 @@ class _RefusedError(Exception):
         super().__init__(diagnostic.message)
 
 
-@dataclass(slots=True)
-class _Open:
+class _Open(NamedTuple):
     """An element whose end has not been seen."""
 
     tag: str
-    attributes: Mapping[str, XmlAttribute]
-    start: int
-    end: int | None = None
-    """Behind the tag, where that closes itself."""
-    content: list[XmlContent] = field(default_factory=list)
+    values: Mapping[str, str]
+    begin: int
+    content: list[XmlContent]
 
 
 class _Parse:
@@ -125,19 +181,19 @@ class _Parse:
 
     def __init__(self, file: SourceFile, sink: Diagnostics) -> None:
         self._file, self._sink = file, sink
-        self._text = file.text
-        self._line_starts = [0, *(match.end() for match in _LINE_START.finditer(file.text))]
-        self._open = [_Open("", {}, 0)]
+        self._text = file.counted
+        self._open = [_Open("", _NOTHING, 0, [])]
         self._elements = 0
+        self._last_tag: _Open | None = None
+        """The element whose tag was read last, None where that was an end; `_last_end` is that of an end or comment."""
         self._last_end = -1
-        self._parsed = parsed = _without_declaration(file.text)
+        self._parsed = parsed = _without_declaration(self._text)
         # What expat counts in bytes of UTF-8 is counted in characters here, from the last place that was asked for.
         self._is_ascii = parsed.isascii()
         self._bytes = b"" if self._is_ascii else parsed.encode("utf-8", "surrogatepass")
         self._known = (0, 0)
         self._parser = parser = expat.ParserCreate("utf-8")
         parser.buffer_text = True
-        parser.ordered_attributes = True
         parser.StartDoctypeDeclHandler = self._refuse_document_type
         parser.StartElementHandler = self._begin
         parser.EndElementHandler = self._end
@@ -164,7 +220,7 @@ class _Parse:
         at = self._offset(self._parser.ErrorByteIndex)
         found = malformed(error.code, self._parsed, at, [element.tag for element in around])
         notes = [
-            Note("the element that is open begins here", self._span(element.start, len(element.tag) + 1))
+            Note("the element that is open begins here", self._span(element.begin, len(element.tag) + 1))
             for element in around[-1:]
             if found.is_open
         ]
@@ -176,31 +232,27 @@ class _Parse:
         start = max(self._text.rfind("<!DOCTYPE", 0, self._here() + 1), 0)
         raise _RefusedError(DOCUMENT_TYPE.at(self._span(start, len("<!DOCTYPE"))))
 
-    def _begin(self, tag: str, attributes: list[str]) -> None:
-        start = self._here()
+    def _begin(self, tag: str, values: dict[str, str]) -> None:
+        begin = self._here()
         self._elements += 1
         if len(self._open) > MAX_NESTED_ELEMENTS:
-            raise _RefusedError(TOO_DEEP.at(self._span(start, len(tag) + 1), limit=MAX_NESTED_ELEMENTS))
+            raise _RefusedError(TOO_DEEP.at(self._span(begin, len(tag) + 1), limit=MAX_NESTED_ELEMENTS))
         if self._elements > MOST_ELEMENTS:
-            raise _RefusedError(TOO_MANY_ELEMENTS.at(self._span(start, len(tag) + 1), limit=MOST_ELEMENTS))
-        self._require_room(start, len(tag) + 1)
-        read, place = self._attributes(start, attributes)
-        closing = _CLOSING.match(self._text, place)
-        self._last_end = self._text.index(">", place) + 1
-        self._open.append(_Open(tag, read, start, closing.end() if closing else None))
+            raise _RefusedError(TOO_MANY_ELEMENTS.at(self._span(begin, len(tag) + 1), limit=MOST_ELEMENTS))
+        self._require_room(begin, len(tag) + 1)
+        self._last_tag = _Open(tag, values or _NOTHING, begin, [])
+        self._open.append(self._last_tag)
 
     def _end(self, tag: str) -> None:
-        element = self._open.pop()
-        self._last_end = end = element.end or self._text.index(">", self._here()) + 1
-        self._open[-1].content.append(
-            XmlElement(
-                tag,
-                element.attributes,
-                tuple(element.content),
-                self._span(element.start, len(tag) + 1),
-                self._text[element.start : end],
-            )
-        )
+        _, values, begin, content = self._open.pop()
+        end, text = self._here(), self._text
+        # Expat is behind a tag that closes itself, and before one that closes another.
+        if content or not text.endswith("/>", begin, end):
+            end = text.index(">", end) + 1
+        self._last_tag, self._last_end = None, end
+        children = tuple([item for item in content if isinstance(item, XmlElement)])
+        said = "".join([item for item in content if isinstance(item, str)])
+        self._open[-1].content.append(XmlElement(tag, values, tuple(content), children, said, self._file, begin, end))
 
     def _require_room(self, start: int, length: int) -> None:
         """Refuse what begins at an offset where the element around it holds as much as it may."""
@@ -217,33 +269,28 @@ class _Parse:
     def _comment(self, text: str) -> None:
         start = self._here()
         self._require_room(start, len("<!--"))
-        between = self._text[self._last_end : start] if self._last_end >= 0 else "\n"
-        follows = not between.strip() and "\n" not in between and "\r" not in between
+        follows = self._follows(start)
         if follows:
-            self._last_end = self._text.index("-->", start) + len("-->")
+            self._last_tag, self._last_end = None, self._text.index("-->", start) + len("-->")
         self._open[-1].content.append(XmlComment(text, self._span(start, len("<!--")), follows))
+
+    def _follows(self, start: int) -> bool:
+        """Whether what starts at an offset stands on the line on which the last tag ends, or a comment behind that."""
+        last_end = self._last_end if self._last_tag is None else self._end_of(self._last_tag)
+        between = self._text[last_end:start] if last_end >= 0 else "\n"
+        return not between.strip() and "\n" not in between and "\r" not in between
+
+    def _end_of(self, tag: _Open) -> int:
+        """Return the offset behind a tag: its attributes may hold what looks like an end."""
+        place = _end_of_name(self._text, tag.begin)
+        for _ in tag.values:
+            place = _attribute_at(self._text, place).end()
+        return self._text.index(">", place) + 1
 
     def _instruction(self, target: str, data: str) -> None:
         self._sink.report(INSTRUCTION_LEFT_OUT.at(self._span(self._here(), len(target) + 2), target=target))
 
     # Places
-
-    def _attributes(self, start: int, pairs: list[str]) -> tuple[Mapping[str, XmlAttribute], int]:
-        """Return the attributes of the tag that begins at an offset, and the offset behind them.
-
-        Expat gives their values, the text their places.
-        """
-        tag = _TAG.match(self._text, start)
-        place = tag.end() if tag else start
-        attributes: dict[str, XmlAttribute] = {}
-        for name, value in zip(pairs[::2], pairs[1::2], strict=True):
-            written = _ATTRIBUTE.match(self._text, place)
-            assert written, "expat has read an attribute here"
-            group = 2 if written[2] is not None else 3
-            length = written.end(group) - written.start(group)
-            attributes[name] = XmlAttribute(name, value, self._span(written.start(group), length))
-            place = written.end()
-        return attributes, place
 
     def _here(self) -> int:
         return self._offset(self._parser.CurrentByteIndex)
@@ -259,11 +306,7 @@ class _Parse:
         return offset
 
     def _span(self, start: int, length: int) -> Span:
-        return Span(self._file, *self._place(start), *self._place(min(start + length, len(self._text))))
-
-    def _place(self, offset: int) -> tuple[int, int]:
-        line = bisect_right(self._line_starts, offset)
-        return line, offset - self._line_starts[line - 1] + 1
+        return self._file.between(start, start + length)
 
 
 def _without_declaration(text: str) -> str:

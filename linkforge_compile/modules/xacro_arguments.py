@@ -39,7 +39,7 @@ def list_arguments(path: Path, loader: Loader, sink: Diagnostics) -> Listing | N
         return None
     search.look_into(root, path)
     # xacro computes the attributes of <robot> before anything in it, so a default further down comes too late.
-    early = set(_WANTED.findall(" ".join(attribute.value for attribute in root.attributes.values())))
+    early = set(_WANTED.findall(" ".join(root.values.values())))
     declared = [one._replace(default=None) if one.name in early else one for one in search.declared.values()]
     undeclared = [ListedParameter(name, "string") for name in search.wanted if name not in search.declared]
     name = root.get("name")

@@ -151,8 +151,9 @@ class Telling:
     @staticmethod
     def _expression(expression: str, elements: Iterable[XmlElement]) -> Span | None:
         """Return the first attribute of elements in which an expression is written."""
-        attributes = (attribute for element in elements for attribute in element.attributes.values())
-        return next((one.span for one in attributes if f"${{{expression}}}" in one.value), None)
+        said = f"${{{expression}}}"
+        found = ((element, name) for element in elements for name, value in element.values.items() if said in value)
+        return next((element.attributes[name].span for element, name in found), None)
 
     def unknown_arguments(self, declared: Mapping[str, Place], wanted: Collection[str]) -> None:
         """Report the arguments that the file neither declares nor wants, unless another file of the robot does."""

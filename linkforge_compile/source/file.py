@@ -31,20 +31,21 @@ class SourceFile(_Room):
     included: Span | None = None
 
     @cached_property
-    def lines(self) -> tuple[str, ...]:
-        """The lines without their ends, split only where YAML and XML split: LF, CR LF, CR.
+    def counted(self) -> str:
+        """The text as places count it: a byte order mark belongs to no line, nor do editors count it as a column."""
+        return self.text.removeprefix("\ufeff")
 
-        A byte order mark belongs to no line: editors do not count it as a column either.
-        """
-        text = self.text.removeprefix("\ufeff")
-        return tuple(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))
+    @cached_property
+    def lines(self) -> tuple[str, ...]:
+        """The lines without their ends, split only where YAML and XML split: LF, CR LF, CR."""
+        return tuple(self.counted.replace("\r\n", "\n").replace("\r", "\n").split("\n"))
 
     def line(self, number: int) -> str:
         """Return line `number`, counted from 1; empty behind the end of the file."""
         return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
 
     def between(self, begin: int, end: int) -> Span:
-        """Return the stretch between two indexes into the text, in which a byte order mark does not count.
+        """Return the stretch between two indexes into what is counted of the text.
 
         What lies behind the end of the text is its end.
         """
@@ -67,7 +68,7 @@ class SourceFile(_Room):
     @cached_property
     def _line_starts(self) -> list[int]:
         """The index of the first character of each line, and of one more line behind the last."""
-        text = self.text.removeprefix("\ufeff").replace("\r\n", " \n").replace("\r", "\n")
+        text = self.counted.replace("\r\n", " \n").replace("\r", "\n")
         return [0, *accumulate(len(line) + 1 for line in text.split("\n"))]
 
     @cached_property

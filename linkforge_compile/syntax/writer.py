@@ -56,6 +56,7 @@ class _Layout:
 
     def __init__(self, comments: Comments, endings: Comments) -> None:
         self._comments, self._endings = comments, endings
+        self._keys: dict[tuple[str, bool], str] = {}
 
     def document(self, tree: YamlMap) -> Iterator[str]:
         """Yield the lines of a file: its sections apart, and none in brackets, for there names are looked up."""
@@ -66,7 +67,7 @@ class _Layout:
                 yield ""
             was_section = is_section
             yield from self._comment(entry.key, "")
-            key = f"{_text(entry.name, in_brackets=False)}:"
+            key = f"{self._key(entry.name, in_brackets=False)}:"
             if is_section:
                 yield key
                 yield from self._block(entry.value, _INDENT)
@@ -80,7 +81,7 @@ class _Layout:
         if isinstance(node, YamlMap):
             for entry in node:
                 yield from self._comment(entry.key, indent)
-                yield from self._value(f"{indent}{_text(entry.name, in_brackets=False)}:", entry.value, indent)
+                yield from self._value(f"{indent}{self._key(entry.name, in_brackets=False)}:", entry.value, indent)
         elif isinstance(node, YamlList):
             for item in node:
                 yield from self._comment(item, indent)
@@ -111,33 +112,43 @@ class _Layout:
 
     def _fitting(self, node: YamlNode, column: int) -> str | None:
         """Return a list or map in brackets, None where it does not fit behind the column or nests too deep."""
-        text = self._in_brackets(node, _MOST_NESTED)
-        return text if text is not None and column + 1 + len(text) <= WIDTH else None
+        room = WIDTH - column - 1
+        text = self._in_brackets(node, _MOST_NESTED, room)
+        return text if text is not None and len(text) <= room else None
 
-    def _in_brackets(self, node: YamlNode, levels: int) -> str | None:
+    def _in_brackets(self, node: YamlNode, levels: int, room: int) -> str | None:
+        """Return a node as it stands in brackets; None where it cannot, or takes more than so many columns for sure."""
         if isinstance(node, YamlScalar):
             return None if _is_paragraph(node) else _scalar(node, in_brackets=True)
-        if isinstance(node, YamlMap):
-            return self._map_in_brackets(node, levels)
-        # Nothing between two commas is no item.
-        if isinstance(node, YamlList) and all(not _is_empty(item) for item in node):
-            return self._list_in_brackets(node, levels)
-        return None
+        if not isinstance(node, YamlMap | YamlList) or (len(node) and (not levels or node in self._endings)):
+            return None
+        # What is too long is known by its beginning: it is asked for again at each level.
+        inside = []
+        for part in self._parts(node, levels - 1, room):
+            room -= 0 if part is None else len(part) + len(", ")
+            if part is None or room < 0:
+                return None
+            inside.append(part)
+        return f"{{{', '.join(inside)}}}" if isinstance(node, YamlMap) else f"[{', '.join(inside)}]"
 
-    def _map_in_brackets(self, node: YamlMap, levels: int) -> str | None:
-        if len(node) and (not levels or any(entry.key in self._comments for entry in node) or node in self._endings):
-            return None
-        values = [self._in_brackets(entry.value, levels - 1) for entry in node]
-        if None in values:
-            return None
-        keys = [_text(entry.name, in_brackets=True) for entry in node]
-        return "{" + ", ".join(f"{key}: {value}" for key, value in zip(keys, values, strict=True)) + "}"
+    def _parts(self, node: YamlMap | YamlList, levels: int, room: int) -> Iterator[str | None]:
+        """Yield the entries or items as they stand in brackets, None for one that cannot."""
+        if isinstance(node, YamlList):
+            for item in node:
+                # Nothing between two commas is no item.
+                cannot = item in self._comments or _is_empty(item)
+                yield None if cannot else self._in_brackets(item, levels, room)
+            return
+        for entry in node:
+            value = None if entry.key in self._comments else self._in_brackets(entry.value, levels, room)
+            yield None if value is None else f"{self._key(entry.name, in_brackets=True)}: {value}"
 
-    def _list_in_brackets(self, node: YamlList, levels: int) -> str | None:
-        if len(node) and (not levels or any(item in self._comments for item in node) or node in self._endings):
-            return None
-        items = [self._in_brackets(item, levels - 1) for item in node]
-        return None if None in items else f"[{', '.join(item or '' for item in items)}]"
+    def _key(self, name: str, *, in_brackets: bool) -> str:
+        """Return a key; a spec says the same few again and again."""
+        asked = name, in_brackets
+        if asked not in self._keys:
+            self._keys[asked] = _text(name, in_brackets=in_brackets)
+        return self._keys[asked]
 
     def _comment(self, node: YamlNode, indent: str) -> Iterator[str]:
         yield from _commented(self._comments.get(node, ""), indent)

@@ -56,7 +56,7 @@ def _frame(
     kind, child = said.get("type"), said.get("child")
     if not isinstance(kind, YamlScalar) or not isinstance(child, YamlScalar) or not _MAY_SAY.issuperset(said):
         return None
-    if kind.text != "fixed" or child.text != draft.text(link, child.span).text:
+    if kind.text != "fixed" or child.text != draft.text(link, child).text:
         return None
     parent = said.get("parent")
     if child.text in shared or (isinstance(parent, YamlScalar) and parent.text == child.text):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable
 from itertools import groupby
 
@@ -46,11 +46,11 @@ def read_free(element: Reading, around: str | None = None) -> YamlNode:
     tag = element.element.tag
     place = place_of(tag, around)
     is_name = names_by_text(tag, around, element.element.text, element.draft.shapes)
-    if not element.element.attributes and not element.children():
+    if not element.element.values and not element.children():
         node = read_text(element)
         return with_prefix(node) if is_name else node
     entries: dict[str, YamlNode | None] = {}
-    for name in element.element.attributes:
+    for name in element.element.values:
         taken = element.attribute(name)
         value = element.draft.word(taken.value, taken.span)
         entries[f"_{name}"] = with_prefix(value) if names(place, name) else value
@@ -63,8 +63,8 @@ def read_free(element: Reading, around: str | None = None) -> YamlNode:
 
 def is_free(element: XmlElement) -> bool:
     """Whether an element made of keys would be the same: no order lost, and no name that means something else."""
-    is_text_first = not element.text.strip() or not any(element.children) or _begins_with_text(element)
-    return "text" not in element.attributes and is_text_first and has_free_children(element)
+    is_text_first = not element.text.strip() or not element.children or _begins_with_text(element)
+    return "text" not in element.values and is_text_first and has_free_children(element)
 
 
 def has_free_children(element: XmlElement) -> bool:
@@ -101,13 +101,13 @@ def take_free(owner: Reading) -> dict[str, YamlNode | None]:
 def take_texts(owner: Reading, children: Iterable[XmlElement]) -> dict[str, YamlNode | None]:
     """Take those of the children that hold text and nothing else, each tag a key; all others are left."""
     several = _tags_that_repeat(owner.children())
-    plain = [one for one in children if not one.attributes and not any(one.children) and one.tag not in several]
+    plain = [one for one in children if not one.values and not one.children and one.tag not in several]
     return {one.tag: owner.within(one, read_text) for one in plain if not one.tag.startswith("_")}
 
 
 def exact_number(element: XmlElement) -> float | None:
     """Return the number that an element holds, if it holds nothing else and is spelled as we would spell it."""
-    if element.attributes or any(element.children):
+    if element.values or element.children:
         return None
     text = element.text.strip()
     value = number_of(text)
@@ -122,8 +122,7 @@ def _one_or_several(owner: Reading, group: list[XmlElement], place: str | None) 
 
 
 def _tags_that_repeat(children: list[XmlElement]) -> set[str]:
-    tags = [child.tag for child in children]
-    return {tag for tag in tags if tags.count(tag) > 1}
+    return {tag for tag, count in Counter(child.tag for child in children).items() if count > 1}
 
 
 def is_empty(node: YamlNode) -> bool:

@@ -52,7 +52,7 @@ class Blocks:
 
 
 def _block(block: Reading, names: Collection[str | None]) -> YamlMap:
-    if "reference" in block.element.attributes:
+    if "reference" in block.element.values:
         reference = block.attribute("reference")
         if reference.value not in names:
             raise DeclinedError(f"there is no link or joint named '{reference.value}'", reference.span)
@@ -134,7 +134,7 @@ def _is_flag(child: XmlElement) -> bool:
 
 
 def _is_text(child: XmlElement) -> bool:
-    return not child.attributes and not any(child.children) and bool(child.text.strip())
+    return not child.values and not child.children and bool(child.text.strip())
 
 
 def _is_vector(child: XmlElement) -> bool:

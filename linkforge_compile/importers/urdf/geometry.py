@@ -34,7 +34,7 @@ def read_geometry(geometry: Reading) -> YamlMap:
         raise geometry.declined(f"there is no shape named '{shape.tag}'")
     node = geometry.within(shape, read)
     geometry.leave_rest()
-    return geometry.draft.map_of({shape.tag: node}, shape.span)
+    return geometry.draft.map_of({shape.tag: node}, shape)
 
 
 def _box(box: Reading) -> YamlNode:

@@ -87,7 +87,7 @@ def _axis(axis: Reading) -> YamlNode:
     if xyz is None:
         return axis.draft.text("x", axis.span)
     letter = _AXES.get(tuple(map(number_of, (axis.element.get("xyz") or "").split())))
-    return axis.draft.text(letter, xyz.span) if letter else xyz
+    return axis.draft.text(letter, xyz) if letter else xyz
 
 
 def _limits(limit: Reading, motion: _Motion) -> YamlNode:

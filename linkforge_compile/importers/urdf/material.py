@@ -39,15 +39,15 @@ class Palette:
     def find(self, draft: Draft, root: XmlElement) -> None:
         """Take in what visuals say, for the names that the robot does not declare."""
         for material in _materials_of_visuals(root):
-            name = material.attributes.get("name")
-            if name and name.value and name.value not in self.materials and any(material.children):
+            name = material.get("name")
+            if name and name not in self.materials and material.children:
                 reading = Reading(draft, material)
-                reading.attribute("name")
+                taken = reading.attribute("name")
                 try:
-                    node = self._said[name.value] = _definition(reading)
+                    node = self._said[name] = _definition(reading)
                 except DeclinedError:
                     continue  # told where the visual is read
-                self.materials[name.value] = name, node
+                self.materials[name] = taken, node
 
     def used(self, material: Reading) -> YamlNode:
         """Read the material of a visual: a name, or the whole of one that is another than the robot's of this name."""
@@ -56,11 +56,11 @@ class Palette:
         if material.is_spent():
             if known is None:
                 raise DeclinedError(f"no material named '{name.value}' has a color or a texture", name.span)
-            return material.draft.text(name.value, name.span)
+            return material.draft.text(name.value, name)
         node = _definition(material)
         if known and same(known, node):
-            return material.draft.text(name.value, name.span)
-        said = material.draft.text(name.value, name.span) if name.value else None
+            return material.draft.text(name.value, name)
+        said = material.draft.text(name.value, name) if name.value else None
         return material.draft.map_of({"name": said, **_entries(node)}, material.span)
 
 
@@ -79,7 +79,7 @@ def _color(color: Reading) -> YamlNode:
         raise color.declined(f"its components must be from 0 to 1, found '{color.element.get('rgba')}'")
     color.leave_rest()
     *rgb, opacity = rgba
-    return color.draft.list_of(rgb, rgba.span) if same(opacity, color.draft.number("1", rgba.span)) else rgba
+    return color.draft.list_of(rgb, rgba) if same(opacity, color.draft.number("1", rgba)) else rgba
 
 
 def _texture(texture: Reading) -> YamlNode:

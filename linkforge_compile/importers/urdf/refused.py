@@ -83,16 +83,17 @@ def refused_by_readers(robot: XmlElement) -> Iterator[Refused]:
 
 
 def _in_name(element: XmlElement, taken: dict[tuple[str, str], XmlElement]) -> Iterator[Refused]:
-    name = element.attributes.get("name")
+    name = element.get("name")
     if name is None:
         # urdfdom goes on without a material that has none.
         if element.tag != "material":
             yield _lacks(element, "'name'")
         return
-    first = taken.setdefault((element.tag, name.value), element)
+    first = taken.setdefault((element.tag, name), element)
     if first is not element:
         notes = [Note("the other stands here", first.span)]
-        yield Refused(NAME_IS_TAKEN.at(name.span, tag=element.tag, name=name.value, notes=notes), ())
+        where = element.attributes["name"].span
+        yield Refused(NAME_IS_TAKEN.at(where, tag=element.tag, name=name, notes=notes), ())
 
 
 def _in_link(link: XmlElement) -> Iterator[Refused]:
@@ -115,7 +116,7 @@ def _in_shape(shape: XmlElement) -> Iterator[Refused]:
     geometry = _first(shape, "geometry")
     if geometry is None:
         yield _lacks(shape, "<geometry>")
-    elif body := next(geometry.children, None):
+    elif body := next(iter(geometry.children), None):
         if part := _SHAPES.get(body.tag):
             yield from _below(geometry, _below(body, _in_part(body, part)))
     else:
@@ -123,19 +124,19 @@ def _in_shape(shape: XmlElement) -> Iterator[Refused]:
 
 
 def _in_joint(joint: XmlElement) -> Iterator[Refused]:
-    kind = joint.attributes.get("type")
+    kind = joint.get("type")
     if kind is None:
         yield _lacks(joint, "'type'")
-    elif kind.value not in TYPES_OF_JOINTS:
-        yield Refused(NO_TYPE_OF_JOINT.at(kind.span, name=kind.value, near=TYPES_OF_JOINTS), ())
+    elif kind not in TYPES_OF_JOINTS:
+        where = joint.attributes["type"].span
+        yield Refused(NO_TYPE_OF_JOINT.at(where, name=kind, near=TYPES_OF_JOINTS), ())
     for tag in ("parent", "child"):
         if _first(joint, tag) is None:
             yield _lacks(joint, f"<{tag} link='...'>")
-    said = kind.value if kind else ""
     parts = dict(_JOINT)
-    if said in _HAVE_NO_AXIS:
+    if kind in _HAVE_NO_AXIS:
         del parts["axis"]
-    if said in _MUST_HAVE_LIMITS:
+    if kind in _MUST_HAVE_LIMITS:
         # What the limits of such a joint lack is told of the robot.
         parts["limit"] = _JOINT["limit"]._replace(needed=())
     yield from _in_parts(joint, parts)
@@ -152,9 +153,9 @@ def _in_part(element: XmlElement, part: _Part) -> Iterator[Refused]:
     if missing:
         yield _lacks(element, " and no ".join(missing))
     for name, count in part.numbers.items():
-        attribute = element.attributes.get(name)
-        if attribute and not _are_numbers(attribute.value, count):
-            yield _no_numbers(element, attribute, count)
+        text = element.get(name)
+        if text is not None and not _are_numbers(text, count):
+            yield _no_numbers(element, element.attributes[name], count)
 
 
 def _are_numbers(text: str, count: int) -> bool:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
-from linkforge_compile.frozen import replace
 from linkforge_compile.importers.xacro.process import MARK
 from linkforge_compile.importers.xacro.run import Place, place_of
-from linkforge_compile.importers.xml import XmlComment, XmlContent, XmlDocument, XmlElement
+from linkforge_compile.importers.xml import Bounds, XmlAttribute, XmlComment, XmlContent, XmlDocument, XmlElement
 from linkforge_compile.source import Span
 
 _MARK = re.compile(rf'\s{MARK}(?:="[0-9:]*"|(?=-->))')
@@ -24,17 +23,46 @@ def moved_back(document: XmlDocument, find: Find) -> XmlDocument:
     return XmlDocument(root, tuple(root if item is document.root else item for item in document.content))
 
 
+class _Moved(XmlElement):
+    """An element at another place than that of its text; it has its attributes and raw text already."""
+
+    _span: Span
+    _attributes: Mapping[str, XmlAttribute]
+    _raw: str
+
+    @classmethod
+    def to(cls, span: Span, attributes: Mapping[str, XmlAttribute], raw: str, expanded: XmlElement) -> _Moved:
+        made = cls(*expanded)
+        made._span, made._attributes, made._raw = span, attributes, raw
+        return made
+
+    @property
+    def bounds(self) -> Bounds:
+        return self._span, 0, 0
+
+    @property
+    def attributes(self) -> dict[str, XmlAttribute]:
+        return dict(self._attributes)
+
+    @property
+    def raw(self) -> str:
+        return self._raw
+
+
 def _moved(element: XmlElement, find: Find, around: Span | None) -> XmlElement:
-    mark = element.attributes.get(MARK)
-    written = find(place_of(mark.value)) if mark else None
+    mark = element.get(MARK)
+    written = find(place_of(mark)) if mark else None
     span = written.span if written else around or element.span
-    attributes = {}
-    for name, attribute in element.attributes.items():
-        if name != MARK:
-            said = written.attributes.get(name) if written else None
-            attributes[name] = replace(attribute, span=said.span if said else span)
+    known = written.attributes if written else {}
+    values = {name: value for name, value in element.values.items() if name != MARK}
+    attributes = {
+        name: XmlAttribute(name, value, known[name].bounds if name in known else (span, 0, 0))
+        for name, value in values.items()
+    }
     content = tuple(_content(item, find, span) for item in element.content)
-    return XmlElement(element.tag, attributes, content, span, _MARK.sub("", element.raw))
+    children = tuple(item for item in content if isinstance(item, XmlElement))
+    expanded = element._replace(values=values, content=content, children=children)
+    return _Moved.to(span, attributes, _MARK.sub("", element.raw), expanded)
 
 
 def _content(item: XmlContent, find: Find, span: Span) -> XmlContent:
