@@ -227,6 +227,6 @@ def _losses(imported: Imported, robot: Robot, told: Collection[Span]) -> Iterato
     from linkforge_compile.importers.xml import read_xml
 
     for document, render in zip(imported.documents, _RENDERED, strict=False):
-        again = read_xml(SourceFile("<compiled>", render(robot)), Diagnostics())
+        again = read_xml(SourceFile("<compiled>", render(robot)), Diagnostics(), is_ours=True)
         assert again, "what we render is XML"
         yield from (loss for loss in losses(document, again) if loss.span not in told)

@@ -366,6 +366,13 @@ def test_a_file_of_comments_that_ignore_is_read_in_time(tmp_path: Path):
     ]
 
 
+def test_a_urdf_of_tags_of_their_own_is_imported_in_time(tmp_path: Path):
+    tags = "".join(f"<a:t{i}>b</a:t{i}>" for i in range(15_000))
+    write(tmp_path, "a.urdf", f"{URDF}<link name='a'/>{tags}<gazebo>{tags.replace('a:', '')}</gazebo></robot>")
+    done = run("import", "a.urdf", folder=tmp_path)
+    assert (done.returncode, done.stdout.count("t14999"), done.stderr) == (0, 3, "")
+
+
 def test_a_urdf_of_comments_is_imported_in_time(tmp_path: Path):
     write(tmp_path, "a.urdf", "<robot name='r'><link name='a'/>" + "<!-- b -->\n" * 20_000 + "</robot>")
     done = run("import", "a.urdf", folder=tmp_path)

@@ -17,6 +17,15 @@ _Template: TypeAlias = Callable[[list[str], object], object]
 """Appends the lines that a template makes of a view."""
 
 
+class TemplateFaultError(Exception):
+    """A template of linkforge is not as it was made: somebody has changed it; the message says where, and why."""
+
+    def __init__(self, path: Path, line: int, reason: str) -> None:
+        super().__init__(
+            f"{path}:{line}: {reason}; this template is a part of linkforge: mend it, or install linkforge again"
+        )
+
+
 def render(template: str, view: object, *, pretty: bool, banner: str | None) -> str:
     """Return the XML document that a template makes of a view of the robot, which it calls `robot`.
 
@@ -25,6 +34,7 @@ def render(template: str, view: object, *, pretty: bool, banner: str | None) -> 
 
     Raises:
         RobotGeneratorError: for text that XML cannot hold.
+        TemplateFaultError: for a template that somebody has changed to what it cannot be.
 
     """
     lines: list[str] = []
@@ -49,10 +59,18 @@ def _template(name: str) -> _Template:
 
 def _compiled(name: str, paths: list[Path]) -> CodeType:
     # It brings Jinja, which takes a sixth of a short command to import.
-    from linkforge_compile.backends.template_python import python_of
+    from jinja2 import TemplateSyntaxError
+
+    from linkforge_compile.backends.template_python import UnknownInTemplateError, python_of
 
     texts = {path.relative_to(templates_folder()).as_posix(): path.read_text("utf-8") for path in paths}
-    return compile(python_of(name, texts, "robot"), f"<{name}>", "exec")
+    try:
+        python = python_of(name, texts, "robot")
+    except UnknownInTemplateError as unknown:
+        raise TemplateFaultError(templates_folder() / unknown.template, unknown.line, unknown.reason) from None
+    except TemplateSyntaxError as error:
+        raise TemplateFaultError(templates_folder() / (error.name or name), error.lineno, str(error.message)) from None
+    return compile(python, f"<{name}>", "exec")
 
 
 def _comment(text: str, *, pretty: bool) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.backends.marks import mark, mark_of_line, recorded
 from linkforge_compile.backends.markup import (
@@ -22,6 +22,9 @@ from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
+
+if TYPE_CHECKING:
+    from xml.parsers.expat import XMLParserType
 
 _MOST_SHOWN = 80
 """Characters of raw XML that a message quotes."""
@@ -189,7 +192,7 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     parser = expat.ParserCreate("utf-8")
     parser.ordered_attributes = True
     parser.buffer_text = True
-    reader = _Reader(lambda: mark_of_line(source, path, parser.CurrentLineNumber))
+    reader = _Reader(parser, lambda line: mark_of_line(source, path, line))
     parser.StartElementHandler = reader.begin
     parser.EndElementHandler = reader.end
     parser.CharacterDataHandler = reader.characters
@@ -203,15 +206,19 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
         # Its column counts the wrapper.
         reason = f"{expat.ErrorString(error.code)} in line {error.lineno}"
         raise RobotGeneratorError(f"raw XML is not well-formed: {reason}: {_shown(text)}") from None
+    finally:
+        # The two know each other, and would stay until Python looks for cycles: 13 kB each, while a compile rests that.
+        del reader.parser
     [wrapper] = reader.document.content
     assert isinstance(wrapper, Node)
     return wrapper.content
 
 
 class _Reader:
-    """What a parser tells of a document, as nodes below `document`; `mark` says where the parser is."""
+    """What a parser tells of a document, as nodes below `document`, each with the mark of its line."""
 
-    def __init__(self, mark: Callable[[], str]) -> None:
+    def __init__(self, parser: XMLParserType, mark: Callable[[int], str]) -> None:
+        self.parser = parser
         self.document = Node("", (), [])
         self._mark = mark
         self._open = [self.document]
@@ -222,7 +229,7 @@ class _Reader:
         if len(self._open) > MAX_NESTED_ELEMENTS:
             raise RobotGeneratorError(f"raw XML is nested more than {MAX_NESTED_ELEMENTS} elements deep")
         pairs = tuple(zip(attributes[::2], attributes[1::2], strict=True))
-        node = Node(tag, pairs, [], self._mark())
+        node = Node(tag, pairs, [], self._mark(self.parser.CurrentLineNumber))
         self._open[-1].content.append(node)
         self._open.append(node)
         space = dict(pairs).get("xml:space")

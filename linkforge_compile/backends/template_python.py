@@ -36,6 +36,7 @@ class UnknownInTemplateError(Exception):
     """A template says what does not become Python here; the message begins with its name and line."""
 
     def __init__(self, template: str, line: int, reason: str) -> None:
+        self.template, self.line, self.reason = template, line, reason
         super().__init__(f"{template}:{line}: {reason}")
 
 

@@ -7,13 +7,21 @@ import sys
 from collections.abc import Sequence
 
 from linkforge_compile._version import __version__
-from linkforge_compile.cli.exits import INTERNAL_FAULT
+from linkforge_compile.cli.exits import INTERNAL_FAULT, WRONG_USAGE
 
 
 def confess(fault: Exception, words: Sequence[str]) -> int:
-    """Say that this is our fault and where the report is; the traceback itself only where LINKFORGE_DEBUG asks."""
+    """Say that this is our fault and where the report is; the traceback itself only where LINKFORGE_DEBUG asks.
+
+    What somebody has made of our templates is his.
+    """
     import traceback
 
+    from linkforge_compile.backends.document import TemplateFaultError
+
+    if isinstance(fault, TemplateFaultError):
+        print(f"linkforge: {fault}", file=sys.stderr)
+        return WRONG_USAGE
     frames = traceback.extract_tb(fault.__traceback__)
     place = "?"
     if frames:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from sys import maxsize
 from types import MappingProxyType
 from typing import TypeAlias
 from xml.parsers import expat
@@ -147,13 +148,14 @@ class XmlDocument:
     content: tuple[XmlContent, ...]
 
 
-def read_xml(file: SourceFile, sink: Diagnostics) -> XmlDocument | None:
+def read_xml(file: SourceFile, sink: Diagnostics, *, is_ours: bool = False) -> XmlDocument | None:
     """Parse a text; None where it is malformed or refused, which is told with its place.
 
     A document type is refused, and with it every entity but the five of XML: nothing is expanded, nothing fetched.
+    What `is_ours`, made of a robot within its bounds, may hold more than a file: there is space between its tags.
     """
     try:
-        return _Parse(file, sink).document()
+        return _Parse(file, sink, is_ours=is_ours).document()
     except _RefusedError as refused:
         sink.report(refused.diagnostic)
         return None
@@ -179,8 +181,9 @@ class _Open(NamedTuple):
 class _Parse:
     """One run of expat, which knows nothing of namespaces unless told: a `drake:` without declaration stays."""
 
-    def __init__(self, file: SourceFile, sink: Diagnostics) -> None:
+    def __init__(self, file: SourceFile, sink: Diagnostics, *, is_ours: bool) -> None:
         self._file, self._sink = file, sink
+        self._most_elements, self._most_inside = (maxsize, maxsize) if is_ours else (MOST_ELEMENTS, MOST_INSIDE)
         self._text = file.counted
         self._open = [_Open("", _NOTHING, 0, [])]
         self._elements = 0
@@ -209,6 +212,9 @@ class _Parse:
             self._parser.Parse(self._parsed, True)
         except expat.ExpatError as error:
             raise _RefusedError(self._malformed(error)) from None
+        finally:
+            # The two know each other, and would stay until Python looks for cycles.
+            del self._parser
         [document] = self._open
         [root] = [item for item in document.content if isinstance(item, XmlElement)]
         return XmlDocument(root, tuple(document.content))
@@ -237,7 +243,7 @@ class _Parse:
         self._elements += 1
         if len(self._open) > MAX_NESTED_ELEMENTS:
             raise _RefusedError(TOO_DEEP.at(self._span(begin, len(tag) + 1), limit=MAX_NESTED_ELEMENTS))
-        if self._elements > MOST_ELEMENTS:
+        if self._elements > self._most_elements:
             raise _RefusedError(TOO_MANY_ELEMENTS.at(self._span(begin, len(tag) + 1), limit=MOST_ELEMENTS))
         self._require_room(begin, len(tag) + 1)
         self._last_tag = _Open(tag, values or _NOTHING, begin, [])
@@ -257,7 +263,7 @@ class _Parse:
     def _require_room(self, start: int, length: int) -> None:
         """Refuse what begins at an offset where the element around it holds as much as it may."""
         around = self._open[-1]
-        if len(around.content) >= MOST_INSIDE:
+        if len(around.content) >= self._most_inside:
             owner = f"<{around.tag}>" if around.tag else "the file"
             raise _RefusedError(TOO_MUCH_INSIDE.at(self._span(start, length), owner=owner, limit=MOST_INSIDE))
 

@@ -15,6 +15,7 @@ from linkforge_compile.backends import document, render_srdf, render_urdf, templ
 from linkforge_compile.backends.markup import Xml, end, laid_out, lay, ready
 from linkforge_compile.backends.source_map import Mapped, render_srdf_with_map, render_urdf_with_map
 from linkforge_compile.backends.template_python import UnknownInTemplateError, python_of
+from linkforge_compile.cli.main import main
 from linkforge_compile.core import Robot
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.resources import templates_folder
@@ -167,3 +168,23 @@ def test_a_template_that_says_something_else_is_made_python_again(folder: Path):
     (folder / "urdf" / "robot.xml.j2").write_text("<robot>\n{% include 'urdf/link.xml.j2' %}\n</robot>")
     (folder / "urdf" / "link.xml.j2").write_text("<link/>")
     assert render_urdf(Robot("r"), pretty=False).endswith("<robot><link/></robot>\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "reason"),
+    [
+        ("<robot>\n{{ robot.name | upper }}\n</robot>", 2, "are known, found 'Filter'"),
+        ("<robot>\n{% if %}\n</robot>", 2, "Expected an expression, got 'end of statement block'"),
+    ],
+)
+def test_a_template_that_somebody_made_unreadable_is_told_at_its_place(
+    text: str, line: int, reason: str, folder: Path, capsys: pytest.CaptureFixture[str]
+):
+    template = folder / "urdf" / "robot.xml.j2"
+    template.write_text(text)
+    spec = folder / "a.robot.yaml"
+    spec.write_text("linkforge: 1\nname: a\nlinks: {base: }\n")
+    assert main(["compile", str(spec)]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"linkforge: {template}:{line}: ")
+    assert said.endswith(f"{reason}; this template is a part of linkforge: mend it, or install linkforge again\n")

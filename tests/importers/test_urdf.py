@@ -628,3 +628,13 @@ def test_signs_of_zero_and_spaces_of_generators_stay_behind(read):
     assert '<axis xyz="0 0 -0"/>' in text
     assert '<note say="a /> b"/>' in text
     assert """<note say='"' b="c />" d='"'/>""" in text
+
+
+def test_a_file_that_holds_just_what_it_may_is_compared_with_more_than_that(monkeypatch: pytest.MonkeyPatch):
+    """What it compiles to has its tags on lines of their own, and so space between them."""
+    monkeypatch.setattr("linkforge_compile.importers.xml.MOST_INSIDE", 10)
+    raw = "".join(f"<a:b{i}/>" for i in range(10))
+    imported = import_urdf("r.urdf", text=f"<robot name='r'><link name='l'/><x>{raw}</x></robot>")
+    assert imported.diagnostics == ()
+    assert imported.text
+    assert imported.text.count("<a:b") == 10

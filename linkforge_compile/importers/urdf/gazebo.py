@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 
 from linkforge_compile.importers.draft import DeclinedError, number_of
@@ -69,11 +70,11 @@ def _block(block: Reading, names: Collection[str | None]) -> YamlMap:
 def _tags(block: Reading) -> dict[str, YamlNode | None]:
     """Take the tags that are keys, where they come back as they are spelled."""
     children = block.children()
-    tags = [child.tag for child in children]
+    times = Counter(child.tag for child in children)
     said: dict[str, YamlNode | None] = {}
     for child in children:
         key, spelled_so, read = _KEYS.get(child.tag, _NO_KEY)
-        if tags.count(child.tag) == 1 and spelled_so(child):
+        if times[child.tag] == 1 and spelled_so(child):
             said[key] = block.within(child, read)
     return said
 
