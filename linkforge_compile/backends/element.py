@@ -77,7 +77,7 @@ def _stated_alone(stated: Mapping[str, Spellable | None]) -> str:
 
 def attributes_at(source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
     """Return ` name="value"` for what is no part of its own, but written under a path of one."""
-    return Xml(mark(source, *path) + attributes(**stated))
+    return Xml(mark(source, *path) + _stated_alone(stated))
 
 
 def _marked_attributes(part: Extended, stated: Mapping[str, Spellable | None], extra: Iterable[tuple[str, str]]) -> Xml:

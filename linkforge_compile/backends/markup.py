@@ -93,7 +93,7 @@ def escaped(text: str) -> str:
         RobotGeneratorError: for a character that XML 1.0 cannot hold.
 
     """
-    if _MARKED.search(text) is None:
+    if text.isidentifier() or _MARKED.search(text) is None:  # names mostly, which Python knows at once
         return text
     require_writable(text)
     return text.translate(_REFERENCES)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from functools import lru_cache
+from collections.abc import Callable
 from operator import index
 
 _IN_FULL = re.compile(r"-?(?:0|[1-9][0-9]*)\.[0-9]+")
@@ -29,9 +29,23 @@ def is_in_full(text: str) -> bool:
     return _IN_FULL.fullmatch(text) is not None
 
 
-@lru_cache(maxsize=4096)  # a robot says the same numbers again and again
-def double_text(value: float) -> str:
-    """Return `number_text` of what is known to be a float."""
+class _Texts(dict[float, str]):
+    """The texts of doubles that were asked for: a robot says the same numbers again and again."""
+
+    def __missing__(self, value: float) -> str:
+        if len(self) >= _MOST_REMEMBERED:
+            self.clear()
+        text = self[value] = _spelled(value)
+        return text
+
+
+_MOST_REMEMBERED = 4096
+
+double_text: Callable[[float], str] = _Texts().__getitem__
+"""Returns what `number_text` does, of what is known to be a float."""
+
+
+def _spelled(value: float) -> str:
     if value == 0:
         return "0"
     digits, marker, exponent = float.__repr__(value).partition("e")

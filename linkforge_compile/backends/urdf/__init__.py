@@ -8,7 +8,7 @@ from linkforge_compile.backends.document import render
 from linkforge_compile.backends.element import attributes, elements
 from linkforge_compile.backends.markup import Xml
 from linkforge_compile.backends.urdf.joint import JointView, joint_views
-from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS, LinkView, MaterialView, link_views, material_view
+from linkforge_compile.backends.urdf.link import LinkView, MaterialView, link_views, material_view, says_physics
 from linkforge_compile.collector import resting
 from linkforge_compile.core.models.geometry import Capsule
 from linkforge_compile.named_tuple import NamedTuple
@@ -126,7 +126,7 @@ def _ros2_controls(robot: Robot) -> tuple[Ros2ControlView, ...]:
 
 
 def _gazebo(robot: Robot) -> tuple[GazeboView, ...]:
-    if not robot.gazebo_elements and all(link.physics == DEFAULT_PHYSICS for link in robot.links):
+    if not (robot.gazebo_elements or any(says_physics(link) for link in robot.links)):
         return ()
     from linkforge_compile.backends.urdf.gazebo import gazebo_views, physics_views
 

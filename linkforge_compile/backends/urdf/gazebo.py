@@ -8,7 +8,7 @@ from linkforge_compile.backends.element import attributes, attributes_at, elemen
 from linkforge_compile.backends.marks import recorded
 from linkforge_compile.backends.markup import Xml, placed, spelled
 from linkforge_compile.backends.raw import parameter_elements, raw_elements
-from linkforge_compile.backends.urdf.link import DEFAULT_PHYSICS
+from linkforge_compile.backends.urdf.link import says_physics
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.link import PHYSICS_TAGS, Link, LinkPhysics
 from linkforge_compile.named_tuple import NamedTuple
@@ -39,7 +39,7 @@ def physics_views(links: Iterable[Link]) -> tuple[GazeboView, ...]:
             attributes_at(link.physics.source, reference=link.name), _physics_tags(link.physics), Xml(), (), Xml()
         )
         for link in links
-        if link.physics != DEFAULT_PHYSICS
+        if says_physics(link)
     )
 
 

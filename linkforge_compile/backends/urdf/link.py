@@ -7,14 +7,11 @@ from collections.abc import Iterable, Mapping
 from linkforge_compile.backends.element import attributes, attributes_at, elements, leaf, leaf_at
 from linkforge_compile.backends.markup import NOTHING, Xml, placed
 from linkforge_compile.core.models.geometry import Box, Geometry, Mesh, Sphere, Transform, Vector3
-from linkforge_compile.core.models.link import Collision, Inertial, Link, LinkPhysics, Visual
+from linkforge_compile.core.models.link import USUAL_PHYSICS, Collision, Inertial, Link, Visual
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.shape_order import COLLISION, VISUAL
 from linkforge_compile.units import number_text
-
-DEFAULT_PHYSICS = LinkPhysics()
-"""What a simulator does with a link that says nothing."""
 
 
 class MaterialView(NamedTuple):
@@ -149,6 +146,12 @@ def _material_of(visual: Visual, materials: Mapping[str, Material]) -> MaterialV
     material = visual.material
     if material is None:
         return None
-    if materials.get(material.name) == material:
+    known = materials.get(material.name)
+    if known is material or known == material:
         return MaterialView(attributes_at(visual.source, "material", name=material.name))
     return material_view(material)
+
+
+def says_physics(link: Link) -> bool:
+    """Whether there is anything to tell a simulator of a link."""
+    return link.physics is not USUAL_PHYSICS and link.physics != USUAL_PHYSICS

@@ -115,10 +115,11 @@ class LinkPhysics(Part):
 
     def is_written(self, name: str) -> bool:
         """Whether a field becomes a tag: it differs from its default, or is stated all the same."""
-        return name in self.stated or getattr(self, name) != getattr(_USUAL_PHYSICS, name)
+        return name in self.stated or getattr(self, name) != getattr(USUAL_PHYSICS, name)
 
 
-_USUAL_PHYSICS = LinkPhysics()
+USUAL_PHYSICS = LinkPhysics()
+"""What a simulator does with a link that says nothing, which is nearly every link."""
 
 PHYSICS_TAGS = {
     "self_collide": "selfCollide",
@@ -171,7 +172,7 @@ class Link(Renamable):
 
     name: str
     inertial: Inertial | None = None
-    physics: LinkPhysics = _USUAL_PHYSICS
+    physics: LinkPhysics = USUAL_PHYSICS
     visuals: Sequence[Visual] = ()
     collisions: Sequence[Collision] = ()
     shape_order: Sequence[str] = field(default=(), compare=False, repr=False, kw_only=True)
@@ -183,7 +184,7 @@ class Link(Renamable):
         self,
         name: str,
         inertial: Inertial | None = None,
-        physics: LinkPhysics = _USUAL_PHYSICS,
+        physics: LinkPhysics = USUAL_PHYSICS,
         visuals: Sequence[Visual] = (),
         collisions: Sequence[Collision] = (),
         *,
