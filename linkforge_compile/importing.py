@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.backends import render_srdf, render_urdf
-from linkforge_compile.bounds import Budget
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.collector import resting
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
@@ -148,9 +148,7 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     from linkforge_compile.backends.limits import check_written_twice
     from linkforge_compile.backends.parts import doubtful_parts_of_urdf
     from linkforge_compile.backends.relative_paths import lost_on_the_way
-    from linkforge_compile.importers.losses import unread
     from linkforge_compile.importers.srdf import with_srdf
-    from linkforge_compile.syntax.writer import write
 
     loader = settings.loader(urdf.path)
     arguments = settings.arguments(loader, sink)
@@ -163,6 +161,8 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     if found is None or (srdf and semantic is None):
         return None
     file, robot = found
+    # Before it is judged: of what is too large for a spec no more is to be known.
+    text = None if semantic else _spec_text(robot, sink)
     judge = _judge_of(SpecFile(file, robot.tree, urdf.path.parent), loader)
     both = with_srdf(robot, semantic.text, judge, sink, semantic.moved) if semantic else (robot, judge(robot.tree))
     if both is None:
@@ -177,8 +177,23 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
             sink.report_all(lost_on_the_way(compiled.robot, settings.output, MESH_BESIDE_THE_URDF))
     if sink.places_of(_WRONG_ARGUMENTS):
         return None
-    text = write(whole.tree, *whole.comments)
-    sink.report_all(unread(whole.tree, read(SourceFile("<spec>", text), Diagnostics(), Budget())))
+    return _spec_text(whole, sink) if text is None else text
+
+
+def _spec_text(imported: Imported, sink: Diagnostics) -> str:
+    """Return the text of a spec; report what that does not say, and raise BeyondLimitError where none can be so large.
+
+    What is too large is told at the robot, for nobody sees the text.
+    """
+    from linkforge_compile.importers.losses import unread
+    from linkforge_compile.syntax.writer import write
+
+    text, budget = write(imported.tree, *imported.comments), Budget()
+    try:
+        again = read(SourceFile("<spec>", text), Diagnostics(), budget)
+    except BeyondLimitError:
+        raise budget.beyond(Limit.VALUES, imported.tree.span) from None
+    sink.report_all(unread(imported.tree, again))
     return text
 
 

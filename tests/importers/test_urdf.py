@@ -8,6 +8,7 @@ from textwrap import dedent
 import pytest
 
 from linkforge_compile import Import, compile_text, import_urdf, render_urdf
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.core.physics import rotation_matrix
 
 
@@ -638,3 +639,16 @@ def test_a_file_that_holds_just_what_it_may_is_compared_with_more_than_that(monk
     assert imported.diagnostics == ()
     assert imported.text
     assert imported.text.count("<a:b") == 10
+
+
+def test_a_robot_that_no_spec_may_hold_is_told_at_its_place(monkeypatch: pytest.MonkeyPatch):
+    class Spent(Budget):
+        def __init__(self) -> None:
+            super().__init__()
+            self.spend(Limit.VALUES, Limit.VALUES.most - 10, None)
+
+    monkeypatch.setattr("linkforge_compile.importing.Budget", Spent)
+    links = "".join(f"<link name='l{i}'/>" for i in range(20))
+    imported = import_urdf("r.urdf", text=f"<!-- r -->\n<robot name='r'>{links}</robot>")
+    [told] = imported.diagnostics
+    assert (imported.text, told.code.id, str(told.span)) == (None, "LF3301", "r.urdf:2:1")
