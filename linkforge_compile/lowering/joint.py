@@ -176,10 +176,9 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
     if parent == child:
         fields.tell(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
         return None
-
     # A name may be empty, and an axis too long to be made a unit vector.
     make = _made_joint if parent and child and axis_as_written is None else Joint
-    joint = fields.build(
+    return fields.build(
         lambda: make(
             name,
             joint_type,
@@ -193,10 +192,9 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
             safety,
             calibration,
             axis_as_written=axis_as_written,
-            source=fields.ref,
+            **besides(fields),
         )
     )
-    return joint and with_extras(joint, fields)
 
 
 def _joint_of_no_type(fields: Fields, name: str | None, ends: Ends) -> Joint | None:
