@@ -22,6 +22,9 @@ MAX_REPORTED = 10_000
 """How many errors are looked at, those among them that are counted only, or were told already: then one that is no
 news ends the compile."""
 
+MAX_WARNED = 50_000
+"""How many warnings and notes are looked at; a robot of ten thousand links may have one or two for each."""
+
 _Place: TypeAlias = tuple[str, Span]
 
 
@@ -35,7 +38,7 @@ class BeyondLimitError(Exception):
 
 def too_many_errors(where: Span | None, *notes: Note) -> BeyondLimitError:
     """Return what to raise at the error that is one too many."""
-    return BeyondLimitError(TOO_MANY_ERRORS.at(where, notes=notes))
+    return BeyondLimitError(TOO_MANY_ERRORS.at(where, notes=notes, what="errors"))
 
 
 class Diagnostics:
@@ -49,6 +52,7 @@ class Diagnostics:
         self._reported: dict[tuple[str, Span | None, str], Diagnostic] = {}
         self._errors = 0
         self._errors_reported = 0
+        self._others_reported = 0
         # By their hashes, as a message may be long, and only their number is told.
         self._seen: set[int] = set()
         self._at: defaultdict[_Place, set[int]] = defaultdict(set)
@@ -59,6 +63,9 @@ class Diagnostics:
         """Keep a diagnostic, or count it where enough were told; raise BeyondLimitError where there is no end."""
         is_error = diagnostic.severity is Severity.ERROR
         self._errors_reported += is_error
+        self._others_reported += not is_error
+        if self._others_reported > MAX_WARNED:
+            raise BeyondLimitError(TOO_MANY_ERRORS.at(diagnostic.span, what="warnings and notes"))
         is_told = self._is_to_be_told(diagnostic)
         if is_error and is_told and self._errors >= MAX_TOLD:
             raise too_many_errors(diagnostic.span)

@@ -76,6 +76,15 @@ def test_behind_very_many_errors_of_one_place_what_is_new_is_told_and_one_more_o
     assert (errors[-1].code, errors[-1].span) == (TOO_MANY_ERRORS, at(2))
 
 
+def test_behind_very_many_warnings_the_compile_ends(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(flood, "MAX_WARNED", 50)
+    sink = Diagnostics()
+    sink.report_all(WARNING.at(at(1), name=number) for number in range(50))
+    sink.report(ERROR.at(at(2), name="x"))
+    with pytest.raises(BeyondLimitError, match="behind so many warnings and notes"):
+        sink.report(WARNING.at(at(1), name=0))
+
+
 def test_warnings_beyond_a_thousand_are_counted_and_end_nothing():
     sink = Diagnostics()
     sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_TOLD + 5))

@@ -9,7 +9,7 @@ BEYOND_LIMIT = Code(
     "as much)",
 )
 TOO_MANY_ERRORS = Code(
-    "LF3302", Severity.ERROR, "nothing is read behind so many errors; mend some of them first", is_last=True
+    "LF3302", Severity.ERROR, "nothing is read behind so many {what}; mend some of them first", is_last=True
 )
 MORE_WARNINGS = Code("LF3303", Severity.WARNING, "{count} more warnings and notes are not told")
 
