@@ -16,7 +16,7 @@ import yaml
 from linkforge_compile.bounds import MAX_FILE_BYTES, Limit
 from linkforge_compile.core.meshes.read import MAX_TRIANGLES
 from linkforge_compile.diagnostics.render.text import MOST_SHOWN
-from linkforge_compile.diagnostics.sink import MAX_TOLD
+from linkforge_compile.diagnostics.sink import MAX_REPORTED, MAX_TOLD, MAX_WARNED
 from linkforge_compile.expressions import grammar, operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.lowering import mesh_solids
@@ -244,7 +244,8 @@ def _bounds() -> str:
         "triangles of such a mesh": MAX_TRIANGLES,
     }
     shared = {limit.counted.replace("'for'", "`for`"): limit.most for limit in Limit}
-    told = {"errors that are told, and warnings": MAX_TOLD, "diagnostics that the command shows as text": MOST_SHOWN}
+    told = {"errors that are told, and warnings": MAX_TOLD, "errors that are found": MAX_REPORTED}
+    told |= {"warnings and notes that are found": MAX_WARNED, "diagnostics that the command shows as text": MOST_SHOWN}
     bounds = {**shared, **bounds, **told}
     rows = [[what, f"{most:,}" if isinstance(most, int) else most] for what, most in bounds.items()]
     return _table(("what", "at most"), rows)

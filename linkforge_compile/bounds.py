@@ -48,6 +48,11 @@ class Limit(Enum):
         30_000,
         "repeat less, nest modules less deeply, or compile parts of it apart",
     )
+    PAIRS = _Limit(
+        "pairs of links whose collisions are disabled or enabled, counted as entries are",
+        100_000,
+        "list whole links in 'no_default_collision_links', or compile parts of it apart",
+    )
     ROUNDS = _Limit("rounds of 'for'", 50_000, "repeat less, or compile parts of it apart")
     CHARACTERS_MADE = _Limit(
         "characters that expressions, 'for' and modules write", 16_000_000, "make shorter texts, or fewer of them"

@@ -123,6 +123,11 @@ SPECS: dict[str, tuple[str, str | bytes]] = {
         + "joints:\n"
         + "".join(f"  j{i}: {{type: fixed, parent: {'ab' * 40}x{i}, child: {'ab' * 40}y{i}}}\n" for i in range(40)),
     ),
+    "collision pairs without end": (
+        "LF3301",
+        f"{HEAD}semantic:\n  disabled_collisions:\n"
+        + "".join(f"    l{i}: {{{', '.join(f'l{k}: Never' for k in range(i))}}}\n" for i in range(1, 500)),
+    ),
     "one line of 15 MB": ("LF2201", "linkforge: 1\nname: r\nlinks: " + "x" * 15_000_000),
     "no UTF-8": ("LF3002", b"linkforge: 1\nname: \xff\xfe\n"),
     "UTF-16": ("LF3002", HEAD.encode("utf-16")),

@@ -18,6 +18,8 @@ from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
 COMPUTING = frozenset({"parameters", "variables", "data", "variants", "packages", "modules", "defaults"})
 """The sections that describe no robot, but help to make one."""
 
+_PAIRS = ("disabled_collisions", "enabled_collisions")
+
 
 class NameReference(NamedTuple):
     """A name in `$(link('x'))` or `$(joint('x'))`, as the file calls what it names, and where it is written."""
@@ -101,3 +103,11 @@ def count_entries(tree: YamlMap, uses: int, budget: Budget, use: Span | None = N
     """
     entries = sum(len(entry.value) for entry in tree if isinstance(entry.value, YamlMap | YamlList))
     budget.spend(Limit.ENTRIES, (entries + 2) * uses, use or tree.span)
+    budget.spend(Limit.PAIRS, _collision_pairs(tree) * uses, use or tree.span)
+
+
+def _collision_pairs(tree: YamlMap) -> int:
+    semantic = tree.get("semantic")
+    sections = [semantic.get(name) for name in _PAIRS] if isinstance(semantic, YamlMap) else []
+    others = [entry.value for section in sections if isinstance(section, YamlMap) for entry in section]
+    return sum(len(each) for each in others if isinstance(each, YamlMap))
