@@ -14,6 +14,9 @@ from linkforge_compile.source import Change, SourceRef, Span
 Where: TypeAlias = Span | SourceRef | None
 """A place: a span of text, an object's reference, or None for a value that was never written (built in Python)."""
 
+_LONGEST = 2_000
+"""Characters of a message."""
+
 
 class Severity(StrEnum):
     """An error makes the output invalid or other than what was written; a warning and a note let it through."""
@@ -120,7 +123,7 @@ class Code:
         changed = notes_of_changes(where.changes(*path), span) if isinstance(where, SourceRef) else ()
         span, moved = self._blamed(span) if span else (None, ())
         sentence = self.in_xml if self.in_xml and span and span.file.is_xml else self.message
-        message = on_one_line(sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near))
+        message = on_one_line(_shortened(sentence.format(**facts)) + did_you_mean(str(facts.get("name", "")), near))
         includes = [Note("included here", include) for include in (span.file.includes if span else ())]
         uses = [Note("used here", use) for use in trail]
         return Diagnostic(self, message, span, (*notes, *moved, *changed, *includes, *uses))
@@ -143,6 +146,11 @@ def notes_of_changes(changes: Iterable[Change], told: Span | None) -> tuple[Note
     if told is not None and any(told.lies_in(change.span) for change in known):
         return ()
     return tuple(Note(f"'{change.key}' is changed by this override", change.span) for change in known)
+
+
+def _shortened(text: str) -> str:
+    """Return a message with its middle left out where it quotes more than anybody reads: a name may have megabytes."""
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]}…{text[-_LONGEST // 2 :]}"
 
 
 def on_one_line(text: str) -> str:

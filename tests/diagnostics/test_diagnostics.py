@@ -80,6 +80,12 @@ def test_a_name_is_not_offered_for_itself():
     assert did_you_mean("base", ["base"]) == ""
 
 
+def test_a_message_does_not_quote_megabytes():
+    message = UNKNOWN.at(None, name="a" * 1_000_000).message
+    assert len(message) == 2_001
+    assert (message[:16], message[-3:]) == ("no link named 'a", "aa'")
+
+
 def test_a_fault_in_a_module_tells_where_the_module_is_used():
     told = UNKNOWN.at(SourceRef(YamlScalar("hnad", "hnad", CHILD), trail=(USE,)), name="hnad")
     assert told.span == CHILD
