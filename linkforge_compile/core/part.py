@@ -18,9 +18,6 @@ class Part(Sourced):
     PREFIXED: ClassVar[tuple[str, ...]] = ()
     """The fields that hold names which a prefix goes before: of the part, of others it refers to, of parts in it."""
 
-    SHARED: ClassVar[bool] = False
-    """Whether many parts of a robot hold the very same one, whose copy they share as well."""
-
     def __init_subclass__(cls) -> None:
         # For its slots, dataclass makes a class twice, and knows its fields the second time. It puts inherited ones
         # first; `astuple` and `fields` shall give those of the class itself first, and then what every part has.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any, TypeAlias, TypeVar
 
@@ -13,10 +13,12 @@ from linkforge_compile.unjudged import opened
 
 P = TypeVar("P")
 
-Copies: TypeAlias = dict[type, tuple[Any, Any]]
-"""Of each class whose parts are SHARED the last part that was copied under one prefix, and its copy."""
+Copies: TypeAlias = dict[int, Any]
+"""The copies, under one prefix, of parts that other parts have in a field of their own, by the `id` of each: links of
+one material share its copy as well. Nobody lets go of the parts meanwhile."""
 
-_Copier = Callable[[Any, str, Copies], Any]  # Any: it takes a part of one class and returns another of that class
+_Copier = Callable[[Sequence[Any], str, Copies], list[Any]]
+"""Copies parts, of which the first is of its class and nearly always all are. Any: parts of one class, and theirs."""
 
 
 def prefixed_copy(part: P, prefix: str) -> P:
@@ -26,52 +28,24 @@ def prefixed_copy(part: P, prefix: str) -> P:
     one goes through the constructor, which says what is wrong with it. So does a part of somebody else's class, which
     may check or compute more than ours.
     """
-    copier = _COPIERS.get(part.__class__) or _copier_of(part.__class__)
-    copy: P = copier(part, prefix, {}) if is_harmless(prefix) else _constructed_copy(part, prefix, {})
+    copier = _COPIERS.get(type(part)) or _copier_of(type(part))
+    copy: P = copier((part,), prefix, {})[0] if is_harmless(prefix) else _constructed_copy(part, prefix)
     return copy
 
 
-def prefixed_copies(parts: Iterable[P], prefix: str, shared: Copies | None = None) -> list[P]:
+def prefixed_copies(parts: Sequence[P], prefix: str, shared: Copies | None = None) -> list[P]:
     """Return parts as `with_prefix` of each gives them, asked only where its class has a way of its own.
 
     `shared` begins empty, and is handed to every call whose copies share parts under this prefix; None for this alone.
     """
-    shared = {} if shared is None else shared
     if not is_harmless(prefix):
-        return [_ask(part, prefix) for part in parts]
-    return harmless_copies(parts, prefix, shared)
+        return _asked(parts, prefix)
+    return harmless_copies(parts, prefix, {} if shared is None else shared)
 
 
-def harmless_copies(parts: Iterable[P], prefix: str, shared: Copies) -> list[P]:
+def harmless_copies(parts: Sequence[P], prefix: str, shared: Copies) -> list[P]:
     """Return what `prefixed_copies` does for a prefix that is harmless."""
-    copies = []
-    for part in parts:  # mostly one, for which a comprehension, a function call more, is slow
-        copies.append(_DIRECT.get(part.__class__, _ask_or_learn)(part, prefix, shared))
-    return copies
-
-
-def _copier_of(kind: type[Any]) -> _Copier:
-    copier = _written_copier(kind) if kind.__module__.startswith(_OURS) else _constructed_copy
-    if kind.SHARED:
-        copier = _keeping_the_last(kind, copier)
-    _COPIERS[kind] = copier
-    if not _has_own_way(kind):
-        _DIRECT[kind] = copier
-    return copier
-
-
-def _keeping_the_last(kind: type, copier: _Copier) -> _Copier:
-    def copy(part: Any, prefix: str, shared: Copies) -> Any:
-        copied, made = shared.get(kind, _NOTHING)
-        if copied is not part:
-            made = copier(part, prefix, shared)
-            shared[kind] = part, made
-        return made
-
-    return copy
-
-
-_NOTHING = None, None
+    return _DIRECT.get(type(parts[0]), _asked_or_learned)(parts, prefix, shared) if parts else []
 
 
 @lru_cache
@@ -86,13 +60,21 @@ _DIRECT: dict[type, _Copier] = {}
 """The copiers of classes that have no `with_prefix` of their own: what holds such parts need not ask them for it."""
 
 
-def _ask(part: Any, prefix: str) -> Any:
-    return part.with_prefix(prefix)
+def _copier_of(kind: type[Any]) -> _Copier:
+    copier = _written_copier(kind) if kind.__module__.startswith(_OURS) else _constructing_copier(kind)
+    _COPIERS[kind] = copier
+    if not _has_own_way(kind):
+        _DIRECT[kind] = copier
+    return copier
 
 
-def _ask_or_learn(part: Any, prefix: str, shared: Copies) -> Any:
-    kind = part.__class__
-    return _ask(part, prefix) if _has_own_way(kind) else _copier_of(kind)(part, prefix, shared)
+def _asked(parts: Sequence[Any], prefix: str, shared: Copies | None = None) -> list[Any]:
+    return [part.with_prefix(prefix) for part in parts]
+
+
+def _asked_or_learned(parts: Sequence[Any], prefix: str, shared: Copies) -> list[Any]:
+    kind = type(parts[0])
+    return (_asked if _has_own_way(kind) else _copier_of(kind))(parts, prefix, shared)
 
 
 def _has_own_way(kind: type[Any]) -> bool:
@@ -101,7 +83,22 @@ def _has_own_way(kind: type[Any]) -> bool:
     return kind.with_prefix is not Part.with_prefix
 
 
-def _constructed_copy(part: Any, prefix: str, shared: Copies) -> Any:
+def _copy_in_field(part: Any, prefix: str, shared: Copies) -> Any:
+    copy = shared[id(part)] = harmless_copies((part,), prefix, shared)[0]
+    return copy
+
+
+def _constructing_copier(kind: type[Any]) -> _Copier:
+    def copies(parts: Sequence[Any], prefix: str, shared: Copies) -> list[Any]:
+        return [
+            _constructed_copy(part, prefix) if type(part) is kind else harmless_copies((part,), prefix, shared)[0]
+            for part in parts
+        ]
+
+    return copies
+
+
+def _constructed_copy(part: Any, prefix: str) -> Any:
     return replace(part, **{name: _under_prefix(getattr(part, name), prefix) for name in part.PREFIXED})
 
 
@@ -119,23 +116,33 @@ def _under_prefix(value: Any, prefix: str) -> Any:
 
 
 def _written_copier(kind: type[Any]) -> _Copier:
-    """Return a function that copies slot by slot, written out as dataclass does for `__init__`: a loop is slower."""
+    """Return a function that copies slot by slot, written out as dataclass does for `__init__`: a loop is slower.
+
+    So is a call for each part, of which a module has some sixty: the function takes all that stand side by side.
+    """
     any_name = " or ".join(f"part.{name}" for name in kind.PREFIXED)
     lines = [
-        "def copy(part, prefix, shared):",
-        f"    if not ({any_name}):",
-        "        return part",
-        "    copy = opened()",
+        "def copies(parts, prefix, shared):",
+        "    made = []",
+        "    for part in parts:",
+        "        if type(part) is not kind:",
+        "            copy = harmless((part,), prefix, shared)[0]",
+        f"        elif not ({any_name}):",
+        "            copy = part",
+        "        else:",
+        "            copy = opened()",
     ]
-    scope: dict[str, Any] = {"kind": kind, "opened": opened(kind), "FrozenMap": FrozenMap}
-    scope |= {"direct": _DIRECT.get, "ask": _ask_or_learn, "copies": harmless_copies}
     for field in fields(kind):
         if field.name in kind.PREFIXED:
-            lines += [f"    value = part.{field.name}", f"    copy.{field.name} = {_prefixed(str(field.type))}"]
+            lines.append(f"            value = part.{field.name}")
+            lines.append(f"            copy.{field.name} = {_prefixed(str(field.type))}")
         else:
-            lines.append(f"    copy.{field.name} = part.{field.name}")
-    exec("\n".join([*lines, "    copy.__class__ = kind", "    return copy"]), scope)
-    copier: _Copier = scope["copy"]
+            lines.append(f"            copy.{field.name} = part.{field.name}")
+    lines += ["            copy.__class__ = kind", "        made.append(copy)", "    return made"]
+    scope: dict[str, Any] = {"kind": kind, "opened": opened(kind), "FrozenMap": FrozenMap, "direct": _DIRECT.get}
+    scope |= {"ask": _asked_or_learned, "harmless": harmless_copies, "copy_in_field": _copy_in_field}
+    exec("\n".join(lines), scope)
+    copier: _Copier = scope["copies"]
     return copier
 
 
@@ -146,7 +153,7 @@ def _prefixed(kind: str) -> str:
     if kind == "Sequence[str]":
         return "value and tuple([name and prefix + name for name in value])"
     if kind.startswith("Sequence["):
-        return "value and tuple(copies(value, prefix, shared))"
+        return "value and tuple(direct(type(value[0]), ask)(value, prefix, shared))"
     if kind.startswith("Mapping[str"):
         return "FrozenMap({prefix + name: each for name, each in value.items()})"
-    return "value and direct(value.__class__, ask)(value, prefix, shared)"
+    return "value and (shared.get(id(value)) or copy_in_field(value, prefix, shared))"

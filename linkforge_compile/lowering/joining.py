@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotModelError
-from linkforge_compile.core.models.graph import refuse_cycles
+from linkforge_compile.core.models.graph import tree_root
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Note, Removed
 from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
@@ -231,8 +231,7 @@ def _semantic_parts(semantic: SemanticRobotDescription) -> Iterator[tuple[PartKe
 def _root_of(robot: Robot) -> str | None:
     """Return the root link of a robot that is one tree, None where it is none."""
     try:
-        root = robot.root_link
-        refuse_cycles(robot.joints)
+        root = tree_root(robot.links.listed(), robot.joints.listed())
     except RobotModelError:
         return None
-    return root.name if len(robot.joints) == len(robot.links) - 1 else None
+    return root if len(robot.joints) == len(robot.links) - 1 else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
@@ -34,6 +34,43 @@ def _loose(end: str, link: str) -> RobotValidationError:
     )
 
 
+def tree_root(links: Sequence[Link], joints: Sequence[Joint]) -> str:
+    """Return the name of the one link that is no joint's child, in a graph without cycles.
+
+    Raises:
+        RobotValidationError: NOT_FOUND for a joint without its links, NO_ROOT, MULTIPLE_ROOTS, HAS_CYCLE.
+
+    """
+    root = _root_written_first(links, joints)
+    if root is None:
+        root = single_root(links, joints).name
+        refuse_cycles(joints)
+    return root
+
+
+def refuse_no_graph(links: Sequence[Link], joints: Sequence[Joint]) -> None:
+    """Raise NOT_FOUND for a joint without its links, HAS_CYCLE if some link is its own ancestor."""
+    if _root_written_first(links, joints) is None:
+        refuse_loose_joints({link.name for link in links}, joints)
+        refuse_cycles(joints)
+
+
+def _root_written_first(links: Sequence[Link], joints: Sequence[Joint]) -> str | None:
+    """Return the root of a tree whose joints come parents first, as people write them; None for any other graph.
+
+    Merging asks this of every component: one look at each joint tells all of what else takes four.
+    """
+    if not links:
+        return None
+    root = joints[0].parent if joints else links[0].name
+    reached = {root}
+    for joint in joints:
+        if joint.parent not in reached or joint.child in reached:
+            return None
+        reached.add(joint.child)
+    return root if reached == {link.name for link in links} else None
+
+
 def single_root(links: Iterable[Link], joints: Collection[Joint]) -> Link:
     """Return the one link that is no joint's child.
 
@@ -61,10 +98,8 @@ def single_root(links: Iterable[Link], joints: Collection[Joint]) -> Link:
 def refuse_cycles(joints: Collection[Joint]) -> None:
     """Raise HAS_CYCLE if some link is its own ancestor.
 
-    Merging asks this of every component, so it does without networkx, whose import costs more than the merge.
+    Merging asks this of some components, so it does without networkx, whose import costs more than the merge.
     """
-    if _lead_down(joints):
-        return
     children: dict[str, list[str]] = defaultdict(list)
     ways_in: dict[str, int] = defaultdict(int)
     for joint in joints:
@@ -78,12 +113,6 @@ def refuse_cycles(joints: Collection[Joint]) -> None:
                 reached.append(child)
     if any(ways_in.values()):
         raise _cyclic()
-
-
-def _lead_down(joints: Collection[Joint]) -> bool:
-    """Whether no joint comes before one that leads to its parent, as people write them: then there is no cycle."""
-    last_way_in = {joint.child: place for place, joint in enumerate(joints)}
-    return all(last_way_in.get(joint.parent, -1) < place for place, joint in enumerate(joints))
 
 
 def _cyclic() -> RobotValidationError:

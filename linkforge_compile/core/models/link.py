@@ -288,7 +288,7 @@ def _set_fields(link: Link, **values: object) -> None:
 def prefixed_links(links: Iterable[Link], prefix: str) -> list[Link]:
     """Return links as `with_prefix` of each gives them; what they share stays shared among those that have ours."""
     links = tuple(links)
-    if not is_harmless(prefix):
+    if prefix and not is_harmless(prefix):
         return [link.with_prefix(prefix) for link in links]
     ours = [link for link in links if type(link).with_prefix is Link.with_prefix]
     copies = _harmless_copies_of_links(ours, prefix)
@@ -304,10 +304,9 @@ def _harmless_copies_of_links(links: Sequence[Link], prefix: str) -> list[Link]:
         for name in names:
             require_valid_characters(name, "link name", "LinkName")
     shared: Copies = {}
+    copied = harmless_copies if prefix else prefixed_copies  # which asks each shape, and that answers with itself
     return [
-        link._copy(
-            name, harmless_copies(link.visuals, prefix, shared), harmless_copies(link.collisions, prefix, shared)
-        )
+        link._copy(name, copied(link.visuals, prefix, shared), copied(link.collisions, prefix, shared))
         for name, link in zip(names, links, strict=True)
     ]
 

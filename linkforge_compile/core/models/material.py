@@ -71,7 +71,6 @@ class Material(Element):
     """
 
     PREFIXED = ("name",)
-    SHARED = True
 
     name: str
     color: Color | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
@@ -49,16 +49,22 @@ class PrefixedParts(NamedTuple):
         return cls(
             materials={prefix + name: material.with_prefix(prefix) for name, material in robot.materials.items()},
             # Links may be changed in place: two robots never share one, and `with_prefix` makes a new one always.
-            links=prefixed_links(robot.links, prefix),
-            joints=prefixed_copies(robot.joints, prefix),
-            sensors=prefixed_copies(robot.sensors, prefix),
-            transmissions=prefixed_copies(robot.transmissions, prefix),
-            ros2_controls=prefixed_copies(robot.ros2_controls, prefix),
-            gazebo_elements=prefixed_copies(robot.gazebo_elements, prefix),
+            links=prefixed_links(robot.links.listed(), prefix),
+            joints=prefixed_copies(robot.joints.listed(), prefix),
+            sensors=prefixed_copies(robot.sensors.listed(), prefix),
+            transmissions=prefixed_copies(robot.transmissions.listed(), prefix),
+            ros2_controls=prefixed_copies(robot.ros2_controls.listed(), prefix),
+            gazebo_elements=prefixed_copies(robot.gazebo_elements.listed(), prefix),
             semantic=robot.semantic.with_prefix(prefix) if robot.says_semantic else None,
-            extra_elements=robot.extra_elements,
+            extra_elements=robot.extra_elements.listed(),
             extra_attributes=attribute_pairs(robot.extra_attributes),
         )
+
+    def others(self) -> Iterator[tuple[str, Sequence[object]]]:
+        """Yield the parts beside links, joints and materials, by the field of each kind that there is."""
+        for kind in ("sensors", "transmissions", "ros2_controls", "gazebo_elements", "extra_elements"):
+            if parts := getattr(self, kind):
+                yield kind, parts
 
     def materials_beside(self, own: Mapping[str, Material]) -> dict[str, Material]:
         """Return those of the materials that are new to a robot with its own, and those of its own that move.

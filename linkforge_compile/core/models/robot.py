@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.collector import resting
 from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.geometry import IDENTITY
-from linkforge_compile.core.models.graph import refuse_cycles, refuse_loose_joints, single_root
+from linkforge_compile.core.models.graph import refuse_no_graph, tree_root
 from linkforge_compile.core.models.index import NAME, Index
 from linkforge_compile.core.models.inventory import require_robot_name
 from linkforge_compile.core.models.joint import Joint, JointType
@@ -150,12 +150,12 @@ class Robot(SemanticRobot):
         links = self.links.extended(parts.links)  # of two links of one name, nobody could say which one a joint means
         joints = parts.joints
         if at_link is None:
-            refuse_loose_joints({link.name for link in parts.links}, parts.joints)
+            refuse_no_graph(parts.links, parts.joints)
         else:
-            root = single_root(parts.links, parts.joints).name
+            # The connecting joint comes from a link that is none of theirs, so it makes no cycle.
+            root = tree_root(parts.links, parts.joints)
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
             joints = (*joints, _with_rest_of(joint, connecting) if joint else connecting)
-        refuse_cycles(parts.joints)  # the connecting one comes from a link that is none of theirs
         self._take_in(parts, links, joints)
         return self
 
@@ -163,11 +163,7 @@ class Robot(SemanticRobot):
         materials = parts.materials_beside(self.materials)
         add_materials = self.materials.update
         longer_joints = self.joints.extended(joints)
-        sensors = self.sensors.extended(parts.sensors)
-        transmissions = self.transmissions.extended(parts.transmissions)
-        ros2_controls = self.ros2_controls.extended(parts.ros2_controls)
-        gazebo_elements = self.gazebo_elements.extended(parts.gazebo_elements)
-        extra_elements = self.extra_elements.extended(parts.extra_elements)
+        others = {kind: getattr(self, kind).extended(added) for kind, added in parts.others()}
         own = dict(self.extra_attributes)
         extra_attributes = (*own.items(), *(said for said in parts.extra_attributes if said[0] not in own))
         semantic = self._semantic.joined(parts.semantic) if parts.semantic else self._semantic
@@ -175,8 +171,8 @@ class Robot(SemanticRobot):
         self.links = links
         self.joints = longer_joints
         add_materials(materials)
-        self.sensors, self.transmissions, self.ros2_controls = sensors, transmissions, ros2_controls
-        self.gazebo_elements, self.extra_elements = gazebo_elements, extra_elements
+        for kind, longer in others.items():
+            setattr(self, kind, longer)
         self.extra_attributes = extra_attributes
         self._semantic = semantic
 
