@@ -85,6 +85,8 @@ def names_in(expression: Expression) -> Expression:
 
 
 def _operands(node: ast.expr) -> Iterable[ast.expr]:
+    if isinstance(node, ast.Constant | ast.Name):
+        return ()  # as nearly all, of which Python would look at each field
     if isinstance(node, ast.Call):
         return node.args
     return (child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr))
@@ -135,22 +137,23 @@ def _operator_fault(operator: ast.AST, left: ast.expr, right: ast.expr, expressi
 
 
 def _constant_fault(node: ast.Constant, value: object, expression: Expression) -> Diagnostic | None:
-    span = expression.span(node)
     match value:
         case bool() | None:
             instead = f"it is written '{_PYTHON_CONSTANTS[value]}'"
-            return codes.NOT_IN_EXPRESSIONS.at(span, what=f"'{value}'", instead=instead)
+            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=f"'{value}'", instead=instead)
         case str() if forbidden := FORBIDDEN_CHARACTER.search(value):
             what = f"the character {code_point(forbidden[0])}"
-            return codes.NOT_IN_EXPRESSIONS.at(span, what=what, instead="no file can hold it")
+            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=what, instead="no file can hold it")
         case int() if value.bit_length() > MAX_INTEGER_BITS:
-            return codes.RESULT_TOO_LARGE.at(span, taker="this number")
+            return codes.RESULT_TOO_LARGE.at(expression.span(node), taker="this number")
         case float() if not math.isfinite(value):
-            return codes.RESULT_TOO_LARGE.at(span, taker="this number")
+            return codes.RESULT_TOO_LARGE.at(expression.span(node), taker="this number")
         case str() | int() | float():
             return None
     return codes.NOT_IN_EXPRESSIONS.at(
-        span, what=f"'{expression.written(node)}'", instead="values are numbers, text, true, false and null"
+        expression.span(node),
+        what=f"'{expression.written(node)}'",
+        instead="values are numbers, text, true, false and null",
     )
 
 

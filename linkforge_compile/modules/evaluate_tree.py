@@ -40,6 +40,10 @@ MAX_COMPUTED_DEPTH = 100
 """How deep the lists and maps of one value may lie in one another: every later stage walks them by recursion."""
 
 
+_STEPS_TO_PARSE = 50
+"""A text with expressions takes as long to be parsed as so many steps of one to be computed."""
+
+
 class Expressions(Changing):
     """What all uses of all files of one compile share: each expression parsed once, and what they take counted."""
 
@@ -54,7 +58,9 @@ class Expressions(Changing):
     def template(self, scalar: YamlScalar, sink: Diagnostics) -> Template | None:
         """Return a scalar's text with its expressions parsed; None where they cannot be, which is reported once."""
         if scalar not in self._templates:
-            self._templates[scalar] = parse_template(scalar.text, scalar.span, sink)
+            span = scalar.span
+            self.budget.spend(Limit.STEPS, _STEPS_TO_PARSE, span)
+            self._templates[scalar] = parse_template(scalar.text, span, sink)
         return self._templates[scalar]
 
     def alone(self, expression: str, where: Span) -> YamlScalar:

@@ -3,8 +3,11 @@
 import pytest
 
 from linkforge_compile import compile_text
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.modules import Loader, Unset, arguments_from_text, expand
+from linkforge_compile.modules.evaluate_tree import Expressions
+from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlFault, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
 from tests.modules.assembling import assemble
@@ -197,3 +200,13 @@ links: {base: {visual: {box: [1, 1, $(side)]}}}
 """)
     (fault,) = compilation.diagnostics
     assert [note.message for note in fault.notes] == ["the value is written here"]
+
+
+def test_expressions_are_parsed_once_each_and_counted():
+    expressions = Expressions(Budget())
+    scalars = [YamlScalar(text, text, SourceFile("r", text).whole) for text in ("$(1 + 1)", "$(1 + 2)")]
+    left = [expressions.budget.left(Limit.STEPS)]
+    for scalar in (scalars[0], scalars[0], scalars[1]):
+        assert expressions.template(scalar, Diagnostics()) is not None
+        left.append(expressions.budget.left(Limit.STEPS))
+    assert left[0] > left[1] == left[2] > left[3]
