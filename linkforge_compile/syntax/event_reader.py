@@ -32,6 +32,7 @@ from linkforge_compile.syntax.nodes import (
     YamlMap,
     YamlNode,
     YamlScalar,
+    new,
 )
 from linkforge_compile.syntax.scalars import is_cut_expression, is_overflow, scalar_value
 
@@ -41,8 +42,6 @@ MAX_READ_TWICE = 250_000
 # PyYAML may have been built without libyaml; its own parser gives the same events, only slower.
 Parser: TypeAlias = type["yaml.BaseLoader | yaml.CBaseLoader"]
 PARSER: Parser = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
-
-_new = tuple.__new__  # the constructor of a named tuple takes twice as long
 
 _Beginning: TypeAlias = ScalarEvent | SequenceStartEvent | MappingStartEvent
 """What a node that is no alias begins with."""
@@ -145,7 +144,7 @@ class _Reader:
         self.last_scalar = event
         begin = event.start_mark
         assert begin is not None, "the parser marks every event"
-        return _new(YamlScalar, (text, meanings[text], self._file, begin.index, None))
+        return new(YamlScalar, (text, meanings[text], self._file, begin.index, None))
 
     def _node(self, event: events.Event | None, depth: int, flow: bool) -> YamlNode:
         """Read the node that begins with `event`; `flow` is whether it stands inside [..] or {..}."""

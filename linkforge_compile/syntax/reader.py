@@ -9,7 +9,7 @@ from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.syntax.entries import STUCK, kind_of
 from linkforge_compile.syntax.nodes import Tags, YamlFault, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.syntax.quick_reader import NotSimpleError, read_quickly
+from linkforge_compile.syntax.quick_reader import read_quickly
 
 
 def read(file: SourceFile, sink: Diagnostics, budget: Budget | None = None) -> YamlMap | None:
@@ -42,14 +42,13 @@ def _root(file: SourceFile, sink: Diagnostics, budget: Budget, tags: Tags | None
         span = file.between(*forbidden.span())
         sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
         return None
-    try:
-        root, size = read_quickly(file, text, budget.left(Limit.VALUES))
-    except NotSimpleError:
+    if (quick := read_quickly(file, text, budget.left(Limit.VALUES))) is None:
         # PyYAML waits for what is not simple: to import it takes a sixth of a short compile.
         from linkforge_compile.syntax.event_reader import read_events
         from linkforge_compile.syntax.marks import Marks
 
         return read_events(Marks(file, text), sink, budget, tags)
+    root, size = quick
     budget.spend(Limit.VALUES, size, file.whole)
     return root
 

@@ -9,7 +9,7 @@ from linkforge_compile.source.characters import FORBIDDEN_CHARACTER
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.event_reader import read_events
 from linkforge_compile.syntax.marks import Marks
-from linkforge_compile.syntax.quick_reader import NotSimpleError, read_quickly
+from linkforge_compile.syntax.quick_reader import read_quickly
 
 
 def agree_on(text: str) -> bool:
@@ -19,13 +19,12 @@ def agree_on(text: str) -> bool:
         return False
     budget, sink = Budget(), Diagnostics()
     most = budget.left(Limit.VALUES)
-    try:
-        quick, size = read_quickly(file, text, most)
-    except NotSimpleError:
+    if (read := read_quickly(file, text, most)) is None:
         return False
     other = read_events(Marks(file, text), sink, budget, None)
     assert not list(sink)
     assert other is not None
+    quick, size = read
     assert said(quick) == said(other)
     assert size == most - budget.left(Limit.VALUES)
     return True
