@@ -402,3 +402,15 @@ def test_many_groups_of_long_chains_are_checked_in_time(tmp_path: Path):
     )
     write(tmp_path, "a.robot.yaml", spec)
     assert run("check", "a.robot.yaml", folder=tmp_path).stderr == "checked 1 spec: no errors\n"
+
+
+def test_a_xacro_is_expanded_where_less_memory_is_allowed_than_its_own_limit(tmp_path: Path):
+    pytest.importorskip("xacro")
+    write(
+        tmp_path,
+        "a.urdf.xacro",
+        '<robot name="r" xmlns:xacro="http://wiki.ros.org/xacro"><link name="a${1+1}"/></robot>',
+    )
+    done = run("compile", "a.urdf.xacro", folder=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert '<link name="a2"/>' in done.stdout
