@@ -64,6 +64,10 @@ class Roots:
         is_installed = ".." not in named.parts and any(named.is_relative_to(prefix) for prefix in self.installed)
         return is_installed or any(real.is_relative_to(prefix) for prefix in _real(self.installed))
 
+    def reasons(self, path: Path) -> tuple[str, str]:
+        """Return why a path may not be read that they do not hold, for notes: how it leads out, and of what."""
+        return self.way_out(path), f"what may be read lies in {self}"
+
     def way_out(self, path: Path) -> str:
         """Return how a path that they do not hold leads out of them, for a message: by a link in them, or to where.
 

@@ -48,7 +48,7 @@ MAY_IMPORT = {
     "launch": "diagnostics backends core modules pipeline stamps",
     "editor": "diagnostics syntax schema modules lowering core roots stack resources",
     "cli": (
-        "banner source diagnostics bounds core checks schema modules pipeline importing backends writers compare "
+        "banner source diagnostics bounds roots core checks schema modules pipeline importing backends writers compare "
         "editor resources stamps _version"
     ),
 }

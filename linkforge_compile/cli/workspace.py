@@ -9,12 +9,15 @@ from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.telling import to_stderr
 
 
-def workspaces_at(here: Path) -> tuple[Path, ...]:
+def workspaces_at(here: Path, packages: Mapping[str, Path]) -> tuple[Path, ...]:
     """Return the folders whose schema is meant in one: that at or above it, else those below it, else itself."""
     from linkforge_compile.editor.robot_folder import SCHEMA, schemas_below, workspace_of
 
     root = workspace_of(here)
-    return (root,) if (root / SCHEMA).is_file() else schemas_below(here, _specs(here)) or (root,)
+    if (root / SCHEMA).is_file():
+        return (root,)
+    # What is left out is told by who reads them.
+    return schemas_below(here, _specs(here, packages, is_told=False)) or (root,)
 
 
 def schema_of(root: Path, packages: Mapping[str, Path], *, runs_xacro: bool = True) -> str:
@@ -22,7 +25,7 @@ def schema_of(root: Path, packages: Mapping[str, Path], *, runs_xacro: bool = Tr
     from linkforge_compile.editor import vocabulary_of, without_parts, workspace_text
     from linkforge_compile.editor.robot_folder import schemas_below
 
-    specs = _specs(root)
+    specs = _specs(root, packages)
     for folder in schemas_below(root, specs):
         to_stderr(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it\n")
     vocabularies = without_parts(vocabulary_of(spec, root, packages, runs_xacro=runs_xacro) for spec in specs)
@@ -37,11 +40,18 @@ def _tell_unread(error: OSError) -> None:
     to_stderr(f"'{error.filename}' cannot be read: {(error.strerror or '').lower()}; names may be missing\n")
 
 
-def _specs(root: Path) -> tuple[Path, ...]:
+def _tell_outside(link: Path) -> None:
+    to_stderr(f"the link '{link}' leads out of the folders that may be read, and is not opened; names may be missing\n")
+
+
+def _specs(root: Path, packages: Mapping[str, Path], *, is_told: bool = True) -> tuple[Path, ...]:
     from linkforge_compile.editor import TooManyFilesError, specs_below
+    from linkforge_compile.roots import Roots
 
     try:
-        specs = specs_below(root, unread=_tell_unread)
+        roots = Roots.around(root, packages.values())
+        unread, outside = (_tell_unread, _tell_outside) if is_told else (None, None)
+        specs = specs_below(root, roots=roots, unread=unread, outside=outside)
     except TooManyFilesError as error:
         raise UsageError(f"there are {error} below '{root}'; name the folder of the robots") from error
     if not specs:

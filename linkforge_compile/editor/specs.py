@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from linkforge_compile.roots import exists, identity, is_file
+from linkforge_compile.roots import Roots, exists, identity, is_file
 
 SPEC_ENDINGS = (".robot.yaml", ".robot.yml")
 
@@ -24,19 +24,33 @@ class TooManyFilesError(Exception):
 
 
 def specs_below(
-    root: Path, at_most: int = MAX_SPECS, *, unread: Callable[[OSError], object] | None = None
+    root: Path,
+    at_most: int = MAX_SPECS,
+    *,
+    roots: Roots | None = None,
+    unread: Callable[[OSError], object] | None = None,
+    outside: Callable[[Path], object] | None = None,
 ) -> tuple[Path, ...]:
     """Return the specs in a folder and below it, sorted; nothing hidden, nothing in linked folders and what tools made.
 
-    A link to one of them is the same spec once more, and left out, and so are pipes and devices. `unread` takes the
-    error of each folder that cannot be read; None where nobody wants to know.
+    A link to one of them is the same spec once more, and left out. So are pipes, devices, and links that lead out of
+    `roots`, those around the folder unless said: whoever made a repository names no files of its user. `unread` takes
+    the error of each folder that cannot be read, `outside` each such link; None where nobody wants to know.
 
     Raises:
         TooManyFilesError: For more specs than `at_most`, or than MAX_FOLDERS folders.
 
     """
+    roots = roots or Roots.around(root)
     found: list[Path] = []
-    for spec in _specs(root, unread):
+    for spec in _named_so(root, unread):
+        # Before it is looked for, so that nothing is told of what is there.
+        if spec.is_symlink() and not roots.hold(spec):
+            if outside is not None:
+                outside(spec)
+            continue
+        if _is_special(spec):
+            continue
         found.append(spec)
         if len(found) > at_most:
             raise TooManyFilesError(f"more than {at_most} specs")
@@ -54,11 +68,10 @@ def _is_special(path: Path) -> bool:
     return exists(path) and not is_file(path)
 
 
-def _specs(root: Path, unread: Callable[[OSError], object] | None) -> Iterator[Path]:
+def _named_so(root: Path, unread: Callable[[OSError], object] | None) -> Iterator[Path]:
     for number, (folder, inner, files) in enumerate(os.walk(root, onerror=unread), start=1):
         if number > MAX_FOLDERS:
             raise TooManyFilesError(f"more than {MAX_FOLDERS} folders")
         # What is taken out here is not walked into.
         inner[:] = sorted(name for name in inner if not name.startswith(".") and name not in _NOT_SOURCES)
-        named = (Path(folder, name) for name in files if name.endswith(SPEC_ENDINGS) and not name.startswith("."))
-        yield from (path for path in named if not _is_special(path))
+        yield from (Path(folder, name) for name in files if name.endswith(SPEC_ENDINGS) and not name.startswith("."))

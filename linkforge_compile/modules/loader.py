@@ -204,7 +204,7 @@ class Loader:
         """Whether a file may be read by whoever names it; reports why not, be there a file or not."""
         if used.where is None or self.roots.hold(path):
             return True
-        notes = [Note(self.roots.way_out(path)), Note(f"what may be read lies in {self.roots}")]
+        notes = map(Note, self.roots.reasons(path))
         name = used.text.removeprefix(_PACKAGE).partition("/")[0] if used.text.startswith(_PACKAGE) else "NAME"
         sink.report(OUTSIDE_ROOTS.at(used.where, path=used.text, name=name, notes=notes))
         return False

@@ -117,6 +117,27 @@ def test_a_folder_without_specs_is_no_clean_one(tmp_path: Path):
     assert "there is no spec, NAME.robot.yaml, in the folder 'empty' or below it [LF3067]" in run.stderr
 
 
+def test_a_link_out_of_the_repository_that_is_found_by_searching_is_told_and_not_opened(tmp_path: Path):
+    """Whoever made the repository has named the file, and not who checks it: nothing of it is shown."""
+    (tmp_path / "far").mkdir()
+    (tmp_path / "far" / "secret.yaml").write_text("password: hunter2\n")
+    repository = tmp_path / "repository"
+    (repository / ".git").mkdir(parents=True)
+    (repository / "good.robot.yaml").write_text(PENDULUM)
+    (repository / "evil.robot.yaml").symlink_to("../far/secret.yaml")
+    run = linkforge("check", cwd=repository)
+    assert run.returncode == 1
+    assert "error: 'evil.robot.yaml' leads out of the folders that may be read" in run.stderr
+    assert "[LF3401]\nnote: the link 'evil.robot.yaml' leads out\nnote: what may be read lies in" in run.stderr
+    assert run.stderr.endswith("checked 1 spec: 1 error\n")
+    schema = linkforge("schema", "--workspace", cwd=repository)
+    told = "the link 'evil.robot.yaml' leads out of the folders that may be read, and is not opened"
+    assert schema.stderr.count(told) == 1
+    assert not any("hunter2" in text for text in (run.stderr, schema.stderr, schema.stdout))
+    for allowed in (("--allow-outside",), ("--package", "far=../far")):
+        assert "evil.robot.yaml:1:1: " in linkforge("check", *allowed, cwd=repository).stderr
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names")
 def test_a_pipe_that_is_found_by_searching_is_no_spec(tmp_path: Path):
     os.mkfifo(tmp_path / "pipe.robot.yaml")

@@ -9,6 +9,7 @@ from jsonschema import Draft7Validator
 
 from linkforge_compile.editor import TooManyFilesError, Vocabulary, specs_below, vocabulary_of, workspace_text
 from linkforge_compile.editor import specs as specs_module
+from linkforge_compile.roots import Roots
 from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
 from tests.editor.language_server import Fault, LanguageServer
@@ -322,14 +323,27 @@ def test_specs_are_those_that_a_person_wrote(tmp_path: Path):
 
 
 def test_a_spec_that_links_lead_to_is_one(tmp_path: Path):
-    far = written(tmp_path / "far", {"d.robot.yaml": ARM})
+    written(tmp_path / "repo", {".hidden/d.robot.yaml": ARM})
     root = written(tmp_path / "repo", {"parts/a.robot.yaml": ARM})
     (root / "again.robot.yaml").symlink_to("parts/a.robot.yaml")
     (root / "parts again").symlink_to("parts")
     (root / ".#a.robot.yaml").symlink_to("somebody@machine.123")
     (root / "lock.robot.yaml").symlink_to("somebody@machine.123")
-    (root / "d.robot.yaml").symlink_to(far / "d.robot.yaml")
+    (root / "d.robot.yaml").symlink_to(".hidden/d.robot.yaml")
     assert [path.relative_to(root).as_posix() for path in specs_below(root)] == ["d.robot.yaml", "parts/a.robot.yaml"]
+
+
+def test_a_link_out_of_the_folders_that_may_be_read_is_no_spec(tmp_path: Path):
+    """Be there a file or not, which is nobody's business who made the link."""
+    far = written(tmp_path / "far", {"d.robot.yaml": ARM})
+    root = written(tmp_path / "repo", {"a.robot.yaml": ARM})
+    links = (root / "d.robot.yaml", root / "gone.robot.yaml", root / "zero.robot.yaml")
+    for link, target in zip(links, (far / "d.robot.yaml", far / "gone", Path("/dev/zero")), strict=True):
+        link.symlink_to(target)
+    outside: list[Path] = []
+    assert specs_below(root, outside=outside.append) == (root / "a.robot.yaml",)
+    assert sorted(outside) == sorted(links)
+    assert specs_below(root, roots=Roots.around(root, (far,))) == (root / "a.robot.yaml", root / "d.robot.yaml")
 
 
 def test_a_folder_of_more_than_robots_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

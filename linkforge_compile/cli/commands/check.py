@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -55,15 +55,15 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.diagnostics.render.text import summary
 
     words, assignments = split_assignments(arguments.words)
-    unread: list[OSError] = []
-    meant = {word: _specs(word, unread.append) for word in words or ["."]}
+    unread: list[Diagnostic] = []
+    meant = {word: _specs(word, arguments, unread.append) for word in words or ["."]}
     specs = list(dict.fromkeys(spec for ours in meant.values() for spec in ours))
     if arguments.all_variants and arguments.variant is not None:
         raise UsageError("takes --variant or --all-variants, not both")
     if arguments.all_variants and "-" in specs:
         raise UsageError("--all-variants takes files, not standard input")
     # Specs that use one module share its faults: each is told and counted once.
-    found = {str(one): one for one in _without_specs(meant, unread)}
+    found = {str(one): one for one in unread or _without_specs(meant)}
     reports = _without_parts({spec: _report(_checked(spec, assignments, arguments)) for spec in specs})
     for report in reports.values():
         for diagnostic in report.diagnostics:
@@ -79,27 +79,40 @@ def run(arguments: argparse.Namespace) -> int:
     return FAULTY_SPEC if has_errors(told) else OK
 
 
-def _specs(word: str, unread: Callable[[OSError], object]) -> tuple[str, ...]:
-    """Return what a word of the command line means: itself, or every spec in a folder and below, if any."""
+def _specs(word: str, arguments: argparse.Namespace, tell: Callable[[Diagnostic], object]) -> tuple[str, ...]:
+    """Return what a word of the command line means: itself, or every spec in a folder and below, if any.
+
+    Folders that cannot be read, in which specs may lie, are told, and links that may not be followed.
+    """
     # Path.is_dir raises for a name that is too long.
     if not os.path.isdir(word):  # noqa: PTH112
         return (word,)
+    from linkforge_compile.diagnostics import Note
+    from linkforge_compile.diagnostics.codes.modules import UNREADABLE_FILE
+    from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
     from linkforge_compile.editor.specs import TooManyFilesError, specs_below
+    from linkforge_compile.roots import ANYWHERE, Roots
+
+    folder = Path(word)
+    roots = ANYWHERE if arguments.allow_outside else Roots.around(folder, map(Path, packages_of(arguments).values()))
+
+    def unread(error: OSError) -> None:
+        tell(UNREADABLE_FILE.at(None, path=error.filename, reason=(error.strerror or "").lower()))
+
+    def outside(link: Path) -> None:
+        tell(OUTSIDE_ROOTS.at(None, path=link, name="NAME", notes=map(Note, roots.reasons(link))))
 
     try:
-        return tuple(map(str, specs_below(Path(word), _MAX_SPECS, unread=unread)))
+        return tuple(map(str, specs_below(folder, _MAX_SPECS, roots=roots, unread=unread, outside=outside)))
     except TooManyFilesError as error:
         raise UsageError(f"there are {error} below '{word}'; name the folders of the robots") from error
 
 
-def _without_specs(meant: Mapping[str, tuple[str, ...]], unread: Sequence[OSError]) -> Iterator[Diagnostic]:
-    """Tell of folders that cannot be read, in which specs may lie; where there are none, of those that hold no spec."""
-    from linkforge_compile.diagnostics.codes.modules import NO_SPEC_BELOW, UNREADABLE_FILE
+def _without_specs(meant: Mapping[str, tuple[str, ...]]) -> Iterator[Diagnostic]:
+    """Tell of folders that hold no spec."""
+    from linkforge_compile.diagnostics.codes.modules import NO_SPEC_BELOW
 
-    for error in unread:
-        yield UNREADABLE_FILE.at(None, path=error.filename, reason=(error.strerror or "").lower())
-    if not unread:
-        yield from (NO_SPEC_BELOW.at(None, path=word) for word, specs in meant.items() if not specs)
+    return (NO_SPEC_BELOW.at(None, path=word) for word, specs in meant.items() if not specs)
 
 
 def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Mapping[str | None, Compilation]:

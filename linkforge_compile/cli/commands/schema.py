@@ -50,12 +50,12 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.workspace import schema_of, workspaces_at
     from linkforge_compile.editor.robot_folder import SCHEMA
 
-    roots = (Path(arguments.workspace),) if arguments.workspace else workspaces_at(Path())
+    packages = {name: Path(folder) for name, folder in packages_of(arguments).items()}
+    roots = (Path(arguments.workspace),) if arguments.workspace else workspaces_at(Path(), packages)
     if not roots[0].is_dir():
         raise UsageError(f"--workspace takes a folder, found '{arguments.workspace}'")
     if arguments.output is not None and len(roots) > 1:
         raise UsageError(f"-o takes one schema, found those of {', '.join(map(str, roots))}; write --workspace FOLDER")
-    packages = {name: Path(folder) for name, folder in packages_of(arguments).items()}
     for root in roots:
         put_json(schema_of(root, packages), arguments.output or str(root / SCHEMA), quiet=arguments.quiet)
     return OK
