@@ -245,7 +245,8 @@ def _bounds() -> str:
     }
     shared = {limit.counted.replace("'for'", "`for`"): limit.most for limit in Limit}
     told = {"errors that are told, and warnings": MAX_TOLD, "errors that are found": MAX_REPORTED}
-    told |= {"warnings and notes that are found": MAX_WARNED, "diagnostics that the command shows as text": MOST_SHOWN}
+    told |= {"warnings and notes that are counted beyond those": MAX_WARNED}
+    told |= {"diagnostics that the command shows as text": MOST_SHOWN}
     bounds = {**shared, **bounds, **told}
     rows = [[what, f"{most:,}" if isinstance(most, int) else most] for what, most in bounds.items()]
     return _table(("what", "at most"), rows)

@@ -60,15 +60,15 @@ class LinkSets:
         return below if meeting == chain.base_link else below | self.bit(meeting)
 
     def _way_up(self, link: str) -> int:
-        """Return the set of a link and all those that it hangs on; empty for one that is unknown or in a circle."""
+        """Return the set of a link and all those that it hangs on, of a circle once; empty for one that is unknown."""
         way: list[str] = []
         end = link
         while end in self._known and end not in self._ways_up:
             way.append(end)
-            self._ways_up[end] = 0  # what leads back to itself stays so
+            self._ways_up[end] = 0  # where the way leads back to here, it ends
             end = self._above[end].parent if end in self._above else ""
         links = self._ways_up.get(end, 0)
-        for each in reversed(way) if links or end not in self._ways_up else ():
+        for each in reversed(way):
             links |= self.bit(each)
             self._ways_up[each] = links
             self._lowest[_key(links)] = each

@@ -15,7 +15,7 @@ Where: TypeAlias = Span | SourceRef | None
 """A place: a span of text, an object's reference, or None for a value that was never written (built in Python)."""
 
 _LONGEST = 2_000
-"""Characters of a message."""
+"""Characters of a message and of a note: a name may have megabytes."""
 
 
 class Severity(StrEnum):
@@ -44,6 +44,9 @@ class Note:
     message: str
     span: Span | None = None
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "message", _quotable(self.message))
+
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
@@ -57,6 +60,8 @@ class Diagnostic:
     """What the user counts it for, None for what its code is."""
     untold: int = 0
     """How many more like it there are at its place, which a note counts and nobody tells."""
+    left_out: int = 0
+    """What the message was before its middle was left out, as a hash: two of one beginning and end are two faults."""
 
     @property
     def severity(self) -> Severity:
@@ -65,7 +70,7 @@ class Diagnostic:
     @property
     def order(self) -> tuple[int, str, int, int]:
         """A sort key: reading order; what has no place comes first, and what ends the report last."""
-        if self.code.is_last:
+        if self.code.ends_report:
             return sys.maxsize, "", 0, 0
         return self.span.order if self.span else (-1, "", 0, 0)
 
@@ -91,8 +96,9 @@ class Code:
     is_of_a_name: bool = False
     """Whether it tells of a name that is declared nowhere: all who use the name have one cause."""
     in_xml: str = ""
-    is_last: bool = False
-    """Whether it is told behind all others, wherever its place is."""
+    ends_report: bool = False
+    """Whether it says that there is more than is told: it comes behind all others, wherever its place is, and is never
+    left out itself."""
 
     @property
     def title(self) -> str:
@@ -123,10 +129,12 @@ class Code:
         changed = notes_of_changes(where.changes(*path), span) if isinstance(where, SourceRef) else ()
         span, moved = self._blamed(span) if span else (None, ())
         sentence = self.in_xml if self.in_xml and span and span.file.is_xml else self.message
-        message = on_one_line(_shortened(sentence.format(**facts)) + did_you_mean(str(facts.get("name", "")), near))
+        whole = sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
+        left_out = hash(whole) if len(whole) > _LONGEST else 0
         includes = [Note("included here", include) for include in (span.file.includes if span else ())]
         uses = [Note("used here", use) for use in trail]
-        return Diagnostic(self, message, span, (*notes, *moved, *changed, *includes, *uses))
+        all_notes = (*notes, *moved, *changed, *includes, *uses)
+        return Diagnostic(self, _quotable(whole), span, all_notes, left_out=left_out)
 
     def _blamed(self, used: Span) -> tuple[Span, tuple[Note, ...]]:
         """Return the place to blame for a value that stands at one, and the other of its two places as a note."""
@@ -148,13 +156,12 @@ def notes_of_changes(changes: Iterable[Change], told: Span | None) -> tuple[Note
     return tuple(Note(f"'{change.key}' is changed by this override", change.span) for change in known)
 
 
-def _shortened(text: str) -> str:
-    """Return a message with its middle left out where it quotes more than anybody reads: a name may have megabytes."""
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]}…{text[-_LONGEST // 2 :]}"
-
-
-def on_one_line(text: str) -> str:
-    """Return the text with line ends and control characters spelled out: a message quotes what hostile files hold."""
+def _quotable(text: str) -> str:
+    """Return what hostile files hold as a message may quote it: its middle left out where nobody reads so much, line
+    ends and control characters spelled out.
+    """
+    if len(text) > _LONGEST:
+        text = f"{text[: _LONGEST // 2]}…{text[-_LONGEST // 2 :]}"
     if text.isprintable():
         return text
     return "".join(each if each.isprintable() else each.encode("unicode_escape").decode() for each in text)

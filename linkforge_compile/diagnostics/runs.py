@@ -15,11 +15,11 @@ def told_once(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...
     The runs are named as after "with": "the defaults", "variant 'sim'". Each run read the files anew, so a fault is
     known by what a person sees of it: its code, its place and its words.
     """
-    first: dict[tuple[str, str, str], Diagnostic] = {}
-    told_in: dict[tuple[str, str, str], list[str]] = {}
+    first: dict[tuple[str, str, str, int], Diagnostic] = {}
+    told_in: dict[tuple[str, str, str, int], list[str]] = {}
     for run, diagnostics in runs.items():
         for diagnostic in diagnostics:
-            key = (diagnostic.code.id, str(diagnostic.span), diagnostic.message)
+            key = (diagnostic.code.id, str(diagnostic.span), diagnostic.message, diagnostic.left_out)
             first.setdefault(key, diagnostic)
             told_in.setdefault(key, []).append(run)
     # A comment that ignores something in one of the runs has its use.

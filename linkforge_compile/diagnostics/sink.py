@@ -23,9 +23,11 @@ MAX_REPORTED = 10_000
 news ends the compile."""
 
 MAX_WARNED = 50_000
-"""How many warnings and notes are looked at; a robot of ten thousand links may have one or two for each."""
+"""How many warnings and notes are counted that are not told: a place counts three times at most, whatever number of
+links a `for` makes there, so that only a file of as many faults ends the compile."""
 
 _Place: TypeAlias = tuple[str, Span]
+_Identity: TypeAlias = tuple[str, Span | None, str, int]
 
 
 class BeyondLimitError(Exception):
@@ -49,10 +51,9 @@ class Diagnostics:
     """
 
     def __init__(self) -> None:
-        self._reported: dict[tuple[str, Span | None, str], Diagnostic] = {}
+        self._reported: dict[_Identity, Diagnostic] = {}
         self._errors = 0
         self._errors_reported = 0
-        self._others_reported = 0
         # By their hashes, as a message may be long, and only their number is told.
         self._seen: set[int] = set()
         self._at: defaultdict[_Place, set[int]] = defaultdict(set)
@@ -63,10 +64,9 @@ class Diagnostics:
         """Keep a diagnostic, or count it where enough were told; raise BeyondLimitError where there is no end."""
         is_error = diagnostic.severity is Severity.ERROR
         self._errors_reported += is_error
-        self._others_reported += not is_error
-        if self._others_reported > MAX_WARNED:
-            raise BeyondLimitError(TOO_MANY_ERRORS.at(diagnostic.span, what="warnings and notes"))
         is_told = self._is_to_be_told(diagnostic)
+        if self._left_out > MAX_WARNED:
+            raise BeyondLimitError(TOO_MANY_ERRORS.at(diagnostic.span, what="warnings and notes"))
         if is_error and is_told and self._errors >= MAX_TOLD:
             raise too_many_errors(diagnostic.span)
         if is_error and not is_told and self._errors_reported > MAX_REPORTED:
@@ -74,11 +74,11 @@ class Diagnostics:
             raise too_many_errors(diagnostic.span, again)
         if is_told:
             self._errors += is_error
-            self._reported[diagnostic.code.id, diagnostic.span, diagnostic.message] = diagnostic
+            self._reported[_identity(diagnostic)] = diagnostic
 
     def _is_to_be_told(self, diagnostic: Diagnostic) -> bool:
         """Whether a diagnostic is neither told already nor one too many, which is counted here."""
-        number = hash((diagnostic.code.id, diagnostic.span, diagnostic.message))
+        number = hash(_identity(diagnostic))
         if number in self._seen:
             return False
         self._seen.add(number)
@@ -98,7 +98,7 @@ class Diagnostics:
     def end(self, beyond: BeyondLimitError) -> None:
         """Keep what ended the compile, however much was told before."""
         diagnostic = beyond.diagnostic
-        self._reported[diagnostic.code.id, diagnostic.span, diagnostic.message] = diagnostic
+        self._reported[_identity(diagnostic)] = diagnostic
 
     def report_all(self, diagnostics: Iterable[Diagnostic]) -> None:
         for diagnostic in diagnostics:
@@ -130,7 +130,7 @@ class Diagnostics:
         last = {(one.code.id, one.span): one for one in self}
         told = [self._counted(one) if last[one.code.id, one.span] is one else one for one in self]
         if self._left_out:
-            told.append(MORE_WARNINGS.at(None, count=f"{self._left_out:,}"))
+            told.insert(0, MORE_WARNINGS.at(None, count=f"{self._left_out:,}"))
         return tuple(sorted(told, key=lambda diagnostic: diagnostic.order))
 
     def _counted(self, last: Diagnostic) -> Diagnostic:
@@ -139,3 +139,8 @@ class Diagnostics:
             return last
         note = Note(f"and {more:,} more like this at the same place")
         return replace(last, notes=(*last.notes, note), untold=more)
+
+
+def _identity(diagnostic: Diagnostic) -> _Identity:
+    """Return what makes two diagnostics one."""
+    return diagnostic.code.id, diagnostic.span, diagnostic.message, diagnostic.left_out

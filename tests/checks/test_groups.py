@@ -2,7 +2,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkforge_compile.checks.link_sets import LinkSets
-from linkforge_compile.core import Chain, EndEffector, GroupState, PlanningGroup
+from linkforge_compile.core import Chain, EndEffector, GroupState, PlanningGroup, SemanticRobotDescription
 from tests.checks.robots import LEFT, chain, fixed, robot, told, two_arms
 
 HAND = PlanningGroup("hand", links=("left_hand",))
@@ -86,6 +86,15 @@ def test_a_chain_moves_what_hangs_between_its_ends_and_the_link_where_its_branch
     assert links.between(ends) == (links.of(moved) if meeting else None)
 
 
-def test_a_chain_of_links_in_a_circle_is_none():
+def test_a_way_up_goes_round_a_circle_once():
     links = LinkSets(robot("a b c", fixed("j", "a", "b"), fixed("k", "b", "a"), fixed("l", "b", "c")))
-    assert [links.meeting_link(Chain(*ends)) for ends in ("ab", "ca", "cc")] == [None] * 3
+    assert [links.meeting_link(Chain(*ends)) for ends in ("bc", "ca", "cc", "ab")] == ["b", "a", "c", "a"]
+    assert links.between(Chain("b", "c")) == links.of("c")
+
+
+def test_a_group_that_hangs_on_a_circle_is_judged_as_others_are():
+    circle = (fixed("j", "a", "b"), fixed("k", "b", "a"), fixed("l", "b", "c"))
+    effector = EndEffector("e", parent_link="d", group="arm")
+    semantic = SemanticRobotDescription(groups=(chain("arm", "b", "c"),), end_effectors=(effector,))
+    codes = [one[:6] for one in told(robot("a b c d", *circle, semantic=semantic))]
+    assert codes == ["LF5403", "LF5616"]

@@ -8,6 +8,7 @@ import pytest
 from linkforge_compile import import_urdf
 from linkforge_compile.diagnostics import Code, Diagnostics, Gaps, Note, Severity, suggest
 from linkforge_compile.diagnostics.render.text import render_text, summary
+from linkforge_compile.diagnostics.runs import told_once
 from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar
@@ -84,6 +85,22 @@ def test_a_message_does_not_quote_megabytes():
     message = UNKNOWN.at(None, name="a" * 1_000_000).message
     assert len(message) == 2_001
     assert (message[:16], message[-3:]) == ("no link named 'a", "aa'")
+
+
+def test_a_note_quotes_no_megabytes_nor_control_characters():
+    message = Note(f"nor '\x1b{'a' * 1_000_000}'").message
+    assert len(message) == 2_004
+    assert (message[:10], message[-3:]) == ("nor '\\x1ba", "aa'")
+
+
+def test_two_faults_that_differ_where_their_messages_leave_words_out_are_two():
+    long = "a" * 5_000
+    told = [UNKNOWN.at(CHILD, name=f"{long}{letter}{long}") for letter in "bcb"]
+    assert len({one.message for one in told}) == 1
+    sink = Diagnostics()
+    sink.report_all(told)
+    assert len(sink.sorted()) == 2
+    assert len(told_once({"the defaults": told[:1], "variant 'sim'": told[1:]})) == 2
 
 
 def test_a_fault_in_a_module_tells_where_the_module_is_used():

@@ -76,13 +76,24 @@ def test_behind_very_many_errors_of_one_place_what_is_new_is_told_and_one_more_o
     assert (errors[-1].code, errors[-1].span) == (TOO_MANY_ERRORS, at(2))
 
 
-def test_behind_very_many_warnings_the_compile_ends(monkeypatch: pytest.MonkeyPatch):
+def test_behind_very_many_warnings_that_are_not_told_the_compile_ends(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(flood, "MAX_WARNED", 50)
     sink = Diagnostics()
-    sink.report_all(WARNING.at(at(1), name=number) for number in range(50))
+    sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_TOLD + 50))
     sink.report(ERROR.at(at(2), name="x"))
-    with pytest.raises(BeyondLimitError, match="behind so many warnings and notes"):
-        sink.report(WARNING.at(at(1), name=0))
+    with pytest.raises(BeyondLimitError, match="behind so many warnings and notes") as beyond:
+        sink.report(WARNING.at(at(9999), name="x"))
+    sink.end(beyond.value)
+    assert [one.code for one in sink.sorted()[-2:]] == [MORE_WARNINGS, TOO_MANY_ERRORS]
+
+
+@pytest.mark.parametrize("words", ["same", "{}"])
+def test_very_many_warnings_of_one_place_end_nothing(words: str, monkeypatch: pytest.MonkeyPatch):
+    """As the rounds of a `for` give them."""
+    monkeypatch.setattr(flood, "MAX_WARNED", 50)
+    sink = Diagnostics()
+    sink.report_all(WARNING.at(at(1), name=words.format(number)) for number in range(MAX_TOLD + 60))
+    assert len(sink.sorted()) == (1 if words == "same" else 3)
 
 
 def test_warnings_beyond_a_thousand_are_counted_and_end_nothing():
@@ -90,8 +101,8 @@ def test_warnings_beyond_a_thousand_are_counted_and_end_nothing():
     sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_TOLD + 5))
     sink.report(ERROR.at(at(9999), name="y"))
     told = sink.sorted()
-    assert (told[0].code, told[0].message) == (MORE_WARNINGS, "5 more warnings and notes are not told")
-    assert told[-1].message == "no y"
+    assert (told[-1].code, told[-1].message) == (MORE_WARNINGS, "5 more warnings and notes are not told")
+    assert told[-2].message == "no y"
 
 
 def test_the_command_shows_the_first_errors_before_any_warning():

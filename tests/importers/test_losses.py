@@ -174,7 +174,7 @@ def test_a_loss_that_is_only_counted_is_counted_once(monkeypatch: pytest.MonkeyP
     urdf = tmp_path / "r.urdf"
     shapes = '<visual>stray<geometry><sphere radius="1"/></geometry></visual>\n' * 5
     urdf.write_text(f'<robot name="r"><link name="a">{shapes}</link></robot>', "utf-8")
-    more, *losses = import_urdf(urdf).diagnostics
+    *losses, more = import_urdf(urdf).diagnostics
     assert [one.code.id for one in losses] == ["LF8101"] * 2
     assert more.message.startswith("3 more")
 

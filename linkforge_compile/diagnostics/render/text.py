@@ -6,7 +6,6 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from unicodedata import combining, east_asian_width
 
-from linkforge_compile.diagnostics.codes.bounds import ENDS_OF_A_REPORT
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
 from linkforge_compile.frozen import replace
 from linkforge_compile.source import Span
@@ -34,7 +33,7 @@ def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> 
     diagnostics = tuple(_each_name_thrice(diagnostics))
     errors = [one for one in diagnostics if one.severity is Severity.ERROR][:MOST_SHOWN]
     others = [one for one in diagnostics if one.severity is not Severity.ERROR][: MOST_SHOWN - len(errors)]
-    ends = [one for one in diagnostics if one.code in ENDS_OF_A_REPORT]
+    ends = [one for one in diagnostics if one.code.ends_report]
     shown = set(map(id, (*errors, *others, *ends)))
     text = render_text((one for one in diagnostics if id(one) in shown), colour=colour)
     rest = [one for one in diagnostics if id(one) not in shown]
@@ -43,10 +42,10 @@ def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> 
 
 def _each_name_thrice(told: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
     """Yield diagnostics in their order; of one name that a file has nowhere, the first three, and how many more."""
-    of_a_name = defaultdict[tuple[str, str, str], list[Diagnostic]](list)
+    of_a_name = defaultdict[tuple[str, str, int, str], list[Diagnostic]](list)
     for one in told:
         if one.code.is_of_a_name and one.span:
-            of_a_name[one.code.id, one.message, one.span.file.name].append(one)
+            of_a_name[one.code.id, one.message, one.left_out, one.span.file.name].append(one)
     floods = [same for same in of_a_name.values() if len(same) > MOST_OF_ONE_NAME]
     left_out = {id(one) for same in floods for one in same[MOST_OF_ONE_NAME:]}
     lasts = {id(same[MOST_OF_ONE_NAME - 1]): same for same in floods}
