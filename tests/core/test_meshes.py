@@ -272,6 +272,12 @@ def test_entities_of_xml_do_not_grow():
     assert fault(data, "part.dae").fault is MeshFault.UNREADABLE
 
 
+def test_a_document_type_is_refused_as_one():
+    data = collada(f"<node>{GEOMETRY}</node>").replace(b"?>", b"?><!DOCTYPE x [<!ENTITY s SYSTEM 'secret'>]>", 1)
+    for text in (data, data.replace(b'count="24">', b'count="24">&s;')):
+        assert fault(text, "part.dae").message.startswith("it has a document type")
+
+
 def test_nodes_in_nodes_are_counted():
     doubled = "".join(
         f'<node id="n{depth}"><instance_node url="#n{depth - 1}"/><instance_node url="#n{depth - 1}"/></node>'
@@ -283,9 +289,31 @@ def test_nodes_in_nodes_are_counted():
 
 def test_triangles_are_counted(monkeypatch):
     monkeypatch.setattr("linkforge_compile.core.meshes.read.MAX_TRIANGLES", 20)
-    for form in ("stl", "dae"):
-        error = fault(content(together(block(1, 1, 1), block(1, 1, 1, at=(2, 0, 0))), form), f"part.{form}")
+    for form in FORMATS:
+        assert solid(block(1, 1, 1), form).volume == 1
+        error = fault(content(together(block(1, 1, 1), block(1, 1, 1, at=(2, 0, 0))), form), f"part.{ending(form)}")
         assert (error.fault, error.message) == (MeshFault.TOO_LARGE, "it has more than 20 triangles")
+
+
+@pytest.mark.parametrize("face", [b"f" + b" 1 2 3" * 8, b"f 1" + b" \\\n 2/1 3//4" * 11])
+def test_triangles_of_a_polygon_are_counted_before_they_are_made(face, monkeypatch):
+    monkeypatch.setattr("linkforge_compile.core.meshes.read.MAX_TRIANGLES", 20)
+    monkeypatch.setattr("trimesh.load_scene", None)
+    error = fault(b"v 0 0 0\n" * 3 + face, "part.obj")
+    assert (error.fault, error.message) == (MeshFault.TOO_LARGE, "it has more than 20 triangles")
+
+
+@pytest.mark.parametrize(
+    ("face", "told"),
+    [
+        (b"f 1 2 99999999999999", "line 5: the face has a vertex 99999999999999, but the file has 3"),
+        (b"f 1/1 -4/1 2/1", "line 5: the face has a vertex -4, but the file has 3"),
+        (b"f 1 2 x", "line 5: 'x' is no number of a vertex"),
+        (b"f 1 2 3 1 " + b"9" * 5000, f"line 5: '{'9' * 40}' is no number of a vertex"),
+    ],
+)
+def test_a_corner_that_is_no_vertex_is_told_with_its_line(face, told):
+    assert fault(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + face + b"\n", "part.obj").message == told
 
 
 def test_hollows_are_counted(monkeypatch):

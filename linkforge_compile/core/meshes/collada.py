@@ -50,13 +50,16 @@ def collada_triangles(content: bytes, limit: int) -> Numbers:
     Nodes place what they hold, `<unit meter>` scales all of it, `<up_axis>` turns nothing.
 
     Raises:
-        MeshError: TOO_LARGE, or UNREADABLE for what has a shape that depends on bones.
+        MeshError: TOO_LARGE, or UNREADABLE for a document type and what has a shape that depends on bones.
         Exception: Whatever pycollada and lxml make of a broken file.
 
     """
     # Entities stay unresolved, and bounds of libxml2 that guard against them stay on.
     parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
     root = etree.fromstring(content, parser)
+    if root.getroottree().docinfo.internalDTD is not None:
+        reason = "it has a document type, whose entities can hold and fetch anything; delete that"
+        raise MeshError(MeshFault.UNREADABLE, reason)
     if root.find(".//{*}instance_controller") is not None:
         raise MeshError(MeshFault.UNREADABLE, "its scene has an 'instance_controller', whose shape is not fixed")
     unit = _unit(root)
