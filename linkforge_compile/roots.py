@@ -69,12 +69,16 @@ class Roots:
         return self.way_out(path), f"what may be read lies in {self}"
 
     def way_out(self, path: Path) -> str:
-        """Return how a path that they do not hold leads out of them, for a message: by a link in them, or to where.
+        """Return how a path that they do not hold leads out of them, for a message: by what in them, or to where.
 
         Where links lead is none of a stranger's business, who may have made one to `/proc/self/exe`: none is followed.
         """
-        link = next((step for step in (path, *path.parents) if self._has_link(step)), None)
-        return f"the link '{link}' leads out" if link else f"it leads to {os.path.normpath(path.absolute())}"
+        links = [step for step in (path, *path.parents) if self._has_link(step)]
+        for link in links:
+            if not self.hold(link):
+                return f"the link '{link}' leads out"
+        # Behind a link that stays within, `..` climbs from where it leads: to name that would tell of the link.
+        return "it leads out by '..'" if links else f"it leads to {os.path.normpath(path.absolute())}"
 
     def _has_link(self, path: Path) -> bool:
         # os.path answers for what may not be looked at as well, where pathlib raises.

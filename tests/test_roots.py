@@ -86,6 +86,8 @@ def test_what_is_refused_says_where_it_leads_and_what_may_be_read(tmp_path: Path
         ("TMP/self/part.robot.yaml", "it leads to TMP/self/part.robot.yaml"),
         ("link/part.robot.yaml", "the link 'TMP/cell/link' leads out"),
         ("link/../part.robot.yaml", "the link 'TMP/cell/link' leads out"),
+        ("within/../../part.robot.yaml", "it leads out by '..'"),
+        ("within/../link/part.robot.yaml", "the link 'TMP/cell/within/../link' leads out"),
         ("within/link/part.robot.yaml", "the link 'TMP/cell/within/link' leads out"),
         ("exe.robot.yaml", "the link 'TMP/cell/exe.robot.yaml' leads out"),
     ],
