@@ -64,9 +64,13 @@ def constructed(value: object) -> int:
         return sum(map(constructed, value))
     if not isinstance(value, Part | Link):
         return 0
-    assert values_of(replace(value)) == values_of(value)
-    return 1 + sum(map(constructed, values_of(value)))
+    values = values_of(value)
+    assert values_of(replace(value)) == values
+    # Constructors keep an integer, which is written without a point.
+    assert not [field for field in fields(value) if "float" in field.type and values[field.name][0] is int]
+    return 1 + sum(constructed(one) for _, one in values.values())
 
 
-def values_of(part: Part | Link) -> list[object]:
-    return [getattr(part, field.name) for field in fields(part)]
+def values_of(part: Part | Link) -> dict[str, tuple[type, object]]:
+    values = {field.name: getattr(part, field.name) for field in fields(part)}
+    return {name: (type(value), value) for name, value in values.items()}
