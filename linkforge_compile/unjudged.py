@@ -36,11 +36,16 @@ def unjudged(kind: Callable[Arguments, P]) -> Callable[Arguments, P]:
     return make
 
 
+_OPENED: dict[type[Any], type[Any]] = {}
+
+
 def opened(kind: type[Any]) -> type[Any]:
     """Return the class without its refusal to set a field, which lets Python set slots in a fifth of the time.
 
     It has the same slots, so that Python takes an object of it for one of the class once it is told to. Whoever asks
     the class for its `__subclasses__()` finds this one among them.
     """
-    plain = {name: vars(object)[name] for name in ("__init__", "__setattr__", "__delattr__")}
-    return type(f"Opened{kind.__name__}", (kind,), {"__slots__": (), **plain})
+    if kind not in _OPENED:
+        plain = {name: vars(object)[name] for name in ("__init__", "__setattr__", "__delattr__")}
+        _OPENED[kind] = type(f"Opened{kind.__name__}", (kind,), {"__slots__": (), **plain})
+    return _OPENED[kind]

@@ -42,6 +42,13 @@ def test_values_are_not_looked_at():
     assert unjudged(Cylinder)(-1.0, 0.5).radius == -1.0
 
 
+def test_a_class_is_opened_once():
+    for _ in range(2):
+        unjudged(Joint)
+        Joint("elbow", JointType.FIXED, "base", "arm").with_prefix("left_")
+    assert [kind.__name__ for kind in Joint.__subclasses__()].count("OpenedJoint") == 1
+
+
 def test_it_is_called_as_the_class_is():
     with pytest.raises(TypeError, match=r"Cylinder\(\) missing 1 required positional argument: 'length'"):
         unjudged(Cylinder)(0.1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from enum import Enum, auto
-from itertools import count, islice
+from itertools import islice
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, TypeAlias, TypeVar, overload
 
@@ -109,8 +109,8 @@ class _Shelf(Generic[T]):
         start = len(self.items)
         self.items.extend(items)
         if self._first is not None:
-            for _ in map(self._first.setdefault, names, count(start)):
-                pass
+            for place, name in enumerate(names, start):
+                self._first.setdefault(name, place)
         for key in self._places:
             self._file(key, items, start)
 

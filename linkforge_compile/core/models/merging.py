@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
@@ -59,12 +59,6 @@ class PrefixedParts(NamedTuple):
             extra_elements=robot.extra_elements.listed(),
             extra_attributes=attribute_pairs(robot.extra_attributes),
         )
-
-    def others(self) -> Iterator[tuple[str, Sequence[object]]]:
-        """Yield the parts beside links, joints and materials, by the field of each kind that there is."""
-        for kind in ("sensors", "transmissions", "ros2_controls", "gazebo_elements", "extra_elements"):
-            if parts := getattr(self, kind):
-                yield kind, parts
 
     def materials_beside(self, own: Mapping[str, Material]) -> dict[str, Material]:
         """Return those of the materials that are new to a robot with its own, and those of its own that move.

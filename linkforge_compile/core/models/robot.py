@@ -163,7 +163,11 @@ class Robot(SemanticRobot):
         materials = parts.materials_beside(self.materials)
         add_materials = self.materials.update
         longer_joints = self.joints.extended(joints)
-        others = {kind: getattr(self, kind).extended(added) for kind, added in parts.others()}
+        sensors = self.sensors.extended(parts.sensors)
+        transmissions = self.transmissions.extended(parts.transmissions)
+        ros2_controls = self.ros2_controls.extended(parts.ros2_controls)
+        gazebo_elements = self.gazebo_elements.extended(parts.gazebo_elements)
+        extra_elements = self.extra_elements.extended(parts.extra_elements)
         own = dict(self.extra_attributes)
         extra_attributes = (*own.items(), *(said for said in parts.extra_attributes if said[0] not in own))
         semantic = self._semantic.joined(parts.semantic) if parts.semantic else self._semantic
@@ -171,8 +175,8 @@ class Robot(SemanticRobot):
         self.links = links
         self.joints = longer_joints
         add_materials(materials)
-        for kind, longer in others.items():
-            setattr(self, kind, longer)
+        self.sensors, self.transmissions, self.ros2_controls = sensors, transmissions, ros2_controls
+        self.gazebo_elements, self.extra_elements = gazebo_elements, extra_elements
         self.extra_attributes = extra_attributes
         self._semantic = semantic
 
