@@ -69,7 +69,8 @@ def _collisions(link: Reading, visuals: list[YamlNode], collisions: list[YamlNod
 
 
 def _without_looks(visual: YamlMap) -> YamlMap:
-    return YamlMap({entry.name: entry for entry in visual if entry.name in _SHAPE_AND_PLACE}, visual.place)
+    bare = {entry.name: entry for entry in visual if entry.name in _SHAPE_AND_PLACE}
+    return YamlMap(bare, visual.place, visual.begin, visual.end)
 
 
 _SHAPE_AND_PLACE = ("box", "cylinder", "sphere", "capsule", "mesh", "origin")
