@@ -20,7 +20,6 @@ from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
     XACRO,
     Arguments,
-    Instance,
     Loader,
     SpecFile,
     Told,
@@ -37,7 +36,6 @@ from linkforge_compile.stack import with_room
 if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
-    from linkforge_compile.core.resolver import FileSystemResolver
     from linkforge_compile.diagnostics.ignores import Ignore
     from linkforge_compile.modules.listing import Listing
 
@@ -309,16 +307,17 @@ def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilatio
 
 def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:
     """Expand, lower and check a spec that was read: the robot, as far as its faults leave one."""
+    from linkforge_compile.core.resolver import FileSystemResolver
+
     arguments = settings.arguments(loader, sink)
     instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant)
     lowered = lower(instance, sink, meshes)
-    resolver = _resolver(instance, loader)
-    for alone in lowered.unmerged:
-        alone.robot.resource_resolver = resolver
-        sink.report_all(check(alone.robot, alone.gaps.looking(loader.roots.hold)))
+    # Meshes are looked for in the user's packages, the spec's, and then those of its modules.
+    resolver = FileSystemResolver(packages={**instance.packages_of_all, **loader.packages})
+    for robot, gaps in lowered.robots:
+        robot.resource_resolver = resolver
+        sink.report_all(check(robot, gaps.looking(loader.roots.hold)))
     if lowered.robot is not None:
-        lowered.robot.resource_resolver = resolver
-        sink.report_all(check(lowered.robot, lowered.gaps.looking(loader.roots.hold)))
         sink.report_all(urdf_limits(lowered.robot, gazebo=settings.gazebo))
         sink.report_all(srdf_limits(lowered.robot))
         if settings.output is not None:
@@ -326,14 +325,6 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
 
             sink.report_all(lost_on_the_way(lowered.robot, settings.output))
     return lowered.robot
-
-
-def _resolver(instance: Instance, loader: Loader) -> FileSystemResolver:
-    """Return what finds the meshes of a robot: by the user's packages, the spec's, and then those of its modules."""
-    from linkforge_compile.core.resolver import FileSystemResolver
-
-    packages = {name: place for use in reversed((*instance.with_modules,)) for name, place in use.packages.items()}
-    return FileSystemResolver(packages={**packages, **loader.packages})
 
 
 class Judged(NamedTuple):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Gaps
@@ -40,6 +41,13 @@ class Lowered:
     gaps: Gaps
     under_a_prefix: tuple[Diagnostic, ...] = ()
     mount: ModuleJoint | None = None
+
+    @property
+    def robots(self) -> Iterator[tuple[Robot, Gaps]]:
+        """Every robot that there is, those that could not be joined first, with what it lacks."""
+        yield from self.unmerged
+        if self.robot is not None:
+            yield self.robot, self.gaps
 
     @property
     def gaps_alone(self) -> Gaps:

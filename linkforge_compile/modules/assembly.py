@@ -70,6 +70,11 @@ class Instance:
             yield from module.with_modules
 
     @property
+    def packages_of_all(self) -> dict[str, Path]:
+        """The folders that the file and its modules declare for packages: of two for one name, that of the outer."""
+        return {name: place for use in reversed((*self.with_modules,)) for name, place in use.packages.items()}
+
+    @property
     def shared_files(self) -> frozenset[SourceFile]:
         """The files that are used more than once, by this use and those below it."""
         uses = Counter(use.tree.span.file for use in self.with_modules if use.tree)
