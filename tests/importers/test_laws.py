@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from linkforge_compile import import_urdf, render_srdf, render_urdf
@@ -15,9 +15,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.importers.orders import named_colors
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.source import SourceFile
-from tests.writers.test_laws import compiled, robots
-
-few = settings(max_examples=25, deadline=None)
+from tests.writers.test_laws import compiled, few, robots
 
 
 def said_by_urdf(robot: Robot) -> Robot:
