@@ -167,7 +167,7 @@ def mean(what: str, rows: list[Row], reach: float) -> Iterator[Row]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--rounds", type=int, default=9, help="how many runs of each the median is of, 9 unless told")
     some = "some of the comparisons, with commas between"
     parser.add_argument("--only", type=comparisons_in, default=list(COMPARISONS), metavar="NAMES", help=some)
     parser.add_argument("--robots", type=Path, nargs="+", default=ROBOTS, help="other robots, as .urdf.xacro")
