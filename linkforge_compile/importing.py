@@ -17,6 +17,7 @@ from linkforge_compile.frozen import dataclass, replace
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
 from linkforge_compile.modules import XACRO, Arguments, Loader, SpecFile, Used
+from linkforge_compile.modules.assembly import count_entries
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.pipeline import Judged, Packages, Parameters, Settings, judged
 from linkforge_compile.source import SourceFile, Span
@@ -162,6 +163,7 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
         return None
     file, robot = found
     # Before it is judged: of what is too large for a spec no more is to be known.
+    count_entries(robot.tree, 1, Budget())
     text = None if semantic else _spec_text(robot, sink)
     judge = _judge_of(SpecFile(file, robot.tree, urdf.path.parent), loader)
     both = with_srdf(robot, semantic.text, judge, sink, semantic.moved) if semantic else (robot, judge(robot.tree))
@@ -188,7 +190,9 @@ def _spec_text(imported: Imported, sink: Diagnostics) -> str:
     from linkforge_compile.importers.losses import unread
     from linkforge_compile.syntax.writer import write
 
-    text, budget = write(imported.tree, *imported.comments), Budget()
+    budget = Budget()
+    count_entries(imported.tree, 1, budget)  # an SRDF has added to them
+    text = write(imported.tree, *imported.comments)
     try:
         again = read(SourceFile("<spec>", text), Diagnostics(), budget)
     except BeyondLimitError:

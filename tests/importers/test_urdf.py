@@ -641,14 +641,32 @@ def test_a_file_that_holds_just_what_it_may_is_compared_with_more_than_that(monk
     assert imported.text.count("<a:b") == 10
 
 
-def test_a_robot_that_no_spec_may_hold_is_told_at_its_place(monkeypatch: pytest.MonkeyPatch):
+@pytest.mark.parametrize("limit", [Limit.VALUES, Limit.ENTRIES])
+def test_a_robot_that_no_spec_may_hold_is_told_at_its_place(limit: Limit, monkeypatch: pytest.MonkeyPatch):
     class Spent(Budget):
         def __init__(self) -> None:
             super().__init__()
-            self.spend(Limit.VALUES, Limit.VALUES.most - 10, None)
+            self.spend(limit, limit.most - 10, None)
 
     monkeypatch.setattr("linkforge_compile.importing.Budget", Spent)
+    monkeypatch.setattr("linkforge_compile.importing.judged", None)
     links = "".join(f"<link name='l{i}'/>" for i in range(20))
     imported = import_urdf("r.urdf", text=f"<!-- r -->\n<robot name='r'>{links}</robot>")
     [told] = imported.diagnostics
     assert (imported.text, told.code.id, str(told.span)) == (None, "LF3301", "r.urdf:2:1")
+    assert limit.counted in told.message
+
+
+def test_the_entries_of_its_srdf_count_for_a_spec(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    class Spent(Budget):
+        def __init__(self) -> None:
+            super().__init__()
+            self.spend(Limit.PAIRS, Limit.PAIRS.most, None)
+
+    monkeypatch.setattr("linkforge_compile.importing.Budget", Spent)
+    pair = "<disable_collisions link1='a' link2='b' reason='Never'/>"
+    (tmp_path / "r.srdf").write_text(f"<robot name='r'>{pair}</robot>")
+    arm = "<link name='a'/><link name='b'/><joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
+    imported = import_urdf("r.urdf", text=f"<robot name='r'>{arm}</robot>", srdf=tmp_path / "r.srdf")
+    assert imported.text is None
+    assert [one.code.id for one in imported.diagnostics] == ["LF3301"]
