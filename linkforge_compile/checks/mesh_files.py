@@ -18,7 +18,7 @@ from linkforge_compile.checks.extents import Extent, Room, room_of
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.resolver import IResourceResolver
+from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
 from linkforge_compile.diagnostics import Gaps
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.pattern import pattern
@@ -36,8 +36,8 @@ LARGEST = 8 * 1024 * 1024
 PIECES, PIECE = 8, 8192
 """How many pieces of a mesh that is text are looked at, and how many bytes each has."""
 
-MOST_PACKAGES = 500
-"""In so many packages meshes are looked for."""
+MOST_NOWHERE = 500
+"""Behind so many packages that are nowhere only those are looked for whose folders are declared."""
 
 LFS_POINTER = b"version https://git-lfs"
 
@@ -122,8 +122,13 @@ class MeshFinder:
     def __init__(self, robot: Robot, gaps: Gaps) -> None:
         self.unseen: set[str] = set()
         """Paths of meshes, as written, that lead to where a check may not look."""
+        self.unsought: dict[str, str] = {}
+        """The package of each mesh, as written, whose package was not looked for: too many others are nowhere."""
         self._may_look = gaps.may_look
-        self._resolver: IResourceResolver = robot.resource_resolver
+        resolver = robot.resource_resolver
+        self._resolver: IResourceResolver = resolver
+        self._declared = frozenset(resolver.packages if isinstance(resolver, FileSystemResolver) else ())
+        self._nowhere = 0
         self._folder = _folder_of(robot)
         self._packages: dict[str, Path | None] = {}
         self._names: dict[Path, frozenset[str] | None] = {}
@@ -159,9 +164,11 @@ class MeshFinder:
 
     def _in_package(self, package: str, inside: str) -> Path | None:
         if package not in self._packages:
-            if len(self._packages) >= MOST_PACKAGES:
+            if self._nowhere >= MOST_NOWHERE and package not in self._declared:
+                self.unsought[f"package://{package}/{inside}"] = package
                 return None
             self._packages[package] = self._resolved(f"package://{package}/")
+            self._nowhere += self._packages[package] is None
         folder = self._packages[package]
         if folder is None or not inside:
             return None

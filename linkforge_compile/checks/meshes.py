@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from linkforge_compile.checks.mesh_files import WIDEST, MeshFinder, MeshUse, RobotMeshes
 from linkforge_compile.checks.references import SHOWN, listed
-from linkforge_compile.core.models.geometry import Mesh
+from linkforge_compile.core.models.geometry import Mesh, Vector3
 from linkforge_compile.core.models.link import Collision
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Code, Diagnostic, Note
@@ -20,7 +20,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     MISSING_MESH,
     WIDE_MESH,
 )
-from linkforge_compile.diagnostics.codes.roots import UNSEEN_MESHES
+from linkforge_compile.diagnostics.codes.roots import UNSEEN_MESHES, UNSOUGHT_MESHES
 from linkforge_compile.roots import is_folder
 
 CAD_FORMATS = frozenset(
@@ -42,33 +42,45 @@ def check_mesh_files(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     macOS, and not on Linux. An empty file, or the pointer that Git LFS leaves where nothing was fetched, holds none; a
     mesh more than 100 m wide is in millimetres: write `scale: 0.001`. Meshes in packages that this machine does not
     have, and those of other schemes than `package` and `file`, are not looked for, nor are those outside of the
-    folders that a spec may make us read. Each file is told of once, and a folder that is not there with all its files;
-    behind a hundred files so is one that is there.
+    folders that a spec may make us read. Each file is told of once. The files of a folder that is not there are told
+    together, the first by name and with the rest counted, and so, behind a hundred, are those of one that is there.
     """
     finder = meshes.finder
-    missing: dict[Path, list[MeshUse]] = {}
+    missing: dict[Path, dict[str, Mesh]] = {}
     read_already = {use.mesh.resource for use in meshes.uses if _is_read_for_inertia(use)}
     judged = [use for use in meshes.uses if use.mesh.resource not in read_already]
-    for use in {(use.mesh.resource, use.mesh.scale): use for use in reversed(judged)}.values():
+    firsts: dict[tuple[str, Vector3], MeshUse] = {}
+    for use in judged:
+        firsts.setdefault((use.mesh.resource, use.mesh.scale), use)
+    for use in firsts.values():
         path = finder.path(use.mesh.resource)
         if path and finder.names_instead_of(path) is not None:
             is_alone = len(missing) < MOST_ALONE and is_folder(path.parent)
-            missing.setdefault(path if is_alone else path.parent, []).append(use)
+            together = missing.setdefault(path if is_alone else path.parent, {})
+            together.setdefault(use.mesh.resource, use.mesh)
         elif diagnostic := _fault_in(meshes, use.mesh):
             yield diagnostic
-    for path, uses in missing.items():
-        yield _missing(path, uses[::-1], finder)
+    for path, by_resource in missing.items():
+        yield _missing(path, by_resource.values(), finder)
     if unseen := [use for use in judged if use.mesh.resource in finder.unseen]:
         yield _told_together(unseen, UNSEEN_MESHES, "file")
+    if unsought := [use for use in judged if use.mesh.resource in finder.unsought]:
+        count = len({finder.unsought[use.mesh.resource] for use in unsought})
+        packages = f"{count:,} package{'s' if count > 1 else ''}"
+        yield _told_together(unsought, UNSOUGHT_MESHES, "file", packages=packages)
 
 
-def _missing(path: Path, uses: Sequence[MeshUse], finder: MeshFinder) -> Diagnostic:
-    """Tell of a file that is not there, or once of all files of a folder that is not."""
-    first, *others = (use.mesh for use in uses)
+def _missing(path: Path, meshes: Iterable[Mesh], finder: MeshFinder) -> Diagnostic:
+    """Tell of a file that is not there, or once of all such files of a folder."""
+    first, *others = meshes
+    if is_folder(path):
+        path = finder.path(first.resource) or path
     near = finder.names_instead_of(path) or ()
     sources = [(mesh.resource, mesh.source) for mesh in others[:SHOWN]]
     notes = [Note(f"looked for it at {path}")]
     notes += [Note(f"nor '{resource}'", source.at("file") if source else None) for resource, source in sources]
+    if (more := len(others) - SHOWN) > 0:
+        notes.append(Note(f"and {more:,} more in this folder"))
     return MISSING_MESH.at(first.source, "file", path=first.resource, name=path.name, near=near, notes=notes)
 
 

@@ -7,6 +7,7 @@ import pytest
 from linkforge_compile import compile_file
 from linkforge_compile.checks import check, mesh_files
 from linkforge_compile.checks.mesh_files import SAMPLES, Effort, MeshFile, look_at
+from linkforge_compile.checks.meshes import MOST_ALONE
 from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
 from linkforge_compile.diagnostics import Gaps
 from tests.checks.robots import told
@@ -79,6 +80,44 @@ def test_all_files_of_a_folder_that_is_not_there_are_one_fault(meshes: Path):
         "nor 'package://arm/mesh/b.stl'",
         "nor 'package://arm/mesh/c.stl'",
     ]
+
+
+@pytest.mark.parametrize("is_there", [True, False])
+def test_behind_a_hundred_missing_files_those_of_a_folder_are_told_together_and_none_is_lost(
+    meshes: Path, is_there: bool
+):
+    folder = "meshes" if is_there else "mesh"
+    (meshes / "b100.STL").touch()
+    subject = of(meshes, *(f"package://arm/{folder}/b{number}.stl" for number in range(131)))
+    diagnostics = list(check(subject, Gaps()))
+    alone, together = diagnostics[:-1], diagnostics[-1]
+    assert len(alone) == (MOST_ALONE if is_there else 0)
+    names = [note.message for note in together.notes if note.message.startswith("nor ")]
+    *_, rest = [note.message for note in together.notes]
+    assert rest == f"and {131 - len(alone) - 1 - len(names)} more in this folder"
+    assert (
+        together.notes[0].message == f"looked for it at {meshes / 'b100.stl' if is_there else meshes.parent / 'mesh'}"
+    )
+    first, offered = ("b100", "b100.STL") if is_there else ("b0", "meshes")
+    assert together.message == f"there is no mesh 'package://arm/{folder}/{first}.stl'; did you mean '{offered}'?"
+
+
+def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looked_for_and_the_rest_noted(
+    meshes: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(mesh_files, "MOST_NOWHERE", 2)
+    found = [f"package://here{number}/a.stl" for number in range(3)]
+    for number in range(3):
+        (meshes / f"here{number}").mkdir()
+    nowhere = [f"package://nowhere{number}/{name}.stl" for number in range(4) for name in "ab"]
+    links = [
+        Link(f"l{at}", visuals=[Visual(Mesh(one))]) for at, one in enumerate((*found, *nowhere, "package://p/b.stl"))
+    ]
+    resolver = FileSystemResolver([meshes], packages={"p": meshes})
+    subject = Robot("r", links=links, resource_resolver=resolver)
+    codes = [one.code.id for one in check(subject, Gaps()) if one.code.id in ("LF6021", "LF3403")]
+    assert codes == ["LF6021"] * 4 + ["LF3403"]
+    assert "in 2 packages that nobody looked for" in next(one for one in told(subject) if "LF3403" in one)
 
 
 @pytest.mark.parametrize(

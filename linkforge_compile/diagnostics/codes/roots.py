@@ -14,3 +14,8 @@ UNSEEN_MESHES = Code(
     Severity.NOTE,
     "the meshes of {links} lie outside of the folders that may be read, and were not looked at",
 )
+UNSOUGHT_MESHES = Code(
+    "LF3403",
+    Severity.NOTE,
+    "the meshes of {links} are in {packages} that nobody looked for, as many others are nowhere on this machine",
+)
