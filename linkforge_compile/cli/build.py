@@ -11,6 +11,7 @@ from linkforge_compile.cli.one_spec import compile_spec
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.cli.telling import say, tell
 from linkforge_compile.named_tuple import NamedTuple
+from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
@@ -101,7 +102,7 @@ def _outputs(robot: Robot, order: Order, arguments: argparse.Namespace) -> tuple
     if targets is None:
         return None
     name = Path(order.spec).name
-    banner = None if order.spec == "-" else banner_of(name)
+    banner = None if order.spec == "-" else banner_of(on_one_line(name))
     options: dict[str, dict[str, str]] = {"urdf": {"gazebo": arguments.gazebo}, "srdf": {}}
     if arguments.source_map:
         return tuple(_with_maps(robot, banner, targets, options))

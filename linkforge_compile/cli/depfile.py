@@ -21,10 +21,10 @@ _BLANK = re.compile(r"(\\*)([ \t])")
 # The colon of a drive of Windows stays as it is.
 _COLON = re.compile(r"(?<!^[A-Za-z]):|:(?![/\\])")
 
-_UNWRITABLE = re.compile(r"[\n\r;|]")
+_UNWRITABLE = re.compile(r"[\n\r;|\ud800-\udfff]")
 
 # Of Make, `=` before the colon assigns a variable, and `%` is a pattern; escaped for Make, `%` is no name to Ninja.
-_UNWRITABLE_IN_TARGETS = re.compile(r"[\n\r;|=%]")
+_UNWRITABLE_IN_TARGETS = re.compile(r"[\n\r;|=%\ud800-\udfff]")
 
 
 def write_depfile(path: str, outputs: Sequence[Path], compilation: Compilation) -> None:

@@ -7,6 +7,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from linkforge_compile.named_tuple import NamedTuple
+from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     from linkforge_compile.compare import Difference, Vanished
@@ -31,7 +32,7 @@ class Side(NamedTuple):
         settings = [f"{name}={value}" for name, value in self.parameters.items()]
         settings = [*([f"variant {self.variant}"] if self.variant else []), *settings]
         settings += [self.srdf] if self.srdf else []
-        return f"{self.word} ({', '.join(settings)})" if settings else self.word
+        return on_one_line(f"{self.word} ({', '.join(settings)})" if settings else self.word)
 
 
 class Comparison(NamedTuple):

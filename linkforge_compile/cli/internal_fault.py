@@ -18,6 +18,7 @@ def confess(fault: Exception, words: Sequence[str]) -> int:
     import traceback
 
     from linkforge_compile.backends.document import TemplateFaultError
+    from linkforge_compile.source.characters import on_one_line
 
     if isinstance(fault, TemplateFaultError):
         print(f"linkforge: {fault}", file=sys.stderr)
@@ -31,7 +32,7 @@ def confess(fault: Exception, words: Sequence[str]) -> int:
         print(trace, end="", file=sys.stderr)
     about = _about(words)
     print(
-        f"linkforge: internal fault: {type(fault).__name__} at {place}: {fault}\n"
+        f"linkforge: internal fault: {type(fault).__name__} at {place}: {on_one_line(str(fault))}\n"
         "This is a bug in linkforge, not in your spec. Please report it with the spec and\n"
         f"  {_saved(f'{about}{trace}') or 'what LINKFORGE_DEBUG=1 prints'}\n"
         f"{about}",
@@ -46,8 +47,10 @@ def _about(words: Sequence[str]) -> str:
     import platform
     import shlex
 
+    from linkforge_compile.source.characters import on_one_line
+
     system = f"linkforge {__version__}, Python {platform.python_version()}, {platform.platform()}"
-    return f"{system}\ncommand: {shlex.join(('linkforge', *words))}\n"
+    return f"{system}\ncommand: {on_one_line(shlex.join(('linkforge', *words)))}\n"
 
 
 def _saved(report: str) -> str | None:

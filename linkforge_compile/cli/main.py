@@ -78,15 +78,20 @@ def _run(words: list[str]) -> int:
     try:
         code: int = command.run(arguments)
     except UsageError as error:
-        print(f"linkforge {name}: {error}", file=sys.stderr)
-        return WRONG_USAGE
+        return _wrong_usage(name, str(error))
     except OSError as error:
         reason = _of_the_command_line(error)
         if reason is None:
             raise
-        print(f"linkforge {name}: {reason}", file=sys.stderr)
-        return WRONG_USAGE
+        return _wrong_usage(name, reason)
     return code
+
+
+def _wrong_usage(command: str, reason: str) -> int:
+    from linkforge_compile.cli.telling import line_to_stderr
+
+    line_to_stderr(f"linkforge {command}: {reason}")
+    return WRONG_USAGE
 
 
 def _of_the_command_line(error: OSError) -> str | None:

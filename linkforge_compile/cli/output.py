@@ -10,6 +10,7 @@ from pathlib import Path
 
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.targets import file_to_write
+from linkforge_compile.cli.telling import line_to_stderr
 
 
 def write_to_stdout(text: str) -> None:
@@ -17,7 +18,7 @@ def write_to_stdout(text: str) -> None:
     try:
         if sys.stdout is None:
             raise UsageError("cannot write to standard output: it is closed")
-        sys.stdout.buffer.write(text.encode("utf-8"))
+        sys.stdout.buffer.write(_bytes_of(text))
         sys.stdout.flush()
     except BrokenPipeError:
         raise
@@ -37,8 +38,8 @@ def put_json(text: str, output: str | None, *, quiet: bool) -> None:
         raise UsageError(f"-o takes a file that ends in .json, found '{output}'")
     else:
         is_new = write_if_changed(file, text)
-        if not quiet and sys.stderr is not None:
-            sys.stderr.write(f"wrote {output}\n" if is_new else f"{output} is up to date\n")
+        if not quiet:
+            line_to_stderr(f"wrote {output}" if is_new else f"{output} is up to date")
 
 
 def refuse_to_replace(made_from: Iterable[Path], outputs: Iterable[Path]) -> None:
@@ -55,7 +56,7 @@ def write_if_changed(path: Path, text: str) -> bool:
     An unchanged file keeps its time stamp, so that builds which depend on it stay still. The new bytes are
     written beside it and moved over it in one step: whoever reads meanwhile sees the old file or the new one.
     """
-    new = text.encode("utf-8")
+    new = _bytes_of(text)
     # A link stays a link: what it points to is replaced.
     target = Path(os.path.realpath(path))
     try:
@@ -70,6 +71,11 @@ def write_if_changed(path: Path, text: str) -> bool:
     except OSError as error:
         raise UsageError(f"cannot write '{path}': {_reason(error, target)}") from error
     return True
+
+
+def _bytes_of(text: str) -> bytes:
+    """Return a text in UTF-8, with the bytes of names of files that are no UTF-8 spelled out, as JSON does it."""
+    return text.encode("utf-8", "backslashreplace")
 
 
 def _reason(error: OSError, target: Path) -> str:

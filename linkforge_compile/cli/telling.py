@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.colour import WHEN, is_coloured
 from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.diagnostics.render import FORMS
+from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
@@ -75,7 +76,12 @@ def say(line: str, arguments: argparse.Namespace) -> None:
 def say_failure(line: str, arguments: argparse.Namespace) -> None:
     """Write what did not succeed to standard error, unless that is to hold one document for a program."""
     if arguments.diagnostics in {"text", "github"}:
-        to_stderr(f"{line}\n")
+        line_to_stderr(line)
+
+
+def line_to_stderr(line: str) -> None:
+    """Write one line to standard error, where names of files can neither end it nor drive the terminal."""
+    to_stderr(f"{on_one_line(line)}\n")
 
 
 def to_stderr(text: str) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from linkforge_compile.cli.exits import UsageError
-from linkforge_compile.cli.telling import to_stderr
+from linkforge_compile.cli.telling import line_to_stderr
 
 
 def workspaces_at(here: Path, packages: Mapping[str, Path]) -> tuple[Path, ...]:
@@ -27,21 +27,22 @@ def schema_of(root: Path, packages: Mapping[str, Path], *, runs_xacro: bool = Tr
 
     specs = _specs(root, packages)
     for folder in schemas_below(root, specs):
-        to_stderr(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it\n")
+        line_to_stderr(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it")
     vocabularies = without_parts(vocabulary_of(spec, root, packages, runs_xacro=runs_xacro) for spec in specs)
     remedy = "`linkforge check` tells why" if runs_xacro else "`linkforge schema --workspace` may find them"
     for vocabulary in vocabularies:
         if not vocabulary.is_whole:
-            to_stderr(f"names of {root / vocabulary.files[0]} may be missing; {remedy}\n")
+            line_to_stderr(f"names of {root / vocabulary.files[0]} may be missing; {remedy}")
     return workspace_text(vocabularies)
 
 
 def _tell_unread(error: OSError) -> None:
-    to_stderr(f"'{error.filename}' cannot be read: {(error.strerror or '').lower()}; names may be missing\n")
+    line_to_stderr(f"'{error.filename}' cannot be read: {(error.strerror or '').lower()}; names may be missing")
 
 
 def _tell_outside(link: Path) -> None:
-    to_stderr(f"the link '{link}' leads out of the folders that may be read, and is not opened; names may be missing\n")
+    what = f"the link '{link}' leads out of the folders that may be read, and is not opened"
+    line_to_stderr(f"{what}; names may be missing")
 
 
 def _specs(root: Path, packages: Mapping[str, Path], *, is_told: bool = True) -> tuple[Path, ...]:

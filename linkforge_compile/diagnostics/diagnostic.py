@@ -10,6 +10,7 @@ from typing import TypeAlias
 from linkforge_compile.diagnostics.suggest import did_you_mean
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Change, SourceRef, Span
+from linkforge_compile.source.characters import on_one_line
 
 Where: TypeAlias = Span | SourceRef | None
 """A place: a span of text, an object's reference, or None for a value that was never written (built in Python)."""
@@ -133,7 +134,7 @@ class Code:
         left_out = hash(whole) if len(whole) > _LONGEST else 0
         includes = [Note("included here", include) for include in (span.file.includes if span else ())]
         uses = [Note("used here", use) for use in trail]
-        all_notes = (*notes, *moved, *changed, *includes, *uses)
+        all_notes = (*map(_quotable_note, (*notes, *moved, *changed)), *includes, *uses)
         return Diagnostic(self, _quotable(whole), span, all_notes, left_out=left_out)
 
     def _blamed(self, used: Span) -> tuple[Span, tuple[Note, ...]]:
@@ -156,12 +157,14 @@ def notes_of_changes(changes: Iterable[Change], told: Span | None) -> tuple[Note
     return tuple(Note(f"'{change.key}' is changed by this override", change.span) for change in known)
 
 
+def _quotable_note(note: Note) -> Note:
+    return note if note.message.isprintable() else Note(on_one_line(note.message), note.span)
+
+
 def _quotable(text: str) -> str:
-    """Return what hostile files hold as a message may quote it: its middle left out where nobody reads so much, line
-    ends and control characters spelled out.
+    """Return what hostile files hold as a message may quote it: its middle left out where nobody reads so much, on one
+    line.
     """
     if len(text) > _LONGEST:
         text = f"{text[: _LONGEST // 2]}…{text[-_LONGEST // 2 :]}"
-    if text.isprintable():
-        return text
-    return "".join(each if each.isprintable() else each.encode("unicode_escape").decode() for each in text)
+    return on_one_line(text)

@@ -15,3 +15,13 @@ FORBIDDEN_CHARACTER = Characters(
 def code_point(character: str) -> str:
     """Return the character as messages name what cannot be seen: U+00A0."""
     return f"U+{ord(character):04X}"
+
+
+def on_one_line(text: str) -> str:
+    """Return the text with line ends, control characters and bytes that are no UTF-8 spelled out.
+
+    Messages quote what hostile files hold, and how they are called.
+    """
+    if text.isprintable():
+        return text
+    return "".join(each if each.isprintable() else each.encode("unicode_escape").decode() for each in text)

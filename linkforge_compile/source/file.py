@@ -8,6 +8,7 @@ from itertools import accumulate
 from pathlib import Path
 
 from linkforge_compile.frozen import dataclass, field
+from linkforge_compile.source.characters import on_one_line
 from linkforge_compile.source.span import Span
 
 
@@ -29,6 +30,11 @@ class SourceFile(_Room):
     path: Path | None = None
     order: int = 0
     included: Span | None = None
+
+    @property
+    def shown(self) -> str:
+        """The name as messages show it: who named the file has no say over a terminal or a build log."""
+        return on_one_line(self.name)
 
     @cached_property
     def counted(self) -> str:

@@ -78,7 +78,7 @@ class Span(NamedTuple):
         return ()
 
     def __str__(self) -> str:
-        return f"{self.file.name}:{self.line}:{self.column}"
+        return f"{self.file.shown}:{self.line}:{self.column}"
 
 
 class Change(NamedTuple):

@@ -1,7 +1,9 @@
 """`linkforge check`, run as a program."""
 
 import errno
+import json
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -136,6 +138,61 @@ def test_a_link_out_of_the_repository_that_is_found_by_searching_is_told_and_not
     assert not any("hunter2" in text for text in (run.stderr, schema.stderr, schema.stdout))
     for allowed in (("--allow-outside",), ("--package", "far=../far")):
         assert "evil.robot.yaml:1:1: " in linkforge("check", *allowed, cwd=repository).stderr
+
+
+HOSTILE = "x\n::error::injected\x1b]0;title\x07\x9b31m.robot.yaml"
+SPELT = r"x\n::error::injected\x1b]0;title\x07\x9b31m.robot.yaml"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no such names")
+def test_names_of_files_are_spelled_out_in_every_form(tmp_path: Path):
+    """A repository of a stranger writes neither to the terminal nor commands to a build."""
+    (tmp_path / HOSTILE).write_text("wrong\n")
+    (tmp_path / "arm.robot.yaml").symlink_to(tmp_path.parent / HOSTILE)
+    for form in ("text", "json", "github", "sarif"):
+        run = linkforge("check", "--format", form, cwd=tmp_path)
+        assert run.returncode == 1, run.stderr
+        text = (run.stdout + run.stderr).replace("\n", "")
+        assert text.isprintable()
+        assert "\n::error::injected" not in run.stdout + run.stderr
+    report = json.loads(linkforge("check", "--format", "json", cwd=tmp_path).stdout)
+    assert {one["file"] for one in report["diagnostics"]} == {None, SPELT}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no such names")
+def test_lines_that_name_a_file_spell_it_out(tmp_path: Path):
+    (tmp_path / HOSTILE).write_text(PENDULUM)
+    written = linkforge("compile", HOSTILE, "-o", "build/", cwd=tmp_path)
+    assert written.returncode == 0
+    assert written.stderr == r"wrote build/x\n::error::injected\x1b]0;title\x07\x9b31m.urdf" + "\n"
+    (urdf,) = (tmp_path / "build").iterdir()
+    assert f"Compiled by linkforge from {SPELT};" in urdf.read_text("utf-8")
+    expanded = linkforge("expand", HOSTILE, cwd=tmp_path).stdout
+    assert SPELT in expanded
+    assert "\n::error" not in expanded
+    for words in (("diff", HOSTILE, HOSTILE), ("compile", HOSTILE, HOSTILE), ("where", f"build/{urdf.name}", "base")):
+        run = linkforge(*words, cwd=tmp_path)
+        assert r"\n::error" in run.stdout + run.stderr
+        assert (run.stdout + run.stderr).replace("\n", "").isprintable()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")
+def test_a_name_that_is_not_utf8_is_shown_and_the_rest_told(tmp_path: Path):
+    (tmp_path / os.fsdecode(b"b\xffad.robot.yaml")).write_bytes(b"a\xff")
+    (tmp_path / os.fsdecode(b"c\xff.robot.yaml")).write_text(PENDULUM)
+    (tmp_path / "z.robot.yaml").write_text("wrong\n")
+    for form in ("text", "json", "github"):
+        run = linkforge("check", "--format", form, cwd=tmp_path)
+        assert run.returncode == 1, run.stderr
+        assert r"b\udcffad.robot.yaml" in (run.stdout + run.stderr).replace(r"\\", "\\")
+        assert "z.robot.yaml" in run.stdout + run.stderr
+    log = json.loads(linkforge("check", "--format", "sarif", cwd=tmp_path).stdout)
+    places = [result["locations"][0]["physicalLocation"] for result in log["runs"][0]["results"]]
+    assert [place["artifactLocation"]["uri"] for place in places] == ["b%FFad.robot.yaml", "z.robot.yaml"]
+    spec = os.fsdecode(b"c\xff.robot.yaml")
+    assert r"from c\udcff.robot.yaml;" in linkforge("compile", spec, cwd=tmp_path).stdout
+    assert r"a depfile cannot hold 'c\udcff" in linkforge("deps", spec, cwd=tmp_path).stderr
+    assert json.loads(linkforge("deps", "--format", "json", spec, cwd=tmp_path).stdout)["files"] == [spec]
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names")

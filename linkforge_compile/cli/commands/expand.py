@@ -10,6 +10,7 @@ from linkforge_compile.cli.one_spec import compile_spec, one_spec
 from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.cli.telling import add_telling_options, say, tell
+from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
@@ -46,7 +47,8 @@ def run(arguments: argparse.Namespace) -> int:
     output = file_to_write(arguments.output)
     if output is not None:
         refuse_to_replace(compilation.files, [output])
-    banner = None if spec == "-" else f"Expanded by linkforge from {Path(spec).name}; edit that file, not this one."
+    name = on_one_line(Path(spec).name)
+    banner = None if spec == "-" else f"Expanded by linkforge from {name}; edit that file, not this one."
     text = write_spec(compilation.robot, banner=banner, origins=True)
     if output is None:
         write_to_stdout(text)

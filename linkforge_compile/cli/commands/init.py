@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.telling import to_stderr
+    from linkforge_compile.cli.telling import line_to_stderr
     from linkforge_compile.editor.robot_folder import NAME, RobotFolder
 
     name = arguments.name
@@ -42,7 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
     place = RobotFolder.at(Path(arguments.dir if arguments.dir is not None else name))
     told = _written(place, name)
     if not arguments.quiet:
-        to_stderr("".join(f"{line}\n" for line in (*told, *_next(place, name))))
+        for line in (*told, *_next(place, name)):
+            line_to_stderr(line)
     return OK
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.build import Order, compile_order, deliver
 from linkforge_compile.cli.commands import compile as compile_command
 from linkforge_compile.cli.exits import OK, WRONG_USAGE, UsageError
-from linkforge_compile.cli.telling import say, say_failure, to_stderr
+from linkforge_compile.cli.telling import line_to_stderr, say, say_failure
 from linkforge_compile.stamps import Stamps
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def _build_again(order: Order, stamps: Stamps, arguments: argparse.Namespace) ->
     try:
         return _build(order, stamps, arguments)
     except UsageError as error:
-        to_stderr(f"linkforge watch: {error}\n")
+        line_to_stderr(f"linkforge watch: {error}")
         return WRONG_USAGE
 
 

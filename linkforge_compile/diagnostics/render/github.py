@@ -8,6 +8,7 @@ from pathlib import Path
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
 from linkforge_compile.diagnostics.render.under_root import name_under
 from linkforge_compile.source import Span
+from linkforge_compile.source.characters import on_one_line
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "notice"}
 
@@ -32,7 +33,7 @@ def _command(diagnostic: Diagnostic, root: Path) -> str:
 def _place(span: Span | None, root: Path) -> Iterator[tuple[str, str | int]]:
     if span is None or span.file.path is None:
         return
-    yield "file", name_under(root, span.file) or span.file.name
+    yield "file", on_one_line(name_under(root, span.file) or span.file.name)
     yield "line", span.line
     # The API behind the commands takes columns only where start and end are on one line.
     if span.line == span.end_line:

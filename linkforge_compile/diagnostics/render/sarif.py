@@ -80,7 +80,12 @@ def _place(span: Span, root: Path) -> dict[str, object]:
 
 def _artifact(span: Span, root: Path) -> dict[str, object]:
     if name := name_under(root, span.file):
-        return {"uri": quote(name), "uriBaseId": _ROOT}
+        return {"uri": _quoted(name), "uriBaseId": _ROOT}
     if path := absolute(span.file):
         return {"uri": path.as_uri()}
-    return {"uri": quote(span.file.name)}
+    return {"uri": _quoted(span.file.name)}
+
+
+def _quoted(name: str) -> str:
+    """Return a name as a URI says it: its very bytes, be they UTF-8 or not."""
+    return quote(name, errors="surrogateescape")
