@@ -68,8 +68,8 @@ def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -
     Prefixes need no declaration here: it usually stands on `<robot>`.
 
     Raises:
-        RobotGeneratorError: for XML that is not well-formed, for text outside of elements, and for a processing
-            instruction, which most readers refuse.
+        RobotGeneratorError: for XML that is not well-formed, for text outside of elements, for a document type, and for
+            a processing instruction, which most readers refuse.
 
     """
     if recorded() or len(text) > _LONGEST_KEPT:
@@ -199,10 +199,14 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     parser.CommentHandler = reader.comment
     parser.StartCdataSectionHandler = reader.begin_cdata
     parser.ProcessingInstructionHandler = reader.instruction
+    # Wrapped, so that any number of elements is one document and a DOCTYPE is a fault.
+    wrapped = f"<extra>{text}</extra>"
     try:
-        # Wrapped, so that any number of elements is one document and a DOCTYPE is a fault.
-        parser.Parse(f"<extra>{text}</extra>", True)
+        parser.Parse(wrapped, True)
     except expat.ExpatError as error:
+        if wrapped.encode().startswith(b"<!DOCTYPE", parser.ErrorByteIndex - len("<!")):
+            reason = "has a document type, whose entities can hold and fetch anything; delete that"
+            raise RobotGeneratorError(f"raw XML {reason}: {_shown(text)}") from None
         # Its column counts the wrapper.
         reason = f"{expat.ErrorString(error.code)} in line {error.lineno}"
         raise RobotGeneratorError(f"raw XML is not well-formed: {reason}: {_shown(text)}") from None
