@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     Triangles: TypeAlias = NDArray[np.float64]  # shape (triangles, 3 corners, 3 coordinates)
 
-MAX_TRIANGLES = 500_000
+MAX_TRIANGLES = 400_000
 """What is computed of so many takes less than ten seconds and 512 MB."""
 
 # Of a binary STL file [bytes].
