@@ -24,3 +24,15 @@ def test_the_schema_goes_to_a_file_that_is_one(tmp_path: Path):
     assert linkforge("schema", "-o", "robot.schema.json", cwd=tmp_path).stderr == "wrote robot.schema.json\n"
     assert linkforge("schema", "-o", "robot.schema.json", "-q", cwd=tmp_path).stderr == ""
     assert (tmp_path / "robot.schema.json").read_text() == linkforge("schema", cwd=tmp_path).stdout
+
+
+def test_the_schema_of_a_workspace_is_not_written_through_a_link_that_leads_out(tmp_path: Path):
+    repository, other = tmp_path / "repository", tmp_path / "other.txt"
+    (repository / ".git").mkdir(parents=True)
+    (repository / ".linkforge").mkdir()
+    other.write_text("mine")
+    (repository / ".linkforge" / "robot.schema.json").symlink_to(other)
+    run = linkforge("schema", "--workspace", cwd=repository)
+    assert (run.returncode, other.read_text()) == (2, "mine")
+    assert "'.linkforge/robot.schema.json' is a link that leads out of its folder" in run.stderr
+    assert linkforge("schema", "--workspace", "-o", "here.json", cwd=repository).returncode == 0

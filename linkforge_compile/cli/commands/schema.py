@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -57,5 +58,13 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output is not None and len(roots) > 1:
         raise UsageError(f"-o takes one schema, found those of {', '.join(map(str, roots))}; write --workspace FOLDER")
     for root in roots:
+        if arguments.output is None:
+            _refuse_link_outside(root / SCHEMA, root)
         put_json(schema_of(root, packages), arguments.output or str(root / SCHEMA), quiet=arguments.quiet)
     return OK
+
+
+def _refuse_link_outside(output: Path, root: Path) -> None:
+    """Refuse to write where nobody said, through a link that a stranger's repository may have laid there."""
+    if not Path(os.path.realpath(output)).is_relative_to(os.path.realpath(root)):
+        raise UsageError(f"'{output}' is a link that leads out of its folder; remove it, or write elsewhere with -o")
