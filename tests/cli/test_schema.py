@@ -31,6 +31,7 @@ def test_the_schema_of_a_workspace_is_not_written_through_a_link_that_leads_out(
     (repository / ".git").mkdir(parents=True)
     (repository / ".linkforge").mkdir()
     other.write_text("mine")
+    (repository / "a.robot.yaml").write_text("linkforge: 1\nname: a\nlinks: {base: }\n")
     (repository / ".linkforge" / "robot.schema.json").symlink_to(other)
     run = linkforge("schema", "--workspace", cwd=repository)
     assert (run.returncode, other.read_text()) == (2, "mine")
