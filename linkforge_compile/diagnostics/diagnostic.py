@@ -134,7 +134,7 @@ class Code:
         left_out = hash(whole) if len(whole) > _LONGEST else 0
         includes = [Note("included here", include) for include in (span.file.includes if span else ())]
         uses = [Note("used here", use) for use in trail]
-        all_notes = (*map(_quotable_note, (*notes, *moved, *changed)), *includes, *uses)
+        all_notes = (*notes, *moved, *changed, *includes, *uses)
         return Diagnostic(self, _quotable(whole), span, all_notes, left_out=left_out)
 
     def _blamed(self, used: Span) -> tuple[Span, tuple[Note, ...]]:
@@ -155,10 +155,6 @@ def notes_of_changes(changes: Iterable[Change], told: Span | None) -> tuple[Note
     if told is not None and any(told.lies_in(change.span) for change in known):
         return ()
     return tuple(Note(f"'{change.key}' is changed by this override", change.span) for change in known)
-
-
-def _quotable_note(note: Note) -> Note:
-    return note if note.message.isprintable() else Note(on_one_line(note.message), note.span)
 
 
 def _quotable(text: str) -> str:
