@@ -22,7 +22,7 @@ from linkforge_compile.diagnostics.codes.importing import (
 )
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.named_tuple import NamedTuple
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source import SourceFile, Span, span_of
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 
 MOST_ELEMENTS = 250_000
@@ -48,7 +48,7 @@ class XmlAttribute(NamedTuple):
 
     @property
     def span(self) -> Span:
-        return _span(*self.bounds)
+        return span_of(*self.bounds)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,7 +100,7 @@ class XmlElement(NamedTuple):
 
     @property
     def span(self) -> Span:
-        return _span(*self.bounds)
+        return span_of(*self.bounds)
 
     @property
     def raw(self) -> str:
@@ -123,10 +123,6 @@ class XmlElement(NamedTuple):
 
 
 XmlContent: TypeAlias = "XmlElement | XmlComment | str"
-
-
-def _span(place: Span | SourceFile, begin: int, end: int) -> Span:
-    return place if isinstance(place, Span) else place.between(begin, end)
 
 
 def _end_of_name(text: str, begin: int) -> int:

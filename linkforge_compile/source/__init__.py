@@ -1,6 +1,6 @@
 """Where things were written: files, spans in them, and the references by which every later value finds back."""
 
-from linkforge_compile.source.file import SourceFile
+from linkforge_compile.source.file import SourceFile, span_of
 from linkforge_compile.source.ref import Key, Located, Sourced, SourceRef
 from linkforge_compile.source.span import Change, ComputedSpan, Origin, PatchedSpan, Position, Span, Trace
 
@@ -17,4 +17,5 @@ __all__ = [
     "Sourced",
     "Span",
     "Trace",
+    "span_of",
 ]

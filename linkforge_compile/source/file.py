@@ -101,3 +101,8 @@ class SourceFile(_Room):
 
     def __deepcopy__(self, memo: object) -> SourceFile:
         return self
+
+
+def span_of(place: Span | SourceFile, begin: int, end: int) -> Span:
+    """Return where something stands: its place, or what lies between two indexes where that is a file."""
+    return place if isinstance(place, Span) else place.between(begin, end)

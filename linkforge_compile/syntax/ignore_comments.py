@@ -29,7 +29,7 @@ def ignore_comments(file: SourceFile, budget: Budget | None = None) -> Iterator[
     `# linkforge: disable LF6003`, comes as well, not understood. They are counted in the budget, without one in their
     own.
     """
-    marks = Marks(file, file.text.removeprefix("\ufeff"))
+    marks = Marks(file)
     if not _MEANT_AS_ONE.search(marks.text) or (texts := _texts(marks)) is None:
         return
     budget = budget or Budget()

@@ -17,12 +17,12 @@ _BLOCK_STYLES = ("|", ">")
 class Marks:
     """Turns the parser's marks, which count lines, columns and characters from 0, into spans.
 
-    `text` is the file's text without a byte order mark, as the parser saw it.
+    `text` is what the parser sees of the file.
     """
 
-    def __init__(self, file: SourceFile, text: str) -> None:
+    def __init__(self, file: SourceFile) -> None:
         self.file = file
-        self.text = text
+        self.text = file.counted
 
     def event(self, event: Event, last: Event | None = None) -> Span:
         """Return the span from the start of an event to its end, or to that of the last one."""

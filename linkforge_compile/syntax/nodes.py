@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.named_tuple import NamedTuple
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source import SourceFile, Span, span_of
 from linkforge_compile.units import Quantity
 
 ScalarValue: TypeAlias = None | bool | int | float | str | Quantity
@@ -42,7 +42,7 @@ class YamlScalar(NamedTuple):
 
     @property
     def span(self) -> Span:
-        return _span(self.place, self.begin, self.begin + len(self.text) if self.end is None else self.end)
+        return span_of(self.place, self.begin, self.begin + len(self.text) if self.end is None else self.end)
 
     def child(self, key: str | int) -> None:
         return None
@@ -76,7 +76,7 @@ class YamlList:
 
     @property
     def span(self) -> Span:
-        return _span(self.place, self.begin, self.end)
+        return span_of(self.place, self.begin, self.end)
 
     def child(self, key: str | int) -> YamlNode | None:
         return self.items[key] if isinstance(key, int) and 0 <= key < len(self.items) else None
@@ -133,7 +133,7 @@ class YamlMap:
 
     @property
     def span(self) -> Span:
-        return _span(self.place, self.begin, self.end)
+        return span_of(self.place, self.begin, self.end)
 
     def get(self, key: str) -> YamlNode | None:
         """Return what is said under `key`, None where nothing is: a value of null is as if not written."""
@@ -185,11 +185,6 @@ YamlNode: TypeAlias = YamlScalar | YamlList | YamlMap | YamlFault
 
 Tags: TypeAlias = Mapping[str, Callable[[YamlScalar], YamlNode]]
 """What a scalar with a tag becomes, by the tag; a fault of it is for the function to report."""
-
-
-def _span(place: Span | SourceFile, begin: int, end: int) -> Span:
-    """Return where a node stands: its place, or what lies between two indexes where that is a file."""
-    return place if isinstance(place, Span) else place.between(begin, end)
 
 
 def fault_of(node: YamlNode) -> YamlFault:

@@ -44,11 +44,16 @@ class PlainTexts:
     def learns(self, text: str) -> bool:
         """Whether all of a text that was cut out is plain, and has no tags: what it means is in `values` then."""
         found = self.match(text)
-        if found is None or found.end() < len(text) or "<" in text or not self.has_value(text):
+        if (
+            found is None
+            or found.end() < len(text)
+            or "<" in text
+            or not self.may_mean(text, value := scalar_value(text))
+        ):
             return False
-        self.values[text] = scalar_value(text)
+        self.values[text] = value
         return True
 
-    def has_value(self, text: str) -> bool:
-        """Whether plain text has a value: no number beyond all, and no expression that brackets cut in pieces."""
-        return not is_overflow(text, scalar_value(text)) and not (self._are_in_brackets and is_cut_expression(text))
+    def may_mean(self, text: str, value: ScalarValue) -> bool:
+        """Whether a value is no number beyond all, and its text no expression that brackets cut in pieces."""
+        return not is_overflow(text, value) and not (self._are_in_brackets and is_cut_expression(text))

@@ -46,13 +46,13 @@ _COMMENTS = re.compile(r"(?:#[^\n]*\n[ \n]*){1,999}").match
 _RAW = pattern(r"\|(-?)\n( +)(?=[^ \n])")  # few files have any
 
 
-def read_quickly(file: SourceFile, text: str, most: int) -> tuple[YamlNode, int] | None:
-    """Return the top of a text's one document and how many nodes it has, each `<` in their texts counted as one.
+def read_quickly(file: SourceFile, most: int) -> tuple[YamlNode, int] | None:
+    """Return the top of a file's one document and how many nodes it has, each `<` in their texts counted as one.
 
-    `text` is the file's, without a byte order mark, and has no characters that YAML forbids. None for all that is not
-    simple, has more than `most` nodes, or is nested too deep.
+    The file has no characters that YAML forbids. None for all that is not simple, has more than `most` nodes, or is
+    nested too deep.
     """
-    text = text.replace("\r\n", " \n")
+    text = file.counted.replace("\r\n", " \n")
     if "\t" in text or "\r" in text:
         return None
     reader = _Reader(file, text, most)
@@ -171,7 +171,7 @@ class _Reader:
     def _odd_key(self, at: int, plain: PlainTexts) -> str:
         """Return the key at `at` that has blanks or colons in it, or begins as few do."""
         found = plain.match(self._text, at)
-        if found is None or found[0] == "<<" or len(found[0]) > _LONGEST_KEY or not plain.has_value(found[0]):
+        if found is None or found[0] == "<<" or len(found[0]) > _LONGEST_KEY or not plain.may_mean(found[0], found[0]):
             raise _NotSimpleError
         end = found.end()
         if self._text[end] != ":" or self._text[end + 1] not in " \n":
@@ -218,11 +218,11 @@ class _Reader:
 
     def _plain_text(self, at: int, plain: PlainTexts) -> YamlScalar:
         found = plain.match(self._text, at)
-        if found is None or not plain.has_value(found[0]):
+        if found is None or not plain.may_mean(text := found[0], value := scalar_value(text)):
             raise _NotSimpleError
-        self._count(found[0].count("<"))
+        self._count(text.count("<"))
         self._end = found.end()
-        return new(YamlScalar, (found[0], scalar_value(found[0]), self._file, at, None))
+        return new(YamlScalar, (text, value, self._file, at, None))
 
     def _quoted(self, at: int) -> YamlScalar:
         found = QUOTED(self._text, at)

@@ -37,17 +37,16 @@ def read_data(file: SourceFile, sink: Diagnostics, tags: Tags, budget: Budget | 
 
 def _root(file: SourceFile, sink: Diagnostics, budget: Budget, tags: Tags | None) -> YamlNode | None:
     """Return the top of the one document, None where the text cannot be read; `tags` is None for a spec."""
-    text = file.text.removeprefix("\ufeff")
-    if forbidden := FORBIDDEN_CHARACTER.search(text):
+    if forbidden := FORBIDDEN_CHARACTER.search(file.counted):
         span = file.between(*forbidden.span())
         sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
         return None
-    if (quick := read_quickly(file, text, budget.left(Limit.VALUES))) is None:
+    if (quick := read_quickly(file, budget.left(Limit.VALUES))) is None:
         # PyYAML waits for what is not simple: to import it takes a sixth of a short compile.
         from linkforge_compile.syntax.event_reader import read_events
         from linkforge_compile.syntax.marks import Marks
 
-        return read_events(Marks(file, text), sink, budget, tags)
+        return read_events(Marks(file), sink, budget, tags)
     root, size = quick
     budget.spend(Limit.VALUES, size, file.whole)
     return root

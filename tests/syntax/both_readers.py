@@ -14,14 +14,14 @@ from linkforge_compile.syntax.quick_reader import read_quickly
 
 def agree_on(text: str) -> bool:
     """Whether the quick reader reads a text, which the other must read alike: words, values, places, their count."""
-    file, text = SourceFile("r", text), text.removeprefix("\ufeff")
-    if FORBIDDEN_CHARACTER.search(text):
+    file = SourceFile("r", text)
+    if FORBIDDEN_CHARACTER.search(file.counted):
         return False
     budget, sink = Budget(), Diagnostics()
     most = budget.left(Limit.VALUES)
-    if (read := read_quickly(file, text, most)) is None:
+    if (read := read_quickly(file, most)) is None:
         return False
-    other = read_events(Marks(file, text), sink, budget, None)
+    other = read_events(Marks(file), sink, budget, None)
     assert not list(sink)
     assert other is not None
     quick, size = read

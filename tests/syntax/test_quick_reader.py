@@ -69,7 +69,7 @@ def test_simple_yaml_is_read_quickly(text: str):
     ],
 )
 def test_what_is_not_simple_or_at_fault_is_left_to_the_other(text: str):
-    assert read_quickly(SourceFile("r", text), text, 1000) is None
+    assert read_quickly(SourceFile("r", text), 1000) is None
 
 
 @pytest.mark.parametrize(
@@ -89,10 +89,10 @@ def test_what_is_not_simple_or_at_fault_is_left_to_the_other(text: str):
 )
 def test_no_more_is_read_than_is_left(text: str):
     file = SourceFile("r", text)
-    read = read_quickly(file, text, 1000)
+    read = read_quickly(file, 1000)
     assert read is not None
-    assert read_quickly(file, text, read[1]) is not None
-    assert read_quickly(file, text, read[1] - 1) is None
+    assert read_quickly(file, read[1]) is not None
+    assert read_quickly(file, read[1] - 1) is None
 
 
 @pytest.mark.parametrize(
@@ -111,7 +111,7 @@ def test_what_is_too_much_is_refused_before_it_is_read(text: str):
     file = SourceFile("r", text)
     tracemalloc.start()
     try:
-        assert read_quickly(file, text, 2000) is None
+        assert read_quickly(file, 2000) is None
         assert tracemalloc.get_traced_memory()[1] < 4 * len(text) + 1_500_000
     finally:
         tracemalloc.stop()
@@ -156,7 +156,7 @@ def test_raw_text_takes_no_more_room_than_it_has_characters():
     file = SourceFile("r", text)
     tracemalloc.start()
     try:
-        assert read_quickly(file, text, 100) is not None
+        assert read_quickly(file, 100) is not None
         assert tracemalloc.get_traced_memory()[1] < 6 * len(text)
     finally:
         tracemalloc.stop()
@@ -237,4 +237,4 @@ def test_both_readers_agree_on_what_is_almost_a_spec():
 def test_what_was_written_by_a_person_and_by_import_is_simple():
     for name in ("01_two_link_arm/two_link_arm", "07_quadruped/leg", "10_vendor_robots/vendor_robots"):
         text = Path(ROOT, "examples", f"{name}.robot.yaml").read_text("utf-8")
-        assert read_quickly(SourceFile(name, text), text, 10_000) is not None
+        assert read_quickly(SourceFile(name, text), 10_000) is not None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import OK, UsageError
 from linkforge_compile.cli.options import add_package_option, packages_of
+from linkforge_compile.roots import Roots, identity
 
 if TYPE_CHECKING:
     import argparse
@@ -66,5 +66,5 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _refuse_link_outside(output: Path, root: Path) -> None:
     """Refuse to write where nobody said, through a link that a stranger's repository may have laid there."""
-    if not Path(os.path.realpath(output)).is_relative_to(os.path.realpath(root)):
+    if not Roots((Path(identity(root)),)).hold(output):
         raise UsageError(f"'{output}' is a link that leads out of its folder; remove it, or write elsewhere with -o")
