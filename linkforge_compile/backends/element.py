@@ -16,6 +16,9 @@ from linkforge_compile.units import double_text
 if TYPE_CHECKING:
     from linkforge_compile.backends.raw import Path
 
+_MOST_SHOWN = 80
+"""Characters of raw XML that a message quotes."""
+
 
 class Extended(Protocol):
     """A part of the robot that may hold attributes and elements that no field says."""
@@ -35,6 +38,22 @@ class RestatedAttributeError(RobotGeneratorError):
         self.name = name
         self.source = source
         super().__init__(f"the attribute '{name}' is stated twice")
+
+
+class RawXmlError(RobotGeneratorError):
+    """Raw XML that cannot be read: `problem` is what is wrong at the index `at` of `text`.
+
+    `begun` is the index of the element that lacks its end, None where it is not that.
+    """
+
+    def __init__(self, problem: str, text: str, at: int, begun: int | None = None) -> None:
+        self.problem, self.text, self.at, self.begun = problem, text, at, begun
+        super().__init__(f"{problem}, in line {text.count(chr(10), 0, at) + 1} of {shown(text)}")
+
+
+def shown(text: str) -> str:
+    """Return raw XML as a message quotes it."""
+    return repr(text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}…")
 
 
 class InsideError(RobotGeneratorError):

@@ -87,12 +87,7 @@ def mark_of_line(source: SourceRef | None, path: tuple[str | int, ...], line: in
     marks = recorded()
     if marks is None or source is None:
         return ""
-    whole = source.at(*path)
-    number = whole.line + line
-    written = whole.file.line(number)
-    is_literal = whole.file.line(whole.line)[whole.column - 1 :].startswith("|")
-    if not is_literal or number > whole.end_line or not written.strip():
-        return mark(source, *path)
-    first, last = len(written) - len(written.lstrip()), len(written.rstrip())
-    span = whole._replace(line=number, column=first + 1, end_line=number, end_column=last + 1)
-    return marks.mark(Place(span, source.trail_to(span)))
+    from linkforge_compile.source.text_place import line_in_block
+
+    span = line_in_block(source.at(*path), line)
+    return mark(source, *path) if span is None else marks.mark(Place(span, source.trail_to(span)))

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
+from linkforge_compile.backends.element import RawXmlError, shown
 from linkforge_compile.backends.marks import mark, mark_of_line, recorded
 from linkforge_compile.backends.markup import (
     Xml,
@@ -26,8 +27,8 @@ from linkforge_compile.source import SourceRef
 if TYPE_CHECKING:
     from xml.parsers.expat import XMLParserType
 
-_MOST_SHOWN = 80
-"""Characters of raw XML that a message quotes."""
+_WRAPPER = "<extra>"
+"""Stands around raw XML, so that any number of elements is one document and a DOCTYPE is a fault."""
 
 _LONGEST_KEPT = 10_000
 """Characters of raw XML that is remembered laid out."""
@@ -87,7 +88,7 @@ def _laid_out(text: str, source: SourceRef | None, path: Path) -> Xml:
     require_writable(text)
     content = _parse(text, source, path)
     if any(map(is_text, content)):
-        raise RobotGeneratorError(f"raw XML must be elements, found text in {_shown(text)}")
+        raise RobotGeneratorError(f"raw XML must be elements, found text in {shown(text)}")
     return Xml("\n".join(_lines(content)))
 
 
@@ -181,10 +182,6 @@ def inline(item: Content) -> str:
     return f"{item.start}>{''.join(map(inline, item.content))}</{item.tag}>" if item.content else f"{item.start}/>"
 
 
-def _shown(text: str) -> str:
-    return repr(text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}…")
-
-
 def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     # expat knows nothing of namespaces unless told, so an undeclared `drake:` stays what it is; lxml refuses it.
     from xml.parsers import expat
@@ -199,17 +196,10 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     parser.CommentHandler = reader.comment
     parser.StartCdataSectionHandler = reader.begin_cdata
     parser.ProcessingInstructionHandler = reader.instruction
-    # Wrapped, so that any number of elements is one document and a DOCTYPE is a fault.
-    wrapped = f"<extra>{text}</extra>"
     try:
-        parser.Parse(wrapped, True)
+        parser.Parse(f"{_WRAPPER}{text}</extra>", True)
     except expat.ExpatError as error:
-        if wrapped.encode().startswith(b"<!DOCTYPE", parser.ErrorByteIndex - len("<!")):
-            reason = "has a document type, whose entities can hold and fetch anything; delete that"
-            raise RobotGeneratorError(f"raw XML {reason}: {_shown(text)}") from None
-        # Its column counts the wrapper.
-        reason = f"{expat.ErrorString(error.code)} in line {error.lineno}"
-        raise RobotGeneratorError(f"raw XML is not well-formed: {reason}: {_shown(text)}") from None
+        raise reader.malformed(error.code, text) from None
     finally:
         # The two know each other, and would stay until Python looks for cycles: 13 kB each, while a compile rests that.
         del reader.parser
@@ -226,7 +216,8 @@ class _Reader:
         self.document = Node("", (), [])
         self._mark = mark
         self._open = [self.document]
-        # Of each open element, whether white space in it is text.
+        # Of each open element, the byte at which it begins, and whether white space in it is text.
+        self._begun = [0]
         self._keeps_space = [False]
 
     def begin(self, tag: str, attributes: list[str]) -> None:
@@ -236,11 +227,13 @@ class _Reader:
         node = Node(tag, pairs, [], self._mark(self.parser.CurrentLineNumber))
         self._open[-1].content.append(node)
         self._open.append(node)
+        self._begun.append(self.parser.CurrentByteIndex)
         space = dict(pairs).get("xml:space")
         self._keeps_space.append(self._keeps_space[-1] if space is None else space == "preserve")
 
     def end(self, _: str) -> None:
         content = self._open.pop().content
+        self._begun.pop()
         if not self._keeps_space.pop() and all(not is_text(item) or not str(item).strip() for item in content):
             content[:] = [item for item in content if not is_text(item)]
 
@@ -256,3 +249,21 @@ class _Reader:
     def instruction(self, target: str, _: str) -> None:
         reason = "most readers of URDF refuse a file with one"
         raise RobotGeneratorError(f"raw XML holds the processing instruction '<?{target}'; {reason}")
+
+    def malformed(self, code: int, text: str) -> RawXmlError:
+        """Return what is wrong where the parser gave up with a code of expat's."""
+        from linkforge_compile.source.malformed_xml import malformed
+
+        read = text.encode()
+
+        def index(byte: int) -> int:
+            """Return the index into the text for one of expat, who counts bytes, and those of the wrapper."""
+            return min(len(read[: byte - len(_WRAPPER)].decode(errors="replace")), len(text.rstrip()))
+
+        at = index(self.parser.ErrorByteIndex)
+        if text.startswith("<!DOCTYPE", at - len("<!")):
+            reason = "raw XML has a document type, whose entities can hold and fetch anything; delete that"
+            return RawXmlError(reason, text, at - len("<!"))
+        found = malformed(code, text, at, [node.tag for node in self._open[2:]])
+        begun = index(self._begun[-1]) if found.is_open else None
+        return RawXmlError(f"raw XML is not well-formed: {found.problem}", text, found.at, begun)

@@ -5,15 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
-from linkforge_compile.backends.element import Extended, place_of_attribute, raw_texts, require_attribute_name
+from linkforge_compile.backends.element import (
+    Extended,
+    RawXmlError,
+    place_of_attribute,
+    raw_texts,
+    require_attribute_name,
+)
 from linkforge_compile.backends.markup import is_writable, require_writable
 from linkforge_compile.backends.parts import RAW_XML, Held, Part
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.link import LinkPhysics
 from linkforge_compile.core.part import Element, attribute_pairs
-from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.backends import UNWRITABLE
+from linkforge_compile.frozen import replace
 from linkforge_compile.source import Key, SourceRef
+from linkforge_compile.source.text_place import TextPlace
 
 
 def unwritable_texts(parts: Iterable[Held]) -> Iterator[Diagnostic]:
@@ -79,5 +87,17 @@ def refused(write: Callable[[], object], where: SourceRef | None, *path: str | i
     """Yield an error where writing is refused."""
     try:
         write()
+    except RawXmlError as error:
+        yield _malformed(error, where, *path)
     except RobotGeneratorError as error:
         yield UNWRITABLE.at(where, *path, reason=error)
+
+
+def _malformed(error: RawXmlError, where: SourceRef | None, *path: str | int) -> Diagnostic:
+    """Return the error for raw XML: at the place within its text, if the file has that as it is."""
+    told = UNWRITABLE.at(where, *path, reason=error)
+    place = TextPlace.of(error.text, told.span) if told.span else None
+    if place is None or (span := place.part(error.at, 1)) == told.span:
+        return told
+    begun = () if error.begun is None else (Note("the element that is open begins here", place.part(error.begun, 1)),)
+    return replace(UNWRITABLE.at(where, *path, reason=error.problem, notes=begun), span=span)

@@ -10,9 +10,9 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.grammar import names_in, refusals
 from linkforge_compile.expressions.habits import explain_syntax_error
-from linkforge_compile.expressions.place import TextPlace
 from linkforge_compile.expressions.template import Expression, Template
 from linkforge_compile.source import Span
+from linkforge_compile.source.text_place import TextPlace
 
 MAX_LENGTH = 2_000
 """How many characters an expression may have."""

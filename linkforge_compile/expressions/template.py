@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import ast
 
-from linkforge_compile.expressions.place import TextPlace
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Span
+from linkforge_compile.source.text_place import TextPlace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -216,7 +216,7 @@ class _Parse:
         return XmlDocument(root, tuple(document.content))
 
     def _malformed(self, error: expat.ExpatError) -> Diagnostic:
-        from linkforge_compile.importers.malformed import malformed
+        from linkforge_compile.source.malformed_xml import malformed
 
         _, *around = self._open
         at = self._offset(self._parser.ErrorByteIndex)

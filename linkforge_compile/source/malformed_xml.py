@@ -31,15 +31,16 @@ def malformed(code: int, text: str, at: int, open_tags: Sequence[str]) -> Malfor
     if not text.strip():
         return Malformed("the file is empty", 0)
     known, innermost = ErrorString(code), _shown(open_tags[-1]) if open_tags else None
-    if known == errors.XML_ERROR_INVALID_TOKEN and (found := _of_invalid_token(text, at)):
-        return found
-    if known == errors.XML_ERROR_TAG_MISMATCH and innermost:
-        name = _NAME.match(text, at)
-        closed = f"</{_shown(name[0])}>" if name else "an end"
-        return Malformed(f"expected </{innermost}>, found {closed}", at, is_open=True)
+    if known == errors.XML_ERROR_INVALID_TOKEN and (fault := _of_invalid_token(text, at)):
+        return fault
+    if known == errors.XML_ERROR_TAG_MISMATCH and (name := _NAME.match(text, at)):
+        found = f"</{_shown(name[0])}>"
+        if innermost is None:
+            return Malformed(f"{found} closes nothing that is open", at)
+        return Malformed(f"expected </{innermost}>, found {found}", at, is_open=True)
+    if innermost and known in (errors.XML_ERROR_NO_ELEMENTS, errors.XML_ERROR_TAG_MISMATCH):
+        return Malformed(f"it ends before </{innermost}>", at, is_open=True)
     if known == errors.XML_ERROR_NO_ELEMENTS:
-        if innermost:
-            return Malformed(f"it ends before </{innermost}>", at, is_open=True)
         return Malformed("there is no element in it", at)
     if known == errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
         return Malformed("it has one element, behind which nothing but comments may stand", at)
