@@ -94,15 +94,14 @@ def check_single_root(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     if gaps or len(roots) - 1 <= astray:
         return
     graph = joint_graph(robot)
-    below = {link.name: _links_below(link.name, graph) for link in roots}
     # A link on which nothing hangs has lost its joint, wherever it stands; else the base is what people write first.
-    root = min(roots, key=lambda link: (link.name != WORLD, not below[link.name]))
+    root = min(roots, key=lambda link: (link.name != WORLD, not any(use.name in graph for use in graph[link.name])))
     strays = [link for link in roots if link is not root]
     yield SEVERAL_ROOTS.at(
         _missing_joint(strays[0], root),
         notes=[
             *_base_by_omission(strays[0], root),
-            *(_beginning(link, below[link.name]) for link in (root, *strays)[:SHOWN]),
+            *(_beginning(link, _links_below(link.name, graph)) for link in (root, *strays)[:SHOWN]),
         ],
         count=len(roots),
         roots=listed([link.name for link in roots]),
