@@ -61,12 +61,12 @@ def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespac
     stale = _stale(outputs, order.spec, compilation.robot) if arguments.check and outputs else ()
     if tell((*_report(compilation, outputs), *stale), arguments) or outputs is None:
         return FAULTY_SPEC
-    for output in outputs:
-        _put(output, arguments)
-    if arguments.depfile is not None:
-        from linkforge_compile.cli.depfile import write_depfile
-
-        write_depfile(arguments.depfile, [output.path for output in outputs if output.path], compilation)
+    if arguments.depfile is None:
+        _put(outputs, arguments)
+    else:
+        # Who asks for a depfile is a build, which tells itself what it makes; colcon takes a word on standard error
+        # for a warning.
+        _write((*outputs, _depfile(outputs, compilation, arguments.depfile)))
     return OK
 
 
@@ -139,14 +139,25 @@ def _stale(outputs: Sequence[Output], spec: str, robot: Robot | None) -> Iterato
             yield found
 
 
-def _put(output: Output, arguments: argparse.Namespace) -> None:
-    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+def _put(outputs: Sequence[Output], arguments: argparse.Namespace) -> None:
+    written = frozenset() if arguments.check else _write(outputs)
+    for path, _ in outputs:
+        if path is not None:
+            say(f"wrote {path}" if path in written else f"{path} is up to date", arguments)
 
-    if output.path is None:
-        write_to_stdout(output.text)
-        return
-    is_new = not arguments.check and write_if_changed(output.path, output.text)
-    # Who asks for a depfile is a build, which tells itself what it makes; colcon takes a word on standard error for
-    # a warning.
-    if arguments.depfile is None:
-        say(f"wrote {output.path}" if is_new else f"{output.path} is up to date", arguments)
+
+def _write(outputs: Sequence[Output]) -> frozenset[Path]:
+    """Write all outputs, or none where one cannot be; return the files that had to be written."""
+    from linkforge_compile.cli.output import write_changed, write_to_stdout
+
+    for output in outputs:
+        if output.path is None:
+            write_to_stdout(output.text)
+    return write_changed({output.path: output.text for output in outputs if output.path is not None})
+
+
+def _depfile(outputs: Sequence[Output], compilation: Compilation, name: str) -> Output:
+    from linkforge_compile.cli.depfile import inputs_of, make_rules
+
+    targets = [output.path for output in outputs if output.path is not None]
+    return Output(file_to_write(name), make_rules(targets, inputs_of(compilation)))

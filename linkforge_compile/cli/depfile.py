@@ -8,8 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import UsageError
-from linkforge_compile.cli.output import write_if_changed, write_to_stdout
-from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.resources import compiler_files
 
 if TYPE_CHECKING:
@@ -25,15 +23,6 @@ _UNWRITABLE = re.compile(r"[\n\r;|\ud800-\udfff]")
 
 # Of Make, `=` before the colon assigns a variable, and `%` is a pattern; escaped for Make, `%` is no name to Ninja.
 _UNWRITABLE_IN_TARGETS = re.compile(r"[\n\r;|=%\ud800-\udfff]")
-
-
-def write_depfile(path: str, outputs: Sequence[Path], compilation: Compilation) -> None:
-    """Write the rules by which outputs depend on all that they were made from, to standard output for `-`."""
-    rules, file = make_rules(outputs, inputs_of(compilation)), file_to_write(path)
-    if file is None:
-        write_to_stdout(rules)
-    else:
-        write_if_changed(file, rules)
 
 
 def inputs_of(compilation: Compilation) -> tuple[Path, ...]:

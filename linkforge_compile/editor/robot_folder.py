@@ -52,6 +52,11 @@ class RobotFolder:
         *_, repository = (folder, *_up_to(folder, ".git"))
         return cls(folder, workspace_of(folder), package, repository)
 
+    @property
+    def folders(self) -> tuple[Path, ...]:
+        """All folders in which something may be written."""
+        return self.folder, self.workspace, self.package, self.repository
+
     def files(self, name: str) -> dict[Path, str]:
         """Return the text of each file by its path; the schema that the spec names is not among them.
 

@@ -251,6 +251,30 @@ def test_nothing_is_left_beside_the_output(pendulum: Path):
     assert [path.name for path in (pendulum / "out").iterdir()] == ["swing.urdf"]
 
 
+@pytest.mark.parametrize(
+    ("refused", "options", "count"),
+    [
+        ("out/arm.srdf", (), 2),
+        ("out/arm.srdf.map.json", ("--source-map",), 4),
+        ("out/arm.d", ("--depfile", "out/arm.d"), 3),
+    ],
+)
+def test_of_outputs_all_are_written_or_none(refused: str, options: tuple[str, ...], count: int, tmp_path: Path):
+    semantic = "semantic: {no_default_collision_links: [base]}\n"
+    (tmp_path / "arm.robot.yaml").write_text(f"linkforge: 1\nname: arm\nlinks: {{base: }}\n{semantic}")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "arm.urdf").write_text("old")
+    (tmp_path / refused).mkdir()
+    build = ("compile", "arm.robot.yaml", "-o", "out/", *options)
+    run = linkforge(*build, cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (2, f"linkforge compile: cannot write '{refused}': Is a directory\n")
+    assert (tmp_path / "out" / "arm.urdf").read_text() == "old"
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"arm.urdf", Path(refused).name}
+    (tmp_path / refused).rmdir()
+    assert linkforge(*build, cwd=tmp_path).returncode == 0
+    assert len([*(tmp_path / "out").iterdir()]) == count
+
+
 def test_output_that_cannot_be_written_is_wrong_usage(pendulum: Path):
     (pendulum / "file").touch()
     run = linkforge("compile", "swing.robot.yaml", "-o", "file/swing.urdf", cwd=pendulum)

@@ -113,6 +113,16 @@ def test_what_tools_read_at_the_top_of_a_repository_is_written_there(tmp_path: P
     assert missed.startswith("CMakeLists.txt:")
 
 
+@pytest.mark.parametrize("link", [".vscode", ".linkforge"])
+def test_nothing_is_written_through_a_link_that_leads_out(link: str, tmp_path: Path):
+    repository = tmp_path / "repository"
+    (repository / ".git").mkdir(parents=True)
+    (repository / link).symlink_to(tmp_path / "nowhere")
+    run = linkforge("init", "arm", "--dir", ".", cwd=repository)
+    assert (run.returncode, "is behind a link that leads out of its folder" in run.stderr) == (2, True)
+    assert {path.name for path in (*tmp_path.iterdir(), *repository.iterdir())} == {"repository", ".git", link}
+
+
 def test_what_git_ignores_everywhere_is_not_ignored_again(tmp_path: Path):
     (tmp_path / ".git").mkdir()
     (tmp_path / ".gitignore").write_text("build/\n**/install\n/log/\n")

@@ -49,27 +49,22 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _written(place: RobotFolder, name: str) -> list[str]:
     """Write what is not there yet and the schema, all or nothing; say what was done."""
-    from linkforge_compile.cli.output import write_if_changed
+    from linkforge_compile.cli.output import refuse_links_out, write_changed, write_if_changed
     from linkforge_compile.cli.workspace import schema_of
     from linkforge_compile.editor.robot_folder import SCHEMA
 
-    told: list[str] = []
-    written: list[Path] = []
+    files, schema = place.files(name), place.workspace / SCHEMA
+    new = {path: text for path, text in files.items() if not (path.exists() or path.is_symlink())}
+    refuse_links_out((*new, schema), place.folders, "--dir")
+    written = write_changed(new)
     try:
-        for path, text in place.files(name).items():
-            if path.exists() or path.is_symlink():
-                told.append(f"kept {path}, which is there already")
-                continue
-            write_if_changed(path, text)
-            written.append(path)
-            told.append(f"wrote {path}")
-        schema = place.workspace / SCHEMA
         # A first folder is no leave to run what is in the others.
         is_new = write_if_changed(schema, schema_of(place.workspace, {}, runs_xacro=False))
     except BaseException:
         for path in written:
             path.unlink()
         raise
+    told = [f"wrote {path}" if path in written else f"kept {path}, which is there already" for path in files]
     return [*told, f"wrote {schema}" if is_new else f"{schema} is up to date"]
 
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import OK, UsageError
 from linkforge_compile.cli.options import add_package_option, packages_of
-from linkforge_compile.roots import Roots, identity
 
 if TYPE_CHECKING:
     import argparse
@@ -42,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.output import put_json
+    from linkforge_compile.cli.output import put_json, refuse_links_out
     from linkforge_compile.schema.bundle import bundle_text
 
     if arguments.workspace is None:
@@ -59,12 +58,6 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(f"-o takes one schema, found those of {', '.join(map(str, roots))}; write --workspace FOLDER")
     for root in roots:
         if arguments.output is None:
-            _refuse_link_outside(root / SCHEMA, root)
+            refuse_links_out([root / SCHEMA], [root], "-o")
         put_json(schema_of(root, packages), arguments.output or str(root / SCHEMA), quiet=arguments.quiet)
     return OK
-
-
-def _refuse_link_outside(output: Path, root: Path) -> None:
-    """Refuse to write where nobody said, through a link that a stranger's repository may have laid there."""
-    if not Roots((Path(identity(root)),)).hold(output):
-        raise UsageError(f"'{output}' is a link that leads out of its folder; remove it, or write elsewhere with -o")
