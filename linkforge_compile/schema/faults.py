@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Final
 
 from jsonschema import Draft7Validator
 
-from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, too_many_errors
+from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, Note, too_many_errors
+from linkforge_compile.frozen import replace
 from linkforge_compile.schema.explain import Judgement, explain
 from linkforge_compile.schema.json_types import Schema
 from linkforge_compile.schema.meant import Path
@@ -64,10 +65,24 @@ def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> 
         return tree
     judgements = told_once(judgements, tree)
     for judgement in sorted(judgements, key=lambda judgement: judgement.diagnostic.order):
-        sink.report(judgement.diagnostic)
+        uses = tuple(_uses(tree, judgement.path))
+        told = judgement.diagnostic
+        sink.report(replace(told, notes=(*told.notes, *uses)) if uses else told)
     if sum(1 + len(judgement.also) for judgement in judgements) > MAX_TOLD:
         raise too_many_errors(judgements[-1].diagnostic.span)
     return _pruned(tree, judgements)
+
+
+def _uses(tree: YamlMap, path: Path) -> Iterator[Note]:
+    """Yield where aliases and `<<` bring in what stands on a path: its anchor is above, and may fit another place."""
+    node: YamlNode | None = tree
+    place = tree.span
+    for step in path:
+        key, node = (node.key_span(str(step)), node.child(step)) if node else (None, None)
+        for following in (key, node.span if node else None):
+            if following and following.start < place.start:
+                yield Note("used here", place)
+            place = following or place
 
 
 @cache

@@ -165,6 +165,26 @@ def test_every_fault_within_the_meant_branch_of_a_union_is_told():
     ]
 
 
+@pytest.mark.parametrize(
+    ("use", "place"),
+    [
+        ("collision: *v", "5:7"),
+        ("collision: [*v]", "5:18"),
+        ("collision: {name: c, <<: *v}", "5:18"),
+        ("visual: {sphere: {radius: 1}}, collision: *v", "5:38"),
+    ],
+)
+def test_what_an_alias_brings_in_is_told_with_the_place_that_uses_it(use: str, place: str):
+    sink = Diagnostics()
+    text = HEADER + f"x-shape: &v {{color: red}}\nlinks:\n  a: {{{use}}}\n"
+    tree = read(SourceFile("r", text), sink)
+    assert tree is not None
+    validate(tree, sink)
+    [told] = sink
+    assert str(told.span) == "r:3:14"
+    assert [(note.message, str(note.span)) for note in told.notes] == [("used here", f"r:{place}")]
+
+
 @pytest.mark.parametrize("text", ["name: arm\n", "name: arm\nlinkforge:\n"])
 def test_a_file_that_says_no_version_is_told_to_say_it_first(text: str):
     _, told = judged(text)
