@@ -241,9 +241,9 @@ def _bounds() -> str:
             f"{patterns.MAX_PATTERN:,} and {patterns.MAX_TEXT:,}"
         ),
         "size of a mesh file that is read": f"{mesh_solids.MAX_BYTES // mebibyte} MiB",
-        "triangles of such a mesh": MAX_TRIANGLES,
     }
     shared = {limit.counted.replace("'for'", "`for`"): limit.most for limit in Limit}
+    shared["triangles of one of these meshes"] = MAX_TRIANGLES
     told = {"errors that are told, and warnings": MAX_TOLD, "errors that are found": MAX_REPORTED}
     told |= {"warnings and notes that are counted beyond those": MAX_WARNED}
     told |= {"diagnostics that the command shows as text": MOST_SHOWN}

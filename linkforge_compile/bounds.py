@@ -95,8 +95,8 @@ class Budget:
 
     def __init__(self, times: int = 1) -> None:
         """`times` the limits are allowed."""
-        self._factor = times * (factor_of(os.environ.get(FACTOR_VARIABLE, "")) or 1)
-        self._left = {limit: limit.most * self._factor for limit in Limit}
+        self.times = times * (factor_of(os.environ.get(FACTOR_VARIABLE, "")) or 1)
+        self._left = {limit: limit.most * self.times for limit in Limit}
 
     def left(self, limit: Limit) -> int:
         """Return how much is left of one limit, below 0 where it is passed."""
@@ -110,5 +110,5 @@ class Budget:
 
     def beyond(self, limit: Limit, where: Where) -> BeyondLimitError:
         """Return what to raise at the place that passes a limit."""
-        most = f"{limit.most * self._factor:,}"
+        most = f"{limit.most * self.times:,}"
         return BeyondLimitError(BEYOND_LIMIT.at(where, most=most, counted=limit.counted, way_out=limit.value.way_out))

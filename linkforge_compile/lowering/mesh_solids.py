@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -38,6 +39,9 @@ MAX_BYTES = 128 * 1024 * 1024
 
 _WIDEST = 100.0  # [m]
 
+_MOST_UNSWEPT = 8 * 1024 * 1024
+"""Of meshes of so many bytes together, what the libraries made of them is kept until Python looks for cycles."""
+
 _CODES = {
     MeshFault.NO_LIBRARY: NO_MESH_LIBRARY,
     MeshFault.NO_FORMAT: MESH_OF_OTHER_FORMAT,
@@ -60,6 +64,7 @@ class MeshSolids:
         self._known: dict[str, Solid | MeshError] = {}  # by real path
         self._files: list[Path] = []
         self._unread: list[Path] = []
+        self._unswept = 0
         self.is_without_library = False
         """Whether a package that reads meshes is missing, which is told once, not at every mesh."""
 
@@ -82,20 +87,32 @@ class MeshSolids:
 
         """
         real = identity(path)
-        if real not in self._known:
-            content = self._content(path)
-            if content is None:
-                return None
-            self._budget.spend(Limit.MESH_BYTES, len(content), where)
-            self._files.append(as_typed(path))
-            try:
-                self._known[real] = solid_in(content, path.name)
-            except MeshError as error:
-                self._known[real] = error
-        known = self._known[real]
+        known = self._known.get(real)
+        if known is None and (known := self._read(path, where)) is not None:
+            self._known[real] = known
         if isinstance(known, MeshError):
             raise known
         return known
+
+    def _read(self, path: Path, where: Span) -> Solid | MeshError | None:
+        content = self._content(path)
+        if content is None:
+            return None
+        self._budget.spend(Limit.MESH_BYTES, len(content), where)
+        self._files.append(as_typed(path))
+        self._sweep(len(content))
+        try:
+            return solid_in(content, path.name, times=self._budget.times)
+        except MeshError as error:
+            # The error itself knows the frames that it came through, and so keeps all that was made of the mesh.
+            return MeshError(error.fault, error.message)
+
+    def _sweep(self, read: int) -> None:
+        """Let go of what was made of earlier meshes once it is much, for the collector rests; `read` bytes come now."""
+        self._unswept += read
+        if self._unswept > _MOST_UNSWEPT:
+            gc.collect()
+            self._unswept = 0
 
     def _content(self, path: Path) -> bytes | None:
         """Return what is in a file, None where there is none; one that cannot be had is noted."""

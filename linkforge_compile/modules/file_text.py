@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from linkforge_compile.bounds import MAX_FILE_BYTES
@@ -49,11 +50,14 @@ def file_bytes(path: Path, limit: int, *, only_regular: bool) -> bytes | None:
         if only_regular and path.exists() and not path.is_file():
             raise UnreadableError("it is no regular file")
         with path.open("rb") as stream:
-            content = stream.read(limit + 1)
+            # Python makes room for all that is asked for. What is no file on a disk has no size, or says 0.
+            content = stream.read(min(os.fstat(stream.fileno()).st_size or limit, limit) + 1)
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError as error:
         raise UnreadableError((error.strerror or type(error).__name__).lower()) from error
+    except MemoryError as error:
+        raise TooLargeError("it does not fit into memory") from error
     except ValueError as error:
         # A name with a NUL in it, which no file can have.
         raise UnreadableError(str(error)) from error

@@ -5,6 +5,7 @@ import struct
 import subprocess
 import sys
 from contextlib import suppress
+from typing import NoReturn
 
 import numpy as np
 import pytest
@@ -291,8 +292,19 @@ def test_triangles_are_counted(monkeypatch):
     monkeypatch.setattr("linkforge_compile.core.meshes.read.MAX_TRIANGLES", 20)
     for form in FORMATS:
         assert solid(block(1, 1, 1), form).volume == 1
-        error = fault(content(together(block(1, 1, 1), block(1, 1, 1, at=(2, 0, 0))), form), f"part.{ending(form)}")
+        name, two = f"part.{ending(form)}", content(together(block(1, 1, 1), block(1, 1, 1, at=(2, 0, 0))), form)
+        error = fault(two, name)
         assert (error.fault, error.message) == (MeshFault.TOO_LARGE, "it has more than 20 triangles")
+        assert solid_in(two, name, times=2).volume == 2
+
+
+def test_what_memory_is_too_small_for_is_a_fault_of_the_mesh(monkeypatch):
+    def without_memory(_: object) -> NoReturn:
+        raise MemoryError
+
+    monkeypatch.setattr(closed, "bounded_solid", without_memory)
+    error = fault(content(block(1, 1, 1), "stl"), "part.stl")
+    assert (error.fault, error.message) == (MeshFault.TOO_LARGE, "it does not fit into memory")
 
 
 @pytest.mark.parametrize("face", [b"f" + b" 1 2 3" * 8, b"f 1" + b" \\\n 2/1 3//4" * 11])
@@ -307,6 +319,8 @@ def test_triangles_of_a_polygon_are_counted_before_they_are_made(face, monkeypat
     ("face", "told"),
     [
         (b"f 1 2 99999999999999", "line 5: the face has a vertex 99999999999999, but the file has 3"),
+        (b"f 1/1 -0/1 2/1", "line 5: the face has a vertex 0, but the file has 3"),
+        (b"f 1 2 \\\n000", "line 5: the face has a vertex 0, but the file has 3"),
         (b"f 1/1 -4/1 2/1", "line 5: the face has a vertex -4, but the file has 3"),
         (b"f 1 2 x", "line 5: 'x' is no number of a vertex"),
         (b"f 1 2 3 1 " + b"9" * 5000, f"line 5: '{'9' * 40}' is no number of a vertex"),

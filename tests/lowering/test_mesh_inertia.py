@@ -109,7 +109,7 @@ def test_a_relative_mesh_of_a_text_that_lies_nowhere_is_nowhere():
 def test_a_mesh_is_read_once_for_all_links_and_modules(tmp_path, monkeypatch):
     save(CUBE, tmp_path / "cube.stl")
     read = []
-    monkeypatch.setattr(mesh_solids, "solid_in", lambda data, name: read.append(name) or solid_in(data, name))
+    monkeypatch.setattr(mesh_solids, "solid_in", lambda data, name, *, times: read.append(name) or solid_in(data, name))
     spec(tmp_path, link("[{mesh: cube.stl}, {mesh: {file: cube.stl, scale: 2}}]"), "leg.robot.yaml")
     uses = "modules: {a: {use: leg.robot.yaml, parent: base}, b: {use: leg.robot.yaml, parent: base}}\n"
     compile_file(spec(tmp_path, link("{mesh: cube.stl}") + uses)).result()

@@ -25,12 +25,12 @@ _HEADER, _TRIANGLE = 84, 50
 _LFS_POINTER = b"version https://git-lfs"
 
 
-def solid_in(content: bytes, name: str) -> Solid:
+def solid_in(content: bytes, name: str, *, times: int = 1) -> Solid:
     """Return the solid that a mesh bounds, in the units and the frame of its file; `name` ends in .stl, .obj or .dae.
 
     Several bodies are one solid; where they overlap, the common part counts for each. A COLLADA file says in what
     unit its numbers are, so they become metres, and its axes are those of its numbers whatever `up_axis` says:
-    so does RViz, for which most meshes of URDFs were made.
+    so does RViz, for which most meshes of URDFs were made. It may have `times` MAX_TRIANGLES.
 
     Raises:
         MeshError: The file cannot be read or what it holds is no solid. Nothing is mended.
@@ -46,36 +46,36 @@ def solid_in(content: bytes, name: str) -> Solid:
     try:
         from linkforge_compile.core.meshes.closed import bounded_solid
 
-        triangles = _read(content, ending)
+        triangles = _read(content, ending, MAX_TRIANGLES * times)
+        _require_few(len(triangles), MAX_TRIANGLES * times)
+        return bounded_solid(triangles)
     except ModuleNotFoundError as error:
         raise MeshError(MeshFault.NO_LIBRARY, (error.name or "trimesh").partition(".")[0]) from error
-    _require_few(len(triangles))
-    return bounded_solid(triangles)
+    except MemoryError as error:
+        raise MeshError(MeshFault.TOO_LARGE, "it does not fit into memory") from error
 
 
-def _read(content: bytes, ending: str) -> Triangles:
+def _read(content: bytes, ending: str, most: int) -> Triangles:
     try:
         with warnings.catch_warnings():
             # What the libraries think of a file, or of each other, is nothing that its user could act on.
             warnings.simplefilter("ignore")
-            return _READERS[ending](content)
-    except (MeshError, ModuleNotFoundError):
+            return _READERS[ending](content, most)
+    except (MeshError, ModuleNotFoundError, MemoryError):
         raise
-    except MemoryError as error:
-        raise MeshError(MeshFault.TOO_LARGE, "it does not fit into memory") from error
     except Exception as error:  # a stranger's file may bring parsers of three libraries to anything
         reason = " ".join(str(error).split())[:200]
         raise MeshError(MeshFault.UNREADABLE, reason or type(error).__name__) from error
 
 
-def _require_few(triangles: int) -> None:
-    if triangles > MAX_TRIANGLES:
-        raise MeshError(MeshFault.TOO_LARGE, f"it has more than {MAX_TRIANGLES:,} triangles")
+def _require_few(triangles: int, most: int) -> None:
+    if triangles > most:
+        raise MeshError(MeshFault.TOO_LARGE, f"it has more than {most:,} triangles")
 
 
-def _stl(content: bytes) -> Triangles:
+def _stl(content: bytes, most: int) -> Triangles:
     # Counted before a library makes several times their size of them, here and in an OBJ file.
-    _require_few(_triangles_of_stl(content))
+    _require_few(_triangles_of_stl(content), most)
     if _is_binary_stl(content):
         return _by_trimesh(content, "stl")
     if not content.lstrip().lower().startswith(b"solid"):
@@ -92,10 +92,13 @@ def _triangles_of_stl(content: bytes) -> int:
     return (len(content) - _HEADER) // _TRIANGLE if _is_binary_stl(content) else content.count(b"vertex") // 3
 
 
-def _obj(content: bytes) -> Triangles:
-    from linkforge_compile.core.meshes.wavefront import triangles_of_faces, wrong_corner
+def _obj(content: bytes, most: int) -> Triangles:
+    from linkforge_compile.core.meshes.wavefront import may_have_corner_0, triangles_of_faces, wrong_corner
 
-    _require_few(triangles_of_faces(content, MAX_TRIANGLES))
+    _require_few(triangles_of_faces(content, most), most)
+    # The library takes a corner 0 for the last vertex.
+    if may_have_corner_0(content) and (wrong := wrong_corner(content)):
+        raise MeshError(MeshFault.UNREADABLE, wrong)
     try:
         return _by_trimesh(_utf8(content), "obj")
     except (IndexError, ValueError, OverflowError) as error:
@@ -124,10 +127,10 @@ def _by_trimesh(content: bytes, file_type: str) -> Triangles:
     return np.concatenate([np.zeros((0, 3, 3)), *parts])
 
 
-def _collada(content: bytes) -> Triangles:
+def _collada(content: bytes, most: int) -> Triangles:
     from linkforge_compile.core.meshes.collada import collada_triangles
 
-    return collada_triangles(content, MAX_TRIANGLES)
+    return collada_triangles(content, most)
 
 
-_READERS: dict[str, Callable[[bytes], Triangles]] = {"stl": _stl, "obj": _obj, "dae": _collada}
+_READERS: dict[str, Callable[[bytes, int], Triangles]] = {"stl": _stl, "obj": _obj, "dae": _collada}

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 _FACE = re.compile(rb"^f((?:.*\\\r?\n)*.*)", re.MULTILINE)  # a backslash continues a line
 _CONTINUED = re.compile(rb"\\\r?\n")
+_ZERO = re.compile(rb"\s[+-]?0+(?:[/\s]|\Z)")
 _VERTEX = re.compile(rb"^v\s", re.MULTILINE)
 _NUMBER = re.compile(rb"[+-]?[0-9]{1,30}")  # of more digits than any number of vertices, and read in no time
 
@@ -20,6 +21,11 @@ def triangles_of_faces(content: bytes, most: int) -> int:
         if count > most:
             break
     return count
+
+
+def may_have_corner_0(content: bytes) -> bool:
+    """Whether a face seems to have one: a comment behind a face may have a 0 as well."""
+    return any(_ZERO.search(face[1]) for face in _FACE.finditer(content))
 
 
 def wrong_corner(content: bytes) -> str | None:
