@@ -72,7 +72,7 @@ def _document(marks: Marks, sink: Diagnostics, budget: Budget, tags: Tags | None
             return _document(marks, sink, budget, tags, yaml.BaseLoader)
         from linkforge_compile.syntax.malformed import explain_every
 
-        sink.report_all(explain_every(error, marks, reader.last_scalar))
+        sink.report_all(explain_every(error, marks, reader.last_scalar, reader.brackets))
     return None
 
 
@@ -100,6 +100,8 @@ class _Reader:
         self.size = 0
         """How many nodes there are so far, each alias counted as a copy of its own."""
         self.last_scalar: ScalarEvent | None = None
+        self.brackets: list[events.CollectionStartEvent] = []
+        """The flow lists and maps that are open."""
         self._budget = budget
         self._most = budget.left(Limit.VALUES)
         self._marks, self._file = marks, marks.file
@@ -249,6 +251,8 @@ class _Reader:
         flow = bool(start.flow_style)
         self._count(1, start)
         self._descend(depth, start)
+        if flow:
+            self.brackets.append(start)
         items: list[YamlNode] = []
         next_event, known, values = self._next, self._known, self._values
         while type(event := next_event()) is not SequenceEndEvent:
@@ -262,6 +266,8 @@ class _Reader:
         flow = bool(start.flow_style)
         self._count(1, start)
         self._descend(depth, start)
+        if flow:
+            self.brackets.append(start)
         pairs: list[tuple[YamlNode, YamlNode]] = []
         next_event, known, names, values = self._next, self._known, self._names, self._values
         while type(event := next_event()) is not MappingEndEvent:
@@ -291,6 +297,7 @@ class _Reader:
         assert begin is not None, "the parser marks every event"
         assert closing is not None, "the parser marks every event"
         if flow:
+            self.brackets.pop()
             self._closed = closing.index
         elif self.last_scalar is not None and self._marks.are_its_ends(self.last_scalar):
             self._closed = max(self._closed, self._marks.end(self.last_scalar))

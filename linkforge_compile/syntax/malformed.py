@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from yaml import MarkedYAMLError
-from yaml.events import ScalarEvent
+from yaml.events import CollectionStartEvent, ScalarEvent
 
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
@@ -66,6 +66,7 @@ class _Trouble:
     began: int
     marks: Marks
     last_scalar: ScalarEvent | None
+    brackets: Sequence[CollectionStartEvent]
 
     @property
     def character(self) -> str:
@@ -96,6 +97,13 @@ class _Trouble:
         is_just_before = span.end_line == self.here.line and not self.before[span.end_column - 1 :].strip()
         return span if is_just_before and span.line < span.end_line else None
 
+    def around(self) -> list[Note]:
+        """Return where the bracket opens that all this stands in, if above: it may lack its end."""
+        begins = [self.marks.begin(bracket) for bracket in self.brackets]
+        # A pair in a list, `[a: 1]`, is a map without a bracket.
+        opened = [self.marks.part(begin, 1) for begin in begins if self.marks.text[begin] in "[{&!"]
+        return [Note("inside the bracket that opens here", one) for one in opened[-1:] if one.line < self.here.line]
+
     def line_above(self, line: int | None = None) -> int:
         """Return the number of the last line above one, unless said this one, that says something; 0 for none."""
         line = (self.here.line if line is None else line) - 1
@@ -104,12 +112,13 @@ class _Trouble:
         return line
 
 
-def explain(error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent | None) -> Diagnostic:
-    """Return the diagnostic for a parser's error; `last_scalar` is the last one it could read."""
+def _explain(
+    error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent | None, brackets: Sequence[CollectionStartEvent]
+) -> Diagnostic:
     end = len(marks.text)
     at = min(error.problem_mark.index, end) if error.problem_mark else end
     began = error.context_mark.index if error.context_mark else at
-    trouble = _Trouble(error.problem or "", error.context or "", at, began, marks, last_scalar)
+    trouble = _Trouble(error.problem or "", error.context or "", at, began, marks, last_scalar, brackets)
     if quoted := trouble.quoted_before():
         return _text_in_quotes_ended(trouble, quoted)
     for line in (trouble.line_above(), trouble.here.line):
@@ -121,15 +130,21 @@ def explain(error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent | Non
     return codes.MALFORMED_YAML.at(trouble.here, problem=trouble.problem)
 
 
-def explain_every(error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent | None) -> Iterator[Diagnostic]:
+def explain_every(
+    error: MarkedYAMLError,
+    marks: Marks,
+    last_scalar: ScalarEvent | None,
+    brackets: Sequence[CollectionStartEvent],
+) -> Iterator[Diagnostic]:
     """Yield the diagnostic for a parser's error; where that is a habit of xacro, with every other like it in the file.
 
+    `last_scalar` is the last one that could be read, `brackets` are the flow lists and maps that are open there.
     Reading ends at the first, and whoever carries a file over has a hundred of them.
     """
     if conflict := _MERGE_CONFLICT.search(marks.text):
         yield codes.MERGE_CONFLICT.at(marks.part(conflict.start(), len(conflict[0])))
         return
-    first = explain(error, marks, last_scalar)
+    first = _explain(error, marks, last_scalar, brackets)
     yield first
     if first.code is codes.XACRO_EXPRESSION:
         for line in _LINE.finditer(marks.text):
@@ -157,7 +172,7 @@ def _tab(trouble: _Trouble) -> Diagnostic:
 def _reserved_character(trouble: _Trouble) -> Diagnostic:
     if trouble.character == "\t":
         return _tab(trouble)
-    return codes.RESERVED_START.at(trouble.here, character=trouble.character)
+    return codes.RESERVED_START.at(trouble.here, character=trouble.character, notes=trouble.around())
 
 
 def _reserved_start(trouble: _Trouble) -> Diagnostic:
@@ -285,7 +300,7 @@ def _broken_tag(trouble: _Trouble) -> Diagnostic:
 
 def _value_expected(trouble: _Trouble) -> Diagnostic:
     found = f"'{trouble.character}'" if trouble.character.strip() else "the end of the file"
-    return codes.MISSING_VALUE.at(trouble.here, found=found)
+    return codes.MISSING_VALUE.at(trouble.here, found=found, notes=trouble.around())
 
 
 def _document_ended(trouble: _Trouble) -> Diagnostic:

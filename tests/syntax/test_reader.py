@@ -262,11 +262,20 @@ def test_two_sections_of_one_name_are_one_with_the_entries_of_both():
     assert plain(tree) == {"a": {"b": 1, "c": "FAULT", "h": 4}, "d": {"e": "FAULT"}}
 
 
-def test_the_first_of_two_equal_keys_is_shown():
+@pytest.mark.parametrize(
+    ("text", "notes"),
+    [
+        ("a: 1\na: 2\n", [("first written here", "r:1:1")]),
+        ("a: {\n  b: |\n", [("inside the bracket that opens here", "r:1:4")]),
+        ("a: {b: &b [1,\nc:\n  - 2\n", [("inside the bracket that opens here", "r:1:8")]),
+        ("a: {b: [1], c: |\n", []),
+    ],
+)
+def test_the_other_place_is_shown_that_a_fault_is_about(text: str, notes: list[tuple[str, str]]):
     sink = Diagnostics()
-    read(SourceFile("r", "a: 1\na: 2\n"), sink)
+    read(SourceFile("r", text), sink)
     (told,) = sink
-    assert [(note.message, str(note.span)) for note in told.notes] == [("first written here", "r:1:1")]
+    assert [(note.message, str(note.span)) for note in told.notes] == notes
 
 
 def test_aliases_may_not_multiply_without_end():
