@@ -34,6 +34,7 @@ from linkforge_compile.lowering.quantities import (
 )
 from linkforge_compile.lowering.spec_object import SpecObject, made_ref
 from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.syntax.xacro import xacro_facts
@@ -293,7 +294,8 @@ class Fields(SpecObject):
                 self.tell(XACRO_EXPRESSION, where, text=each["text"], ours=each["ours"])
             return False
         wrong = next((character for character in name if not is_valid_name(character)), None)
-        reason = "it is empty" if wrong is None else f"{wrong!r} may not stand in one"
+        shown = repr(wrong) if wrong is None or wrong.isprintable() else code_point(wrong)
+        reason = "it is empty" if wrong is None else f"{shown} may not stand in one"
         self.tell(INVALID_NAME, where, name=name, kind=kind, reason=reason)
         return False
 

@@ -15,11 +15,11 @@ from linkforge_compile.diagnostics.codes.schema import (
     WRONG_KIND,
     WRONG_LENGTH,
 )
-from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
+from linkforge_compile.diagnostics.codes.syntax import TAB_INDENTATION, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.json_types import mapping
-from linkforge_compile.schema.keys_meant import unknown_keys
+from linkforge_compile.schema.keys_meant import like_space_before, unknown_keys
 from linkforge_compile.schema.meant import Misfit, Path, way_out, word_meant
 from linkforge_compile.schema.numbers_meant import is_row
 from linkforge_compile.schema.shapes import Shape, shapes
@@ -31,6 +31,7 @@ from linkforge_compile.schema.words import (
     shortened,
     words_of,
 )
+from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.xacro import xacro_facts
 
@@ -83,6 +84,8 @@ def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:
         first, *others = entries
         hinted = f"; {hint}" if hint else ""
         fault = UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
+        if like_space := like_space_before(first):
+            fault = TAB_INDENTATION.at(like_space, found=f"{code_point(like_space.text or '')}, which looks like one")
         yield Judgement(fault, (*path, first.name), tuple((*path, other.name) for other in others))
 
 

@@ -13,6 +13,8 @@ from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
 from linkforge_compile.schema.numbers_meant import number_to_write
 from linkforge_compile.schema.repetition import has_names
 from linkforge_compile.schema.words import COMMON_KEYS, alternatives, shown
+from linkforge_compile.source import Span
+from linkforge_compile.source.characters import LIKE_SPACES
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, is_null
 
 _SHOWN_KEYS = 10
@@ -52,11 +54,19 @@ def unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
         yield UnknownKeys(entries, f"{hint}; the same with {len(entries) - 1} more beside it" if many else hint, near)
 
 
+def like_space_before(entry: YamlEntry) -> Span | None:
+    """Return where a key begins with what looks like the spaces that indent it; None for other keys."""
+    found = LIKE_SPACES.match(entry.key.span.text or "")
+    return entry.key.span.within(found.start(1), 1) if found else None
+
+
 def _slip(entry: YamlEntry, node: YamlMap, schema: Schema) -> str:
     """Return what an unknown key has in common with others of one slip: where they belong, or what is said of it."""
     known, name = mapping(schema.get("properties", {})), entry.name
     if whole := _whole(entry, schema):
         return whole
+    if like_space_before(entry):
+        return " "
     if _of_a_table(entry, schema):
         return f"{name}:"
     hint, near = _meant(entry, node, schema)

@@ -13,7 +13,7 @@ from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Span
-from linkforge_compile.source.characters import code_point
+from linkforge_compile.source.characters import LIKE_SPACES, code_point
 from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.scalars import IN_QUOTES, is_cut_expression
 from linkforge_compile.syntax.xacro import XACRO_EXPRESSION, xacro_facts
@@ -28,7 +28,7 @@ _FIRST_WORD = re.compile(r"([A-Za-z]\w*) +\S")
 _ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
 _IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
 _LONGEST_EXPRESSION = 2_000
-_LIKE_SPACES = re.compile(r"[ \t]*([\u00a0\u2000-\u200b\u202f\u3000])")
+_ESCAPE_OF_NUMBER = re.compile(r"\\(?:u[0-9A-Fa-f]{4}|U[0-9A-Fa-f]{8})")
 _MERGE_CONFLICT = re.compile(r"^(?:<{7} .*|={7}$|>{7} .*)", re.MULTILINE)
 _LINE_OF_ENTRY = re.compile(r"\s*(?:-[ \t]+)?[\w$().-]+:(?!\S)")
 
@@ -122,7 +122,7 @@ def _explain(
     if quoted := trouble.quoted_before():
         return _text_in_quotes_ended(trouble, quoted)
     for line in (trouble.line_above(), trouble.here.line):
-        if (like_space := trouble.found(_LIKE_SPACES, line)) and (character := like_space.text):
+        if (like_space := trouble.found(LIKE_SPACES, line)) and (character := like_space.text):
             return codes.TAB_INDENTATION.at(like_space, found=f"{code_point(character)}, which looks like one")
     for pattern, tell in _SENTENCES:
         if re.search(pattern, trouble.problem):
@@ -286,6 +286,11 @@ def _text_in_quotes_ended(trouble: _Trouble, quoted: Span) -> Diagnostic:
 def _unknown_escape(trouble: _Trouble) -> Diagnostic:
     text = trouble.marks.text
     backslash = text.rfind("\\", trouble.began, trouble.at + 1)
+    if escape := _ESCAPE_OF_NUMBER.match(text, backslash):
+        number = int(escape[0][2:], 16)
+        half = ", which is half of one; write the whole one as it is" if 0xD800 <= number < 0xE000 else ""
+        place = trouble.marks.part(backslash, len(escape[0]))
+        return codes.FORBIDDEN_CHARACTER.at(place, character=f"U+{number:04X}{half}")
     span = trouble.marks.part(backslash, 2)
     return codes.UNKNOWN_ESCAPE.at(span, text=span.text)
 
