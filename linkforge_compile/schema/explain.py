@@ -15,14 +15,14 @@ from linkforge_compile.diagnostics.codes.schema import (
     WRONG_KIND,
     WRONG_LENGTH,
 )
-from linkforge_compile.diagnostics.codes.syntax import TAB_INDENTATION, XACRO_EXPRESSION
+from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, TAB_INDENTATION, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.named_tuple import NamedTuple
-from linkforge_compile.schema.json_types import mapping
+from linkforge_compile.schema.json_types import Schema, mapping
 from linkforge_compile.schema.keys_meant import like_space_before, unknown_keys
 from linkforge_compile.schema.meant import Misfit, Path, way_out, word_meant
 from linkforge_compile.schema.numbers_meant import is_row
-from linkforge_compile.schema.shapes import Shape, shapes
+from linkforge_compile.schema.shapes import Shape, shape_of, shapes
 from linkforge_compile.schema.words import (
     branch_meant,
     expected,
@@ -32,6 +32,7 @@ from linkforge_compile.schema.words import (
     words_of,
 )
 from linkforge_compile.source.characters import code_point
+from linkforge_compile.syntax.entries import STUCK
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.xacro import xacro_facts
 
@@ -71,11 +72,21 @@ def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
         for inner in error.context or ():
             if inner.schema_path[0] == meant:
                 yield from explain(inner, tree)
+    elif isinstance(node, YamlScalar) and _lacks_space(node, misfit.schema):
+        yield Judgement(SPACE_AFTER_COLON.at(node.span, text=node.text), path)
     elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
         for one in facts:
             yield Judgement(XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
     else:
         yield from _EXPLAIN[str(error.validator)](misfit)
+
+
+def _lacks_space(node: YamlScalar, schema: Schema) -> bool:
+    """Whether a text is a key and its value without a space, where an object with such a key belongs."""
+    key, _, value = node.text.partition(":")
+    shape = shape_of(schema)
+    is_stuck = STUCK.fullmatch(node.text) and node.text == node.span.text and not value.startswith("//")
+    return bool(is_stuck) and (shape.has_names or key in shape.keys)
 
 
 def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:

@@ -26,6 +26,7 @@ _KEY_STUCK_TO_VALUE = re.compile(r"\s*(?:-\s+)?([^\s:'\"]+:(?!//)[^\s:]\S*)")
 _WORD = re.compile(r"\w[\w$().-]*")
 _FIRST_WORD = re.compile(r"([A-Za-z]\w*) +\S")
 _ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
+_KEY_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-][^\s:]*:)(?!\S)")
 _IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
 _LONGEST_EXPRESSION = 2_000
 _ESCAPE_OF_NUMBER = re.compile(r"\\(?:u[0-9A-Fa-f]{4}|U[0-9A-Fa-f]{8})")
@@ -194,6 +195,8 @@ def _faulty_key_above(trouble: _Trouble) -> Diagnostic | None:
     above = trouble.line_above()
     if not above:
         return None
+    if stuck := trouble.found(_KEY_STUCK_TO_DASH, above):
+        return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
     if stuck := trouble.found(_KEY_STUCK_TO_VALUE, above):
         return codes.SPACE_AFTER_COLON.at(stuck, text=stuck.text)
     said = _said(trouble.marks.file.line(above))
