@@ -27,6 +27,7 @@ _WORD = re.compile(r"\w[\w$().-]*")
 _FIRST_WORD = re.compile(r"([A-Za-z]\w*) +\S")
 _ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
 _KEY_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-][^\s:]*:)(?!\S)")
+_TWO_KEYS = re.compile(r"([\w.-]+):\s+(\w+)\Z")
 _IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
 _LONGEST_EXPRESSION = 2_000
 _ESCAPE_OF_NUMBER = re.compile(r"\\(?:u[0-9A-Fa-f]{4}|U[0-9A-Fa-f]{8})")
@@ -183,7 +184,9 @@ def _reserved_start(trouble: _Trouble) -> Diagnostic:
 def _colon_not_expected(trouble: _Trouble) -> Diagnostic:
     """Tell a second `: ` on a line from a fault of the line above that only shows at this one's colon."""
     if re.search(r":\s", trouble.before):
-        return codes.SECOND_COLON.at(trouble.here)
+        keys = _TWO_KEYS.search(trouble.before)
+        or_map = f", or a map in braces: '{keys[1]}: {{{keys[2]}: …}}'" if keys else ""
+        return codes.SECOND_COLON.at(trouble.here, or_map=or_map)
     if fault := _faulty_key_above(trouble):
         return fault
     indentation = len(trouble.before) - len(trouble.before.lstrip())

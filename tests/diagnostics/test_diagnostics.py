@@ -157,6 +157,11 @@ def test_wide_characters_take_two_columns_and_control_characters_never_reach_the
     assert lines[2] == "       |       ^^^^^^^^"
 
 
+@pytest.mark.parametrize(("line", "shown"), [("\t\t", ["     1 | →→", "       | ^"]), ("  ", [])])
+def test_tabs_that_stand_alone_on_a_line_can_be_seen(line: str, shown: list[str]):
+    assert render_text([UNKNOWN.at(SourceFile("a.yaml", line).whole, name="x")]).splitlines()[1:] == shown
+
+
 def test_a_very_long_line_is_shown_around_the_fault():
     file = SourceFile("a.yaml", "x" * 5000 + "FAULT" + "y" * 5000)
     _, line, caret = render_text([UNKNOWN.at(Span(file, 1, 5001, 1, 5006), name="x")]).splitlines()

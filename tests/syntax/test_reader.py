@@ -201,7 +201,10 @@ def test_merged_entries_keep_their_own_places():
         ("a:\n- 1\n-2\n- 3\n", "3:1 a space is missing after the dash in '-2'"),
         ("links # all: of them\n  base: x\n", "1:1 a colon is missing after 'links'"),
         ("a: 1\nb\nc: 2\n", "2:1 a colon is missing after 'b'"),
-        ("a: b: c\n", "1:5 a second ': ' on this line; put text that holds one in quotes"),
+        (
+            "a: b: c\n",
+            "1:5 a second ': ' on this line; put text that holds one in quotes, or a map in braces: 'a: {b: …}'",
+        ),
         ("a: $(x ? 1 : 2)\n", "1:12 a second ': ' on this line; put text that holds one in quotes"),
         ("a: 1\n  b: 2\n", "2:3 this line is indented under an entry that already has a value"),
         ("a:\n  b: 1\n c: 2\n", "3:2 this line is not aligned with any entry above"),

@@ -96,10 +96,12 @@ def _headline(span: Span | None, severity: Severity, message: str, colour: bool)
 def snippet(span: Span | None, colour: str = "") -> Iterator[str]:
     """Yield the first line of the span and a caret line in the colour, an ANSI sequence or "" for none.
 
-    Nothing where the file has no such line.
+    Nothing where the file has no such line, or one of spaces.
     """
-    if span is None or not (line := span.file.line(span.line)).strip():
+    if span is None or not (line := span.file.line(span.line)).strip(" "):
         return
+    if not line.strip():
+        line = line.replace("\t", "→")
     start, end = span.column - 1, span.end_column - 1 if span.end_line == span.line else len(line)
     if len(line) > _WIDEST_LINE:
         cut = max(0, start - _CONTEXT_BEFORE)
