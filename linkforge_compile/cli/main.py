@@ -155,10 +155,10 @@ def _parser(
 ) -> argparse.ArgumentParser:
     import argparse
 
-    from linkforge_compile.cli.options import Once
+    from linkforge_compile.cli.options import Once, Parser
 
     description = f"{summary[0].upper()}{summary[1:]}."
-    parser = argparse.ArgumentParser(prog=program, description=description, formatter_class=_formatter_of_set_width)
+    parser = Parser(prog=program, description=description, formatter_class=_formatter_of_set_width)
     parser.register("action", None, Once)
     add_arguments(parser)
     parser.formatter_class = argparse.RawDescriptionHelpFormatter

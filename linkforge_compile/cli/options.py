@@ -5,8 +5,18 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import NoReturn
 
 from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.source.characters import on_one_line
+
+
+class Parser(argparse.ArgumentParser):
+    """Reads the words of one command."""
+
+    def error(self, message: str) -> NoReturn:
+        # It quotes words, and a script may take those from the names of files: they have no say over a terminal.
+        super().error(on_one_line(message))
 
 
 class Once(argparse.Action):

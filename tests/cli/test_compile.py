@@ -337,6 +337,7 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         (("compile", "swing.robot.yaml", "length=1"), "write '-p length=1' to set a parameter"),
         (("complie", "swing.robot.yaml"), "'complie' is no command; did you mean 'compile'?"),
         (("--verbose",), "'--verbose' is no command"),
+        (("check", "--a\x1b]0;title\x07\n.robot.yaml"), r"unrecognized arguments: --a\x1b]0;title\x07\n.robot.yaml"),
         (
             ("compile", "swing.robot.yaml", "--gazebo", "gz", "--gazebo", "classic"),
             "argument --gazebo: may be given once, found 'gz' and 'classic'",
