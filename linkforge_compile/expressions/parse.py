@@ -74,12 +74,12 @@ def _expression(text: str, offset: int, place: TextPlace, sink: Diagnostics) -> 
     text = _STRINGS_AND_SPACES.sub(lambda found: found[0] if found[0][0] in "'\"" else " ", text)
     try:
         tree = _syntax_tree(text)
-    except SyntaxError as error:
-        start, length, problem = explain_syntax_error(text, error)
-        sink.report(codes.UNREADABLE_EXPRESSION.at(place.part(offset + start, length), problem=problem))
-        return None
-    except (MemoryError, RecursionError, ValueError):  # Python's parser has had enough
-        sink.report(codes.EXPRESSION_TOO_LARGE.at(place.part(offset, len(text)), fault="nests too deep"))
+    except (SyntaxError, MemoryError, RecursionError, ValueError) as error:
+        if isinstance(error, SyntaxError) and error.msg != "too many nested parentheses":
+            start, length, problem = explain_syntax_error(text, error)
+            sink.report(codes.UNREADABLE_EXPRESSION.at(place.part(offset + start, length), problem=problem))
+        else:  # Python's parser has had enough
+            sink.report(codes.EXPRESSION_TOO_LARGE.at(place.part(offset, len(text)), fault="nests too deep"))
         return None
     expression = Expression(text, offset, place, tree)
     faults = tuple(refusals(expression))
