@@ -21,7 +21,6 @@ from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.backends import UNWRITABLE
 from linkforge_compile.frozen import replace
 from linkforge_compile.source import Key, SourceRef
-from linkforge_compile.source.text_place import TextPlace
 
 
 def unwritable_texts(parts: Iterable[Held]) -> Iterator[Diagnostic]:
@@ -95,6 +94,8 @@ def refused(write: Callable[[], object], where: SourceRef | None, *path: str | i
 
 def _malformed(error: RawXmlError, where: SourceRef | None, *path: str | int) -> Diagnostic:
     """Return the error for raw XML: at the place within its text, if the file has that as it is."""
+    from linkforge_compile.source.text_place import TextPlace
+
     told = UNWRITABLE.at(where, *path, reason=error)
     place = TextPlace.of(error.text, told.span) if told.span else None
     if place is None or (span := place.part(error.at, 1)) == told.span:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 from linkforge_compile.core.exceptions import RobotModelError
-from linkforge_compile.diagnostics import Code, Diagnostics, notes_of_changes
+from linkforge_compile.diagnostics import Code, Diagnostics, Note, notes_of_changes
 from linkforge_compile.diagnostics.codes.model import MISSING_FIELD, REFUSED, WRONG_KIND
 from linkforge_compile.lowering.quantities import found
 from linkforge_compile.source import SourceRef, Span
@@ -33,6 +33,12 @@ def has_fault(node: YamlMap) -> bool:
     """Whether a field of an object is at fault; not whether something in a field is."""
     # All objects are asked: to begin a generator takes longer than to look at their few fields.
     return YamlFault in [entry.value.__class__ for entry in node.entries.values()]
+
+
+def _use_of(place: Span, key: Span | None) -> tuple[Note, ...]:
+    """Return the key of a value that stands at a place above it: an alias says it there."""
+    is_above = key is not None and place.file is key.file and place.start < key.start
+    return (Note("used here", key),) if is_above else ()
 
 
 class SpecObject:
@@ -74,7 +80,8 @@ class SpecObject:
             self.sink.report(code.at(where, near=near, notes=(), **facts))
             return
         changed = notes_of_changes(self.node.span.changes, where.span) if where is not self.node else ()
-        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=changed, **facts))
+        used = _use_of(where.span, self.node.key_span(str(facts.get("field"))))
+        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=(*used, *changed), **facts))
 
     @property
     def is_faulty(self) -> bool:

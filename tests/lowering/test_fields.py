@@ -123,6 +123,13 @@ def test_each_number_of_a_vector_is_told_at_its_place():
     ]
 
 
+def test_the_field_is_shown_whose_value_an_alias_says():
+    fields = fields_of("x-size: &size [1, 2 kg, 3]\nbox: *size\norigin: [1, 2 kg, 3]\n")
+    assert fields.vector3("box", EXTENT) is None
+    assert fields.vector3("origin", EXTENT) is None
+    assert [[str(note.span) for note in one.notes] for one in fields.sink] == [["spec.yaml:2:1"], []]
+
+
 def test_an_entry_without_a_value_is_an_empty_object_at_its_name():
     fields = fields_of("links: {base: , arm: 3}")
     entries = dict(fields.each("links", "link", lambda link, name: (name, link.key)))
