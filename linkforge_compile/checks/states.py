@@ -96,10 +96,16 @@ def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[objec
         found = _counted(values) + ("" if count else "; leave it out")
         yield use.told(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=found)
     elif isinstance(joint, Joint) and values and isinstance(position := values[0], int | float):
-        unit = unit_in(use.place.text) if use.place else None
-        span = missed_range(joint, position, position, unit)
-        if span and not _is_doubted(position, joint, use.place):
-            yield use.told(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=in_unit(position, unit))
+        yield from _fault_of_position(use, joint, position)
+
+
+def _fault_of_position(use: Use, joint: Joint, position: float) -> Iterator[Diagnostic]:
+    # Few are outside, and to know in which unit a value is written takes longer than to compare it.
+    if missed_range(joint, position, position) is None or _is_doubted(position, joint, use.place):
+        return
+    unit = unit_in(use.place.text) if use.place else None
+    span = missed_range(joint, position, position, unit)
+    yield use.told(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=in_unit(position, unit))
 
 
 def _is_doubted(position: float, joint: Joint, place: Span | None) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from typing import Protocol, TypeVar
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
@@ -94,8 +94,10 @@ def _with_semantic(urdf: Imported, srdf: Imported) -> Imported:
     return Imported(tree, comments, (*urdf.documents, *srdf.documents))
 
 
-def _refusals(document: XmlDocument, faults: Iterable[Diagnostic]) -> dict[Span, DeclinedError]:
+def _refusals(document: XmlDocument, faults: tuple[Diagnostic, ...]) -> dict[Span, DeclinedError]:
     """Return the elements of an SRDF, by their spans, of which an error tells that the language refuses them."""
+    if not faults:
+        return {}
     owners = {span: element for element in _inside(document.root) for span in _spans(element)}
     refused: dict[Span, DeclinedError] = {}
     for fault in faults:
