@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterable, Mapping
 from types import MappingProxyType
 from typing import TypeAlias
 
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW
 from linkforge_compile.frozen import replace
@@ -34,6 +35,9 @@ _DEGREES = {Dimension.ANGLE: "deg", Dimension.ANGULAR_VELOCITY: "deg/s"}
 _MOST_DECIMALS = 3
 """So many digits behind the point may an angle in degrees have: more is no round angle, but a coincidence."""
 
+_TIMES_DRAFTED = 2
+"""How often a value may be drafted of which the spec holds one: of vendors' robots it is one and a half times."""
+
 
 Where: TypeAlias = Span | XmlAttribute | XmlElement | YamlNode
 """A span, or whatever the place of a node is that of."""
@@ -55,6 +59,7 @@ class Draft:
     elements, by their spans, that are known to be no use to the language, and why. `has_quaternions` says whether
     the document is of a version of URDF whose readers take them; the others ignore them. `shapes` are the robot's.
     `at_fault` are the elements in which an error has been told: what of them cannot be read is at fault, not raw.
+    `size` is how many values were put into maps, keys among them: what cannot but have too many ends there.
     """
 
     def __init__(
@@ -65,6 +70,8 @@ class Draft:
         shapes: Shapes = NO_SHAPES,
         at_fault: Collection[XmlElement] = (),
     ) -> None:
+        self._most = Budget(times=_TIMES_DRAFTED).left(Limit.VALUES)
+        self.size = 0
         self.refused = refused
         self.at_fault = at_fault
         self.has_quaternions = has_quaternions
@@ -122,24 +129,26 @@ class Draft:
 
     def map_of(self, entries: Mapping[str, YamlNode | None], where: Where) -> YamlMap:
         """Return a map without the entries of None; each key stands for the element that its value was made from."""
-        made = {}
+        made: dict[str, YamlEntry] = {}
         for name, node in entries.items():
             if node is not None:
-                key = self.text(name, node)
-                made[key.text] = YamlEntry(key, node)
-                for element in self._elements.get(node, ()):
-                    self.keys[element] = key
+                self._put(made, self.text(name, node), node)
         return YamlMap(made, *_bounds(where))
 
     def named(self, entries: Mapping[str, tuple[XmlAttribute, YamlNode]], where: Where) -> YamlMap | None:
         """Return a map keyed by names that stand in the file, None for an empty one."""
-        made = {}
+        made: dict[str, YamlEntry] = {}
         for name, (attribute, node) in entries.items():
-            key = self.text(name, attribute)
-            made[key.text] = YamlEntry(key, node)
-            for element in self._elements.get(node, ()):
-                self.keys[element] = key
+            self._put(made, self.text(name, attribute), node)
         return YamlMap(made, *_bounds(where)) if made else None
+
+    def _put(self, made: dict[str, YamlEntry], key: YamlScalar, node: YamlNode) -> None:
+        made[key.text] = YamlEntry(key, node)
+        for element in self._elements.get(node, ()):
+            self.keys[element] = key
+        self.size += 2 + (len(node) if isinstance(node, YamlList) else 0)
+        if self.size > self._most:
+            raise Budget().beyond(Limit.VALUES, node.span)
 
     def one_or_list(self, items: list[YamlNode]) -> YamlNode | None:
         """Return nothing, one thing, or a list of them."""

@@ -170,7 +170,7 @@ class Reading:
 
     def _read(self, child: XmlElement, read: Read) -> tuple[YamlNode | None] | None:
         """Read a child: one node or None; what is at fault is told already. None where it is declined."""
-        mark = len(self.draft.told)
+        mark, size = len(self.draft.told), self.draft.size
         try:
             if self.draft.refused and (refused := self.draft.refused.get(child.span)):
                 raise DeclinedError(refused.reason, refused.span)
@@ -179,6 +179,7 @@ class Reading:
         except DeclinedError as declined:
             # What was told of its parts, that they were kept raw or left out, is no longer so.
             del self.draft.told[mark:]
+            self.draft.size = size
             if child in self.draft.at_fault:
                 del self._children[child]
                 self._names_at_fault |= {*_names_in(child)}

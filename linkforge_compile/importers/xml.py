@@ -183,6 +183,7 @@ class _Parse:
         self._text = file.counted
         self._open = [_Open("", _NOTHING, 0, [])]
         self._elements = 0
+        """How many there were, comments among them."""
         self._last_tag: _Open | None = None
         """The element whose tag was read last, None where that was an end; `_last_end` is that of an end or comment."""
         self._last_end = -1
@@ -236,11 +237,9 @@ class _Parse:
 
     def _begin(self, tag: str, values: dict[str, str]) -> None:
         begin = self._here()
-        self._elements += 1
         if len(self._open) > MAX_NESTED_ELEMENTS:
             raise _RefusedError(TOO_DEEP.at(self._span(begin, len(tag) + 1), limit=MAX_NESTED_ELEMENTS))
-        if self._elements > self._most_elements:
-            raise _RefusedError(TOO_MANY_ELEMENTS.at(self._span(begin, len(tag) + 1), limit=MOST_ELEMENTS))
+        self._count(begin, len(tag) + 1)
         self._require_room(begin, len(tag) + 1)
         self._last_tag = _Open(tag, values or _NOTHING, begin, [])
         self._open.append(self._last_tag)
@@ -256,6 +255,12 @@ class _Parse:
         said = "".join([item for item in content if isinstance(item, str)])
         self._open[-1].content.append(XmlElement(tag, values, tuple(content), children, said, self._file, begin, end))
 
+    def _count(self, start: int, length: int) -> None:
+        """Refuse the element or comment that begins at an offset where the file has as many as it may."""
+        self._elements += 1
+        if self._elements > self._most_elements:
+            raise _RefusedError(TOO_MANY_ELEMENTS.at(self._span(start, length), limit=MOST_ELEMENTS))
+
     def _require_room(self, start: int, length: int) -> None:
         """Refuse what begins at an offset where the element around it holds as much as it may."""
         around = self._open[-1]
@@ -270,6 +275,7 @@ class _Parse:
 
     def _comment(self, text: str) -> None:
         start = self._here()
+        self._count(start, len("<!--"))
         self._require_room(start, len("<!--"))
         follows = self._follows(start)
         if follows:

@@ -657,6 +657,23 @@ def test_a_robot_that_no_spec_may_hold_is_told_at_its_place(limit: Limit, monkey
     assert limit.counted in told.message
 
 
+@pytest.mark.parametrize(("limit", "room", "line"), [(Limit.VALUES, "draft", 7), (Limit.ENTRIES, "urdf.robot", 12)])
+def test_what_cannot_but_be_too_much_is_told_where_it_gets_there(
+    limit: Limit, room: str, line: int, monkeypatch: pytest.MonkeyPatch
+):
+    class Spent(Budget):
+        def __init__(self, times: int = 1) -> None:
+            super().__init__(times)
+            self.spend(limit, times * limit.most - 10, None)
+
+    monkeypatch.setattr(f"linkforge_compile.importers.{room}.Budget", Spent)
+    monkeypatch.setattr("linkforge_compile.importing.count_entries", None)
+    links = "".join(f"<link name='l{i}'/>\n" for i in range(20))
+    imported = import_urdf("r.urdf", text=f"<robot name='r'>\n{links}</robot>")
+    [told] = imported.diagnostics
+    assert (imported.text, told.code.id, str(told.span)) == (None, "LF3301", f"r.urdf:{line}:1")
+
+
 def test_the_entries_of_its_srdf_count_for_a_spec(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     class Spent(Budget):
         def __init__(self) -> None:

@@ -160,6 +160,7 @@ def test_the_number_of_elements_is_bounded(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(reader, "MOST_ELEMENTS", 3)
     assert document("<a><b/><b/></a>")
     assert codes("<a><b/><b/><b/></a>") == ["LF8004"]
+    assert codes("<a><b/><!-- 1 --><!-- 2 --></a>") == ["LF8004"]
 
 
 @pytest.mark.parametrize("one_more", ["<b/>", "<!-- c -->", "text"])

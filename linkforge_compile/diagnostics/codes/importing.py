@@ -10,7 +10,7 @@ DOCUMENT_TYPE = Code(
     "LF8002", _E, "a document type is refused, for its entities can hold and fetch anything; delete it"
 )
 TOO_DEEP = Code("LF8003", _E, "elements are nested more than {limit} deep")
-TOO_MANY_ELEMENTS = Code("LF8004", _E, "the file has more than {limit} elements")
+TOO_MANY_ELEMENTS = Code("LF8004", _E, "the file has more than {limit} elements and comments")
 TOO_MUCH_INSIDE = Code("LF8098", _E, "{owner} has more than {limit} elements, comments and texts in it")
 NO_CHARACTER_OF_A_SPEC = Code("LF8005", _E, "a spec cannot hold the character {character}")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from functools import partial
 
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import SRDF_FOR_URDF
 from linkforge_compile.importers.comments import placed_comments
@@ -47,6 +48,7 @@ def read_urdf(
     if part := _part_of_srdf(root):
         sink.report(SRDF_FOR_URDF.at(part.span, tag=part.tag))
         return None
+    _require_few_parts(root)
     draft, tree = _drafted(root)
     # What readers refuse has no form in the language, so where nothing is raw there is none of it.
     if draft.raw and not keeps_refused and (faults := tuple(refused_by_readers(root))):
@@ -54,6 +56,14 @@ def read_urdf(
         draft, tree = _drafted(root, frozenset(element for fault in faults for element in fault.path))
     draft.tell(sink)
     return Imported(tree, placed_comments(document, draft, tree), (document,))
+
+
+def _require_few_parts(root: XmlElement) -> None:
+    """Refuse a robot of too many parts before it is read, which takes long: a fixed joint may be one with its link."""
+    parts = [one for one in root.children if one.tag == "link" or (one.tag == "joint" and one.get("type") != "fixed")]
+    budget = Budget()
+    if len(parts) > (most := budget.left(Limit.ENTRIES)):
+        raise budget.beyond(Limit.ENTRIES, parts[most].span)
 
 
 def _drafted(root: XmlElement, at_fault: Collection[XmlElement] = ()) -> tuple[Draft, YamlMap]:
