@@ -97,8 +97,8 @@ PARTS = list(parts(full()))
 def test_no_change_of_a_single_field_is_silent(part: object):
     for field, other in changed_parts(part):
         if other != part:
-            assert list(walk(("part",), part, other, How())), (field, other)
-            assert list(walk(("part",), other, part, How())), (field, other)
+            assert any(walk(("part",), part, other, How())), (field, other)
+            assert any(walk(("part",), other, part, How())), (field, other)
 
 
 def test_every_field_of_every_part_was_changed_by_that():
