@@ -41,7 +41,10 @@ def _root(file: SourceFile, sink: Diagnostics, budget: Budget, tags: Tags | None
         span = file.between(*forbidden.span())
         sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
         return None
-    if (quick := read_quickly(file, budget.left(Limit.VALUES))) is None:
+    left, text = budget.left(Limit.VALUES), file.counted
+    # So many will be too many values, of which the other reader tells the place: it is not read twice until there.
+    is_too_much = text.count("\n") + text.count(",") > 2 * left
+    if is_too_much or (quick := read_quickly(file, left)) is None:
         # PyYAML waits for what is not simple: to import it takes a sixth of a short compile.
         from linkforge_compile.syntax.event_reader import read_events
         from linkforge_compile.syntax.marks import Marks

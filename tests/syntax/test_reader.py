@@ -9,6 +9,7 @@ import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.source import SourceFile, Span
@@ -287,6 +288,15 @@ def test_aliases_may_not_multiply_without_end():
         laughs += f"{name}: &{name} [{', '.join(['*' + before] * 9)}]\n"
     with pytest.raises(BeyondLimitError, match="r:6:32: error: the robot takes more than 500,000 values"):
         read_text(laughs)
+
+
+@pytest.mark.parametrize("text", ["a: [" + "1, " * 300 + "1]\n", "".join(f"a{number}:\n" for number in range(300))])
+def test_what_is_far_too_much_is_read_once_until_it_is_refused(text: str, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(reader, "read_quickly", lambda *_: pytest.fail("the other reader tells the place"))
+    budget, file = Budget(), SourceFile("r", text)
+    budget.spend(Limit.VALUES, budget.left(Limit.VALUES) - 100, file.whole)
+    with pytest.raises(BeyondLimitError):
+        read(file, Diagnostics(), budget)
 
 
 @pytest.mark.parametrize(
