@@ -93,8 +93,12 @@ def factor_of(said: str) -> int | None:
 class Budget:
     """What one compile may still take."""
 
-    def __init__(self, times: int = 1) -> None:
-        """`times` the limits are allowed."""
+    def __init__(self, times: int = 1, *, shared_by: str = "", within: Budget | None = None) -> None:
+        """`times` the limits are allowed; `shared_by` says by what, if by more than one compile.
+
+        What is taken counts in the budget that this one is `within` as well.
+        """
+        self._shared_by, self._within = shared_by, within
         self.times = times * (factor_of(os.environ.get(FACTOR_VARIABLE, "")) or 1)
         self._left = {limit: limit.most * self.times for limit in Limit}
 
@@ -102,13 +106,20 @@ class Budget:
         """Return how much is left of one limit, below 0 where it is passed."""
         return self._left[limit]
 
+    @property
+    def is_spent(self) -> bool:
+        """Whether one of the limits is passed."""
+        return min(self._left.values()) < 0
+
     def spend(self, limit: Limit, amount: int, where: Where) -> None:
         """Count what is taken at a place; raise BeyondLimitError where that is more than there may be."""
         left = self._left[limit] = self._left[limit] - amount
         if left < 0:
             raise self.beyond(limit, where)
+        if self._within is not None:
+            self._within.spend(limit, amount, where)
 
     def beyond(self, limit: Limit, where: Where) -> BeyondLimitError:
         """Return what to raise at the place that passes a limit."""
-        most = f"{limit.most * self.times:,}"
-        return BeyondLimitError(BEYOND_LIMIT.at(where, most=most, counted=limit.counted, way_out=limit.value.way_out))
+        most, counted = f"{limit.most * self.times:,}", f"{limit.counted}{self._shared_by}"
+        return BeyondLimitError(BEYOND_LIMIT.at(where, most=most, counted=counted, way_out=limit.value.way_out))

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
+from linkforge_compile.bounds import Budget
 from linkforge_compile.checks import check
 from linkforge_compile.collector import resting
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
@@ -181,9 +182,11 @@ def check_variants(
     gazebo: Gazebo = "gz",
     allow_outside: bool = False,
 ) -> dict[str | None, Compilation]:
-    """Check a spec file with its defaults (None) and with each of its variants, by name."""
-    file, settings = Path(path), Settings(parameters, packages, None, gazebo, Unset.NOTE, allow_outside=allow_outside)
-    return {name: _compile_file(file, settings._replace(variant=name)) for name in (None, *_variants(file, settings))}
+    """Check a spec file with its defaults (None) and each of its variants, by name, as far as five budgets reach."""
+    file, whole = Path(path), Budget(times=5, shared_by=", in all its variants together")
+    settings = Settings(parameters, packages, None, gazebo, Unset.NOTE, allow_outside=allow_outside, whole=whole)
+    names = (None, *_variants(file, settings))
+    return {name: _compile_file(file, settings._replace(variant=name)) for name in names if not whole.is_spent}
 
 
 def _variants(path: Path, settings: Settings) -> Iterable[str]:
@@ -227,7 +230,7 @@ _Read: TypeAlias = Callable[[Loader, Diagnostics], SpecFile | None]
 
 
 class Settings(NamedTuple):
-    """How to compile a spec."""
+    """How to compile a spec; `whole` is what it and other compiles together may take."""
 
     parameters: Parameters | None = None
     packages: Packages | None = None
@@ -236,12 +239,13 @@ class Settings(NamedTuple):
     unset: Unset = Unset.ERROR
     output: Path | None = None
     allow_outside: bool = False
+    whole: Budget | None = None
 
     def loader(self, place: Path | None) -> Loader:
         """Return what reads the files of one compile, the compiled one at a place; None for a text without one."""
         packages = {name: Path(place) for name, place in (self.packages or {}).items()}
         roots = ANYWHERE if self.allow_outside else Roots.around(place, packages.values())
-        return Loader(packages, roots)
+        return Loader(packages, roots, Budget(within=self.whole))
 
     def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:
         """Return the parameters; the loader may read the files that they name."""

@@ -81,7 +81,9 @@ _PACKAGE = "package://"
 class Loader:
     """All the files of one compile."""
 
-    def __init__(self, packages: Mapping[str, Path] | None = None, roots: Roots = ANYWHERE) -> None:
+    def __init__(
+        self, packages: Mapping[str, Path] | None = None, roots: Roots = ANYWHERE, budget: Budget | None = None
+    ) -> None:
         """`packages` come before every other place where `package://` is looked for.
 
         What a spec names is read within the `roots`, what its user names wherever it is. `judge` is asked of a
@@ -100,7 +102,7 @@ class Loader:
         self._xml: dict[str, SourceFile] = {}  # by real path
         self._read_elsewhere: list[Path] = []
         self._unread: list[Path] = []
-        self.budget = Budget()
+        self.budget = budget or Budget()
         self._budget_of_judges = Budget(times=_TIMES_JUDGED)
 
     @property

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file, compile_text
+from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.pipeline import check_variants
 from tests.modules.assembling import write
 
@@ -104,3 +105,19 @@ def test_every_variant_is_checked_and_the_defaults(tmp_path: Path):
     compilations = check_variants(tmp_path / "arm.robot.yaml")
     assert list(compilations) == [None, "sim", "lab", "plain"]
     assert {one.diagnostics[0].code.id for one in compilations.values()} == {"LF4102"}
+
+
+def test_variants_share_what_five_compiles_may_take(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    class Spent(Budget):
+        def __init__(self, times: int = 1, *, shared_by: str = "", within: Budget | None = None) -> None:
+            super().__init__(times, shared_by=shared_by, within=within)
+            if shared_by:
+                self.spend(Limit.ENTRIES, times * Limit.ENTRIES.most - 15, None)
+
+    monkeypatch.setattr("linkforge_compile.pipeline.Budget", Spent)
+    (tmp_path / "arm.robot.yaml").write_text(SPEC)
+    *whole, (last, ended) = check_variants(tmp_path / "arm.robot.yaml").items()
+    assert [(name, one.diagnostics) for name, one in whole] == [(None, ()), ("sim", ())]
+    assert (last, [one.code.id for one in ended.diagnostics]) == ("lab", ["LF3301"])
+    assert "more than 150,000 links" in ended.diagnostics[0].message
+    assert "in all its variants together" in ended.diagnostics[0].message
