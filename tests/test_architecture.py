@@ -42,7 +42,8 @@ MAY_IMPORT = {
     "writers": "source units syntax core modules shape_order",
     "compare": "core backends shape_order",
     "pipeline": (
-        "bounds source diagnostics units syntax schema importers modules lowering checks backends core roots stack collector"
+        "source diagnostics bounds units syntax schema importers modules lowering checks backends core roots stack "
+        "collector"
     ),
     "importing": "collector source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
     "launch": "diagnostics backends core modules pipeline stamps",
