@@ -8,9 +8,10 @@ light. `fields`, `replace`, `match`, `copy`, `pickle`, subclasses and type check
 so that a NaN equals itself. A class without a docstring has its name for one, not its signature, and
 `__dataclass_params__` shows itself otherwise.
 
-So are classes made that are frozen and have slots, or neither. What takes more than a look is left to the standard
-library, to make or to refuse: `InitVar`, an annotation that is no text, or that Python would first have to compute, a
-field that is the standard library's, or no argument where there are slots, a base that is made otherwise, and faults.
+So are classes made that are frozen and have slots, or are not frozen. What takes more than a look is left to the
+standard library, to make or to refuse: `InitVar`, an annotation that is no text, or that Python would first have to
+compute, a field that is the standard library's, or no argument where there are slots, a base that is made otherwise,
+and faults.
 """
 
 from __future__ import annotations
@@ -55,8 +56,8 @@ class _Parameters:
     init = repr = match_args = True
     order = unsafe_hash = weakref_slot = False
 
-    def __init__(self, frozen: bool, eq: bool, kw_only: bool) -> None:
-        self.frozen = self.slots = frozen
+    def __init__(self, frozen: bool, slots: bool, eq: bool, kw_only: bool) -> None:
+        self.frozen, self.slots = frozen, slots
         self.eq, self.kw_only = eq, kw_only
 
 
@@ -70,11 +71,11 @@ def _dataclass(
     kw_only: bool = False,
 ) -> type[_T] | Callable[[type[_T]], type[_T]]:
     def define(cls: type[_T]) -> type[_T]:
-        parameters = _Parameters(frozen, eq, kw_only)
-        known = _fields(cls, parameters) if frozen is slots else None
+        parameters = _Parameters(frozen, slots, eq, kw_only)
+        known = _fields(cls, parameters) if slots or not frozen else None
         if known is None:
             return _theirs(cls, frozen=frozen, slots=slots, eq=eq, kw_only=kw_only)
-        return _made(cls, known, parameters) if frozen else _furnished(cls, known, parameters)
+        return _made(cls, known, parameters) if slots else _furnished(cls, known, parameters)
 
     return define if cls is None else define(cls)
 
@@ -90,7 +91,9 @@ def _theirs(cls: type[_T], *, frozen: bool, slots: bool, eq: bool, kw_only: bool
 
 def _fields(cls: type, parameters: _Parameters) -> Fields | None:
     """Return the fields of a class, inherited ones first; None where not all are plain, or not in an order to call."""
-    if parameters.frozen and not {"__slots__", "__setattr__", "__delattr__"}.isdisjoint(vars(cls)):
+    if parameters.slots and "__slots__" in vars(cls):
+        return None
+    if parameters.frozen and not {"__setattr__", "__delattr__"}.isdisjoint(vars(cls)):
         return None
     known: dict[str, Field] = {}
     for base in reversed(cls.__mro__[1:]):
@@ -157,8 +160,7 @@ def _furnished(cls: type[_T], known: Fields, parameters: _Parameters) -> type[_T
         if isinstance(vars(cls).get(name), Field):
             # Where an object has no value, Python takes that of its class.
             delattr(cls, name) if one.default is MISSING else setattr(cls, name, one.default)
-    methods = _METHODS | (_comparison(known) | {"__hash__": None} if parameters.eq else {})
-    methods |= {"__init__": _init(cls, known, _named_setter), "__match_args__": _match_args(known)}
+    methods = _methods(known, parameters) | {"__init__": _init(cls, known, _named_setter)}
     for name, value in methods.items():
         if name not in vars(cls):
             setattr(cls, name, value)
@@ -168,7 +170,7 @@ def _furnished(cls: type[_T], known: Fields, parameters: _Parameters) -> type[_T
 
 
 def _made(cls: type[_T], known: Fields, parameters: _Parameters) -> type[_T]:
-    """Return the class anew, frozen, with methods and slots: Python gives slots to a class only as it is made."""
+    """Return the class anew, with methods and slots: Python gives slots to a class only as it is made."""
 
     def refuse_to_set(self: object, name: str, value: object) -> None:
         if type(self) is made or name in known:
@@ -180,22 +182,26 @@ def _made(cls: type[_T], known: Fields, parameters: _Parameters) -> type[_T]:
             raise _frozen(f"cannot delete field {name!r}")
         super(made, self).__delattr__(name)  # type: ignore[misc]  # see above
 
-    own = _own_attributes(cls, known, parameters.eq)
-    attributes = _METHODS | _STATE | (_comparison(known) if parameters.eq else {})
-    attributes |= {
-        "__qualname__": cls.__qualname__,
-        "__slots__": _slots(cls, known),
-        "__match_args__": _match_args(known),
-        **own,
-        "__setattr__": refuse_to_set,
-        "__delattr__": refuse_to_delete,
-        **_marks(cls, known, parameters),
-    }
+    own = _own_attributes(cls, known, parameters)
+    attributes = _methods(known, parameters)
+    attributes |= {"__qualname__": cls.__qualname__, "__slots__": _slots(cls, known), **own}
+    if parameters.frozen:
+        attributes |= {"__setattr__": refuse_to_set, "__delattr__": refuse_to_delete}
+    attributes |= _marks(cls, known, parameters)
     metaclass: Callable[..., type[_T]] = type(cls)
     made = metaclass(cls.__name__, cls.__bases__, attributes)
     if "__init__" not in own:
-        type.__setattr__(made, "__init__", _init(made, known, _slot_setter))
+        setter = _slot_setter if parameters.frozen else _named_setter
+        type.__setattr__(made, "__init__", _init(made, known, setter))
     return made
+
+
+def _methods(known: Fields, parameters: _Parameters) -> dict[str, object]:
+    """Return what a class has that does not say it itself."""
+    methods = _METHODS | {"__match_args__": _match_args(known)}
+    if parameters.eq:
+        methods |= _comparison(known) | ({} if parameters.frozen else {"__hash__": None})
+    return methods | _STATE if parameters.frozen else methods
 
 
 def _marks(cls: type, known: Fields, parameters: _Parameters) -> dict[str, object]:
@@ -217,10 +223,10 @@ def _frozen(message: str) -> AttributeError:
     return FrozenInstanceError(message)
 
 
-def _own_attributes(cls: type, known: Fields, eq: bool) -> dict[str, object]:
+def _own_attributes(cls: type, known: Fields, parameters: _Parameters) -> dict[str, object]:
     # Where the class was as yet without slots, its objects had these two.
     left = known.keys() | {"__dict__", "__weakref__"}
-    if eq and "__eq__" in vars(cls) and vars(cls)["__hash__"] is None:
+    if parameters.eq and "__eq__" in vars(cls) and vars(cls)["__hash__"] is None:
         left.add("__hash__")  # Python's word for having the one and not the other; fields have a hash
     return {name: value for name, value in vars(cls).items() if name not in left}
 

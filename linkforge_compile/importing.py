@@ -107,7 +107,7 @@ def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> ReadBack:
     return ReadBack(back, tuple(one for one in sink.sorted() if one.severity is Severity.ERROR))
 
 
-@resting()
+@resting
 @suggesting()
 def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     from linkforge_compile.importers.srdf import with_srdf
@@ -133,7 +133,7 @@ def _judge_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Judged]:
     return lambda tree: judged(meshes, replace(spec, tree=tree), loader)
 
 
-@resting()
+@resting
 @suggesting()
 def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     sink = Diagnostics()

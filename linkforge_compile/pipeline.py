@@ -278,7 +278,7 @@ def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation
     return with_room(lambda: _compiled(read, place, settings))
 
 
-@resting()
+@resting
 @suggesting()
 def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilation:
     require_dialect(settings.gazebo)

@@ -279,15 +279,46 @@ def test_a_base_that_may_be_changed_is_refused():
         dataclass(frozen=True, slots=True)(type("Faulty", (Base,), {}))
 
 
-def test_what_has_slots_and_is_not_frozen_is_the_standard_librarys():
-    @dataclass(slots=True)
-    class Counter:
-        count: int = field(default=0)
+def _that_changes_in_slots(decorator: Callable, field: Callable) -> type:
+    class Counted:
+        __slots__ = ()
+        changes = 0
 
-    counter = Counter()
-    counter.count += 1
-    assert counter == Counter(1)
-    assert not is_quick(Counter)
+        def __setattr__(self, name: str, value: object) -> None:
+            Counted.changes += 1
+            super().__setattr__(name, value)
+
+    @decorator(slots=True)
+    class Counter(Counted):
+        count: int = 0
+        steps: list[int] = field(default_factory=list)
+        source: str | None = field(default=None, compare=False, repr=False, kw_only=True)
+
+        def add(self, step: int) -> None:
+            self.count += step
+
+    Counter.__qualname__ = "Counter"
+    return Counter
+
+
+@pytest.mark.parametrize(
+    "made", [(dataclass, field), (dataclasses.dataclass, dataclasses.field)], ids=["ours", "standard"]
+)
+def test_what_changes_and_has_slots_is_what_the_standard_library_makes_of_it(made: tuple[Callable, Callable]):
+    cls = _that_changes_in_slots(*made)
+    counter = cls(2, source="here")
+    counter.add(3)
+    assert cls.__bases__[0].changes == 4  # each field is set as the class sets one
+    assert (repr(counter), counter.source) == ("Counter(count=5, steps=[])", "here")
+    assert counter == cls(5)
+    assert cls().steps is not cls().steps
+    assert copy.copy(counter) == copy.deepcopy(counter) == dataclasses.replace(counter) == counter
+    assert not hasattr(counter, "__dict__")
+    with pytest.raises(AttributeError):
+        counter.cuont = 1
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(counter)
+    assert is_quick(cls) is (made[0] is dataclass)
 
 
 def _that_changes(decorator: Callable, field: Callable) -> type:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 __all__ = ["render_srdf"]
 
 
-@resting()
+@resting
 def render_srdf(robot: Robot, *, pretty: bool = True, banner: str | None = None) -> str:
     """Return the robot's semantic part as an SRDF document, sections in the order of MoveIt's own writer.
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import lru_cache
 from typing import Any, TypeAlias, TypeVar
 
@@ -38,12 +39,25 @@ def prefixed_copies(parts: Sequence[P], prefix: str, shared: Copies | None = Non
 
     `shared` begins empty, and is handed to every call whose copies share parts under this prefix; None for this alone.
     """
+    if not parts:
+        return []
     if not is_harmless(prefix):
         return _asked(parts, prefix)
-    return harmless_copies(parts, prefix, {} if shared is None else shared)
+    return _harmless_copies(parts, prefix, {} if shared is None else shared)
 
 
-def harmless_copies(parts: Sequence[P], prefix: str, shared: Copies) -> list[P]:
+def written_copies(parts: Sequence[P], prefix: str, shared: Copies) -> list[P]:
+    """Return copies under a prefix that is harmless, whatever way of its own their class has.
+
+    The class calls this within that way; those of parts of another one are `with_prefix` of each.
+    """
+    if not parts:
+        return []
+    kind = type(parts[0])
+    return (_COPIERS.get(kind) or _copier_of(kind))(parts, prefix, shared)
+
+
+def _harmless_copies(parts: Sequence[P], prefix: str, shared: Copies) -> list[P]:
     """Return what `prefixed_copies` does for a prefix that is harmless."""
     return _DIRECT.get(type(parts[0]), _asked_or_learned)(parts, prefix, shared) if parts else []
 
@@ -84,14 +98,14 @@ def _has_own_way(kind: type[Any]) -> bool:
 
 
 def _copy_in_field(part: Any, prefix: str, shared: Copies) -> Any:
-    copy = shared[id(part)] = harmless_copies((part,), prefix, shared)[0]
+    copy = shared[id(part)] = _harmless_copies((part,), prefix, shared)[0]
     return copy
 
 
 def _constructing_copier(kind: type[Any]) -> _Copier:
     def copies(parts: Sequence[Any], prefix: str, shared: Copies) -> list[Any]:
         return [
-            _constructed_copy(part, prefix) if type(part) is kind else harmless_copies((part,), prefix, shared)[0]
+            _constructed_copy(part, prefix) if type(part) is kind else _harmless_copies((part,), prefix, shared)[0]
             for part in parts
         ]
 
@@ -118,32 +132,68 @@ def _under_prefix(value: Any, prefix: str) -> Any:
 def _written_copier(kind: type[Any]) -> _Copier:
     """Return a function that copies slot by slot, written out as dataclass does for `__init__`: a loop is slower.
 
-    So is a call for each part, of which a module has some sixty: the function takes all that stand side by side.
+    So is a call for each part, of which a module has some sixty: the function takes all that stand side by side, and
+    what these hold as well.
     """
-    any_name = " or ".join(f"part.{name}" for name in kind.PREFIXED)
-    lines = [
-        "def copies(parts, prefix, shared):",
-        "    made = []",
-        "    for part in parts:",
-        "        if type(part) is not kind:",
-        "            copy = harmless((part,), prefix, shared)[0]",
-        f"        elif not ({any_name}):",
-        "            copy = part",
-        "        else:",
-        "            copy = opened()",
-    ]
-    for field in fields(kind):
-        if field.name in kind.PREFIXED:
-            lines.append(f"            value = part.{field.name}")
-            lines.append(f"            copy.{field.name} = {_prefixed(str(field.type))}")
-        else:
-            lines.append(f"            copy.{field.name} = part.{field.name}")
-    lines += ["            copy.__class__ = kind", "        made.append(copy)", "    return made"]
-    scope: dict[str, Any] = {"kind": kind, "opened": opened(kind), "FrozenMap": FrozenMap, "direct": _DIRECT.get}
-    scope |= {"ask": _asked_or_learned, "harmless": harmless_copies, "copy_in_field": _copy_in_field}
+    scope: dict[str, Any] = {"FrozenMap": FrozenMap, "direct": _DIRECT.get}
+    scope |= {"ask": _asked_or_learned, "harmless": _harmless_copies, "copy_in_field": _copy_in_field}
+    lines = ["def copies(parts_0, prefix, shared):", *_indented(_loop(kind, 0, scope)), " return made_0"]
     exec("\n".join(lines), scope)
     copier: _Copier = scope["copies"]
     return copier
+
+
+def _loop(kind: type[Any], level: int, scope: dict[str, Any]) -> Iterator[str]:
+    """Yield the Python that copies parts of a level, nearly all of one class, and name in `scope` what it asks for."""
+    name, part, copy = kind.__name__, f"part_{level}", f"copy_{level}"
+    scope |= {name: kind, f"Opened{name}": opened(kind)}
+    yield f"made_{level} = []"
+    yield f"for {part} in parts_{level}:"
+    yield f" if type({part}) is not {name}:"
+    yield f"  {copy} = harmless(({part},), prefix, shared)[0]"
+    if not any(field.type == "str" for field in fields(kind) if field.name in kind.PREFIXED):
+        # What need not have a name, and has none, is the same in all robots.
+        yield f" elif not ({_any_name(kind, part)}):"
+        yield f"  {copy} = {part}"
+    yield " else:"
+    yield f"  {copy} = Opened{name}()"
+    for field in fields(kind):
+        if field.name not in kind.PREFIXED:
+            yield f"  {copy}.{field.name} = {part}.{field.name}"
+        elif level == 0 and (inner := _inner_kind(kind, str(field.type))):
+            yield from _indented(_inner_loop(inner, field.name, scope), 2)
+        else:
+            yield f"  value = {part}.{field.name}"
+            yield f"  {copy}.{field.name} = {_prefixed(str(field.type))}"
+    yield f"  {copy}.__class__ = {name}"
+    yield f" made_{level}.append({copy})"
+
+
+def _inner_loop(kind: type[Any], field: str, scope: dict[str, Any]) -> Iterator[str]:
+    """Yield the Python that copies what a part holds, but for a tuple in which nothing has a name: it is kept."""
+    yield f"parts_1 = part_0.{field}"
+    yield "for part_1 in parts_1:"
+    yield f" if type(part_1) is not {kind.__name__} or {_any_name(kind, 'part_1')}:"
+    yield from _indented(_loop(kind, 1, scope), 2)
+    yield f"  copy_0.{field} = tuple(made_1)"
+    yield "  break"
+    yield "else:"
+    yield f" copy_0.{field} = tuple(parts_1)"  # a link may hold a list
+
+
+def _any_name(kind: type[Any], part: str) -> str:
+    return " or ".join(f"{part}.{name}" for name in kind.PREFIXED)
+
+
+def _indented(lines: Iterable[str], by: int = 1) -> Iterator[str]:
+    return (" " * by + line for line in lines)
+
+
+def _inner_kind(kind: type[Any], annotation: str) -> type[Any] | None:
+    """Return the class of the parts of which a field holds several, None where each is asked, and for other fields."""
+    name = annotation.removeprefix("Sequence[").removesuffix("]")
+    inner = vars(sys.modules[kind.__module__]).get(name) if name != annotation else None
+    return inner if isinstance(inner, type) and hasattr(inner, "PREFIXED") and not _has_own_way(inner) else None
 
 
 def _prefixed(kind: str) -> str:

@@ -119,6 +119,11 @@ def test_a_copy_of_a_link_changes_alone():
     assert link.name == "base"
 
 
+def test_what_is_no_field_of_a_link_cannot_be_set():
+    with pytest.raises(AttributeError):
+        Link("base").visual = [Visual(BALL)]
+
+
 def test_a_prefix_reaches_names_and_materials():
     paint = Material("red", Color(1, 0, 0))
     link = Link("base", visuals=[Visual(BALL, material=paint, name="v")], collisions=[Collision(BALL, name="c")])
@@ -131,9 +136,9 @@ def test_a_prefix_reaches_names_and_materials():
 
 
 class Watched(Link):
-    """A link of a user's own, who looks at what is set, and has a property and a slot for fields."""
+    """A link of a user's own, who looks at what is set, and has a property and slots for fields."""
 
-    __slots__ = ("inertial",)
+    __slots__ = ("inertial", "seen")
 
     def __setattr__(self, field, value):
         if field == "physics" and value.mu > 5:

@@ -13,6 +13,7 @@ import pytest
 
 from linkforge_compile.core import (
     Box,
+    Collision,
     Color,
     EndEffector,
     GazeboElement,
@@ -383,6 +384,26 @@ def test_a_material_that_visuals_share_stays_one():
     arm = Robot("station", links=[Link("table")]).merge(painted("skin"), None, None, "left_")
     copies = {id(visual.material) for link in arm.links for visual in link.visuals}
     assert len(copies) == 1
+
+
+def test_a_robot_and_its_visuals_share_the_copy_of_a_material():
+    arm = painted("skin")
+    arm.materials["skin"] = arm.links[0].visuals[0].material
+    robot = Robot("station").merge(arm, None, None, "left_")
+    assert all(visual.material is robot.materials["left_skin"] for link in robot.links for visual in link.visuals)
+
+
+def test_shapes_without_a_name_are_those_of_the_component_and_lists_of_them_are_not():
+    arm = Robot("arm", links=[Link("a"), Link("b")], joints=[Joint("j", "fixed", "a", "b")])
+    shapes = [Collision(Box(Vector3(1, 1, 1))), Collision(Box(Vector3(2, 2, 2)))]
+    arm.link("a").collisions, arm.link("b").collisions = shapes, [*shapes, Collision(Box(Vector3(1, 1, 1)), name="c")]
+    robot = Robot("station").merge(arm, None, None, "left_")
+    shapes.clear()
+    assert [link.collisions for link in robot.links] == [
+        tuple(arm.link("b").collisions[:2]),
+        (*arm.link("b").collisions[:2], Collision(Box(Vector3(1, 1, 1)), name="left_c")),
+    ]
+    assert robot.link("left_b").collisions[0] is arm.link("b").collisions[0]
 
 
 def test_a_material_stays_one_for_the_links_beside_one_of_a_class_of_ones_own():

@@ -57,7 +57,7 @@ def require_dialect(gazebo: str) -> None:
         raise ValueError(f"gazebo takes {' or '.join(map(repr, DIALECTS))}, found {gazebo!r}")
 
 
-@resting()
+@resting
 def render_urdf(robot: Robot, *, pretty: bool = True, banner: str | None = None, gazebo: Gazebo = "gz") -> str:
     """Return the robot as a URDF document: materials, links, joints, transmissions, ros2_control, Gazebo, in its order.
 

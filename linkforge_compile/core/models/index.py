@@ -105,12 +105,14 @@ class _Shelf(Generic[T]):
             self._file(key, self.items, 0)
         return self._places[key]
 
-    def extend(self, items: Sequence[T], names: Iterable[Hashable]) -> None:
+    def extend(self, items: Sequence[T], names: Iterable[Hashable], *, new: bool) -> None:
+        """Put items at the end, with their names; `new` says that no other item has one of these."""
         start = len(self.items)
         self.items.extend(items)
-        if self._first is not None:
+        if (first := self._first) is not None:
             for place, name in enumerate(names, start):
-                self._first.setdefault(name, place)
+                if new or name not in first:
+                    first[name] = place
         for key in self._places:
             self._file(key, items, start)
 
@@ -174,7 +176,7 @@ class Index(Sequence[T]):
             return self
         # Somebody else may have gone on from here already, or tried to: then the two part company.
         shelf = self._shelf if len(self._shelf.items) == self._length else _Shelf(self, self._filing.key)
-        shelf.extend(added, names)
+        shelf.extend(added, names, new=self._filing.repeats is not Repeats.KEPT)
         longer: Index[T] = Index.__new__(Index)
         longer._stand(shelf, self._filing)
         return longer

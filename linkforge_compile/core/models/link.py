@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
+from typing import ClassVar, Final
 
 from linkforge_compile.core.constants import (
     DEFAULT_CONTACT_KD,
@@ -20,11 +21,12 @@ from linkforge_compile.core.models.index import Renamable
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.naming import is_valid_name, prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
-from linkforge_compile.core.prefixing import Copies, harmless_copies, is_harmless, prefixed_copies
+from linkforge_compile.core.prefixing import Copies, is_harmless, prefixed_copies, written_copies
 from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
 from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
 from linkforge_compile.source import SourceRef
+from linkforge_compile.unjudged import unjudged
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +157,7 @@ class Collision(Element):
     name: str | None = None
 
 
-@dataclass
+@dataclass(slots=True)
 class Link(Renamable):
     """A rigid body, or a frame if `inertial` is None and it has no shapes: `<link name>`. It may be changed in place.
 
@@ -169,6 +171,8 @@ class Link(Renamable):
             letters, digits and `_ - . /`, INVALID_VALUE for another word in `shape_order`.
 
     """
+
+    PREFIXED: ClassVar[tuple[str, ...]] = ("name", "visuals", "collisions")
 
     name: str
     inertial: Inertial | None = None
@@ -261,54 +265,61 @@ class Link(Renamable):
             name, prefixed_copies(self.visuals, prefix, shared), prefixed_copies(self.collisions, prefix, shared)
         )
 
-    def _copy(self, name: str, visuals: Iterable[Visual], collisions: Iterable[Collision]) -> Link:
-        if type(self) is not Link:
-            from copy import copy
+    def __getstate__(self) -> object:
+        return object.__getstate__(self)  # without it, the oldest protocols of pickle refuse what has slots
 
-            link = copy(self)
-            _set_fields(link, name=name, visuals=tuple(visuals), collisions=tuple(collisions))
-            return link
-        attributes = vars(self).copy()
-        attributes["name"] = name
-        attributes["visuals"], attributes["collisions"] = tuple(visuals), tuple(collisions)
-        link = object.__new__(Link)
-        object.__setattr__(link, "__dict__", attributes)  # half of what it takes to fill the one that it has
+    def _copy(self, name: str, visuals: Iterable[Visual], collisions: Iterable[Collision]) -> Link:
+        if type(self) is Link:
+            return _of_judged_values(
+                name,
+                self.inertial,
+                self.physics,
+                tuple(visuals),
+                tuple(collisions),
+                shape_order=self.shape_order,
+                extra_attributes=self.extra_attributes,
+                extra_elements=self.extra_elements,
+                source=self.source,
+            )
+        from copy import copy
+
+        link = copy(self)
+        _set_fields(link, name=name, visuals=tuple(visuals), collisions=tuple(collisions))
         return link
 
 
 def _set_fields(link: Link, **values: object) -> None:
     """Set fields of a link that is being made or copied."""
     if type(link) is Link:
-        vars(link).update(values)  # a third of what it takes to set each as if it were a renaming
+        for name, value in values.items():
+            _SLOTS[name](link, value)  # a third of what it takes to set each as if it were a renaming
         return
     for name, value in values.items():  # somebody else's class may have a property or slot for one, or look at it
         setattr(link, name, value)
 
 
-def prefixed_links(links: Iterable[Link], prefix: str) -> list[Link]:
-    """Return links as `with_prefix` of each gives them; what they share stays shared among those that have ours."""
+_of_judged_values = unjudged(Link)
+_SLOTS: Final = {name: vars(Link)[name].__set__ for name in Link.__slots__}
+
+
+def prefixed_links(links: Iterable[Link], prefix: str, shared: Copies | None = None) -> list[Link]:
+    """Return links as `with_prefix` of each gives them; what they share stays shared among those that have ours.
+
+    `shared` has the copies of what others share with them, None for nothing, as `prefixed_copies` takes it.
+    """
     links = tuple(links)
-    if prefix and not is_harmless(prefix):
+    if not is_harmless(prefix):
         return [link.with_prefix(prefix) for link in links]
     ours = [link for link in links if type(link).with_prefix is Link.with_prefix]
-    copies = _harmless_copies_of_links(ours, prefix)
+    names = [link.name for link in ours]
+    if not (all(names) and is_valid_name("".join(names))):  # a link that was renamed in place may have any name
+        for name in names:
+            require_valid_characters(prefixed(prefix, name), "link name", "LinkName")
+    copies = written_copies(ours, prefix, {} if shared is None else shared)
     if len(ours) == len(links):
         return copies
     made = iter(copies)  # somebody else's class may have a way of its own
     return [next(made) if type(link).with_prefix is Link.with_prefix else link.with_prefix(prefix) for link in links]
-
-
-def _harmless_copies_of_links(links: Sequence[Link], prefix: str) -> list[Link]:
-    names = [prefixed(prefix, link.name) for link in links]
-    if not (all(names) and is_valid_name("".join(names))):  # a link that was renamed in place may have any name
-        for name in names:
-            require_valid_characters(name, "link name", "LinkName")
-    shared: Copies = {}
-    copied = harmless_copies if prefix else prefixed_copies  # which asks each shape, and that answers with itself
-    return [
-        link._copy(name, copied(link.visuals, prefix, shared), copied(link.collisions, prefix, shared))
-        for name, link in zip(names, links, strict=True)
-    ]
 
 
 def _kinds(words: Sequence[str]) -> tuple[str, ...]:

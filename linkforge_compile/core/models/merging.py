@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.link import prefixed_links
 from linkforge_compile.core.part import attribute_pairs
-from linkforge_compile.core.prefixing import prefixed_copies
+from linkforge_compile.core.prefixing import Copies, prefixed_copies
 from linkforge_compile.frozen import replace
 from linkforge_compile.named_tuple import NamedTuple
 
@@ -46,10 +46,13 @@ class PrefixedParts(NamedTuple):
             RobotModelError: INVALID_NAME where the prefix makes a name that no part may have.
 
         """
+        materials = list(robot.materials.values())
+        prefixed_materials = prefixed_copies(materials, prefix)
+        shared: Copies = dict(zip(map(id, materials), prefixed_materials, strict=True))
         return cls(
-            materials={prefix + name: material.with_prefix(prefix) for name, material in robot.materials.items()},
+            materials={prefix + name: each for name, each in zip(robot.materials, prefixed_materials, strict=True)},
             # Links may be changed in place: two robots never share one, and `with_prefix` makes a new one always.
-            links=prefixed_links(robot.links.listed(), prefix),
+            links=prefixed_links(robot.links.listed(), prefix, shared),
             joints=prefixed_copies(robot.joints.listed(), prefix),
             sensors=prefixed_copies(robot.sensors.listed(), prefix),
             transmissions=prefixed_copies(robot.transmissions.listed(), prefix),
@@ -70,7 +73,7 @@ class PrefixedParts(NamedTuple):
 
         """
         for name, material in self.materials.items():
-            if own.get(name, material) != material:
+            if name in own and own[name] != material:
                 raise RobotValidationError(
                     ValidationErrorCode.DUPLICATE_NAME,
                     f"Duplicate material name: '{name}', for two different materials",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final
 
 from linkforge_compile.collector import resting
 from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
@@ -25,6 +25,10 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.ros2_control import Ros2Control
     from linkforge_compile.core.models.sensor import Sensor
     from linkforge_compile.core.models.transmission import Transmission
+
+
+_BESIDE_TREE: Final = ("sensors", "transmissions", "ros2_controls", "gazebo_elements", "extra_elements")
+"""The collections that merging makes longer, beside links and joints."""
 
 
 class Robot(SemanticRobot):
@@ -117,7 +121,7 @@ class Robot(SemanticRobot):
             _require(self.joints, reference, f"Gazebo reference '{reference}'", "GazeboReference", "reference")
         self.gazebo_elements = self.gazebo_elements.extended((element,))
 
-    @resting()
+    @resting
     def merge(  # noqa: PLR0917 the contract's signature
         self,
         component: Robot,
@@ -144,10 +148,11 @@ class Robot(SemanticRobot):
                 different materials of one name; what Joint raises for the connecting one.
 
         """
+        own_links = self.links
         if at_link is not None:
-            _require(self.links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
+            _require(own_links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
         parts = _parts_under(component, prefix)
-        links = self.links.extended(parts.links)  # of two links of one name, nobody could say which one a joint means
+        links = own_links.extended(parts.links)  # of two links of one name, nobody could say which one a joint means
         joints = parts.joints
         if at_link is None:
             refuse_no_graph(parts.links, parts.joints)
@@ -162,21 +167,18 @@ class Robot(SemanticRobot):
     def _take_in(self, parts: PrefixedParts, links: Index[Link], joints: Sequence[Joint]) -> None:
         materials = parts.materials_beside(self.materials)
         add_materials = self.materials.update
-        longer_joints = self.joints.extended(joints)
-        sensors = self.sensors.extended(parts.sensors)
-        transmissions = self.transmissions.extended(parts.transmissions)
-        ros2_controls = self.ros2_controls.extended(parts.ros2_controls)
-        gazebo_elements = self.gazebo_elements.extended(parts.gazebo_elements)
-        extra_elements = self.extra_elements.extended(parts.extra_elements)
+        # Links come first: they alone can still be refused as they are assigned, had two been renamed alike.
+        grown: dict[str, Index[Any]] = {"links": links, "joints": self.joints.extended(joints)}
+        for collection in _BESIDE_TREE:
+            if added := getattr(parts, collection):
+                grown[collection] = getattr(self, collection).extended(added)
         own = dict(self.extra_attributes)
         extra_attributes = (*own.items(), *(said for said in parts.extra_attributes if said[0] not in own))
         semantic = self._semantic.joined(parts.semantic) if parts.semantic else self._semantic
-        # From here on the robot changes. Links come first: they alone can still be refused, had two been renamed alike.
-        self.links = links
-        self.joints = longer_joints
+        # From here on the robot changes.
+        for collection, longer in grown.items():
+            setattr(self, collection, longer)
         add_materials(materials)
-        self.sensors, self.transmissions, self.ros2_controls = sensors, transmissions, ros2_controls
-        self.gazebo_elements, self.extra_elements = gazebo_elements, extra_elements
         self.extra_attributes = extra_attributes
         self._semantic = semantic
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.index import Filing, Index, Repeats, itself
@@ -37,6 +37,8 @@ _EXTRAS: dict[str, Filing[Any]] = {  # Any, here and below: each collection has 
     "extra_inside": Filing("extra inside", itself, Repeats.KEPT),
     "extra_attributes": Filing("extra attribute", _attribute, Repeats.SKIPPED),
 }
+
+_COLLECTIONS: Final = (*_KINDS, *_EXTRAS)
 
 
 def _filing(collection: str) -> Filing[Any]:
@@ -85,7 +87,7 @@ class SemanticParts:
                 without default collisions excepted, which are kept once.
 
         """
-        return self.with_members({name: said for name in (*_KINDS, *_EXTRAS) if (said := getattr(other, name))})
+        return self.with_members({name: said for name in _COLLECTIONS if (said := getattr(other, name))})
 
     def with_members(self, members: Mapping[str, Sequence[object]]) -> SemanticParts:
         """Return this with more members, by the name of their collection; raises as `joined` does."""
