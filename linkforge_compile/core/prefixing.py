@@ -47,9 +47,9 @@ def prefixed_copies(parts: Sequence[P], prefix: str, shared: Copies | None = Non
 
 
 def written_copies(parts: Sequence[P], prefix: str, shared: Copies) -> list[P]:
-    """Return copies under a prefix that is harmless, whatever way of its own their class has.
+    """Return copies under a prefix that is harmless, of parts of one class of ours with a way of its own.
 
-    The class calls this within that way; those of parts of another one are `with_prefix` of each.
+    That way calls this, for what it asks before it copies.
     """
     if not parts:
         return []

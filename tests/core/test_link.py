@@ -161,6 +161,20 @@ def test_a_link_of_a_class_of_ones_own_sets_its_fields_in_its_way():
         Watched("base", physics=LinkPhysics(mu=9.0))
 
 
+class Tool(Link):
+    """A link of a user's own, that is made from something else than its fields."""
+
+    def __init__(self, length):
+        super().__init__(f"tool_{length}", visuals=[Visual(Sphere(length))])
+        self.length = length
+
+
+def test_a_link_that_is_made_otherwise_is_copied_and_not_made_anew():
+    copied, beside = prefixed_links([Tool(2), Link("base")], "left_")
+    assert (type(copied), copied.name, copied.length, beside.name) == (Tool, "left_tool_2", 2, "left_base")
+    assert copied.visuals == Tool(2).visuals
+
+
 def test_a_link_of_a_class_of_ones_own_is_copied_in_its_way():
     link = Watched("base", Inertial(2.0), visuals=[Visual(BALL, name="v")], collisions=[Collision(BALL)])
     for copied in (link.with_prefix("left_"), *prefixed_links([link], "left_")):

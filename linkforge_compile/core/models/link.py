@@ -303,14 +303,15 @@ _SLOTS: Final = {name: vars(Link)[name].__set__ for name in Link.__slots__}
 
 
 def prefixed_links(links: Iterable[Link], prefix: str, shared: Copies | None = None) -> list[Link]:
-    """Return links as `with_prefix` of each gives them; what they share stays shared among those that have ours.
+    """Return links as `with_prefix` of each gives them, asked only where its class is somebody else's.
 
-    `shared` has the copies of what others share with them, None for nothing, as `prefixed_copies` takes it.
+    What links share stays shared. `shared` has the copies of what others share with them, None for nothing, as
+    `prefixed_copies` takes it.
     """
     links = tuple(links)
     if not is_harmless(prefix):
         return [link.with_prefix(prefix) for link in links]
-    ours = [link for link in links if type(link).with_prefix is Link.with_prefix]
+    ours = [link for link in links if type(link) is Link]
     names = [link.name for link in ours]
     if not (all(names) and is_valid_name("".join(names))):  # a link that was renamed in place may have any name
         for name in names:
@@ -318,8 +319,8 @@ def prefixed_links(links: Iterable[Link], prefix: str, shared: Copies | None = N
     copies = written_copies(ours, prefix, {} if shared is None else shared)
     if len(ours) == len(links):
         return copies
-    made = iter(copies)  # somebody else's class may have a way of its own
-    return [next(made) if type(link).with_prefix is Link.with_prefix else link.with_prefix(prefix) for link in links]
+    made = iter(copies)
+    return [next(made) if type(link) is Link else link.with_prefix(prefix) for link in links]
 
 
 def _kinds(words: Sequence[str]) -> tuple[str, ...]:
