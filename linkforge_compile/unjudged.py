@@ -1,4 +1,4 @@
-"""Objects of frozen classes, of values that have been judged: made without another look, in a seventh of the time."""
+"""Objects of classes with slots, of judged values: made without another look, in a seventh of the time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Arguments = ParamSpec("Arguments")
 
 
 def unjudged(kind: Callable[Arguments, P]) -> Callable[Arguments, P]:
-    """Return what is called as a frozen class is, and makes of right values what that does, but looks at none.
+    """Return what is called as a class with slots is, and makes of right values what that does, but looks at none.
 
     Whoever calls it knows that the constructor would refuse no value, and keep each as it is: numbers are floats
     in the range of their field, sequences are tuples.

@@ -144,15 +144,38 @@ def _written_copier(kind: type[Any]) -> _Copier:
 
 
 def _loop(kind: type[Any], level: int, scope: dict[str, Any]) -> Iterator[str]:
-    """Yield the Python that copies parts of a level, nearly all of one class, and name in `scope` what it asks for."""
+    """Yield the Python that copies parts of a level, nearly all of one class, and name in `scope` what it asks for.
+
+    Of links, with those of their fields that stand for all others:
+
+        made_0 = []
+        for part_0 in parts_0:
+         if type(part_0) is not Link:
+          copy_0 = harmless((part_0,), prefix, shared)[0]
+         else:
+          copy_0 = OpenedLink()
+          value = part_0.name
+          copy_0.name = value and prefix + value
+          copy_0.inertial = part_0.inertial
+          parts_1 = part_0.visuals or ()
+          for one in parts_1:
+           if type(one) is not Visual or one.material or one.name:
+            made_1 = []  # and so on, as for made_0
+            copy_0.visuals = tuple(made_1)
+            break
+          else:
+           copy_0.visuals = tuple(parts_1)
+          copy_0.__class__ = Link
+         made_0.append(copy_0)
+    """
     name, part, copy = kind.__name__, f"part_{level}", f"copy_{level}"
     scope |= {name: kind, f"Opened{name}": opened(kind)}
     yield f"made_{level} = []"
     yield f"for {part} in parts_{level}:"
     yield f" if type({part}) is not {name}:"
     yield f"  {copy} = harmless(({part},), prefix, shared)[0]"
-    if not any(field.type == "str" for field in fields(kind) if field.name in kind.PREFIXED):
-        # What need not have a name, and has none, is the same in all robots.
+    if kind.__dataclass_params__.frozen:
+        # What nobody changes, and has no name, is the same in all robots.
         yield f" elif not ({_any_name(kind, part)}):"
         yield f"  {copy} = {part}"
     yield " else:"
@@ -160,7 +183,7 @@ def _loop(kind: type[Any], level: int, scope: dict[str, Any]) -> Iterator[str]:
     for field in fields(kind):
         if field.name not in kind.PREFIXED:
             yield f"  {copy}.{field.name} = {part}.{field.name}"
-        elif level == 0 and (inner := _inner_kind(kind, str(field.type))):
+        elif level == 0 and (inner := inner_kind(kind, str(field.type))):
             yield from _indented(_inner_loop(inner, field.name, scope), 2)
         else:
             yield f"  value = {part}.{field.name}"
@@ -171,9 +194,9 @@ def _loop(kind: type[Any], level: int, scope: dict[str, Any]) -> Iterator[str]:
 
 def _inner_loop(kind: type[Any], field: str, scope: dict[str, Any]) -> Iterator[str]:
     """Yield the Python that copies what a part holds, but for a tuple in which nothing has a name: it is kept."""
-    yield f"parts_1 = part_0.{field}"
-    yield "for part_1 in parts_1:"
-    yield f" if type(part_1) is not {kind.__name__} or {_any_name(kind, 'part_1')}:"
+    yield f"parts_1 = part_0.{field} or ()"
+    yield "for one in parts_1:"
+    yield f" if type(one) is not {kind.__name__} or {_any_name(kind, 'one')}:"
     yield from _indented(_loop(kind, 1, scope), 2)
     yield f"  copy_0.{field} = tuple(made_1)"
     yield "  break"
@@ -189,8 +212,12 @@ def _indented(lines: Iterable[str], by: int = 1) -> Iterator[str]:
     return (" " * by + line for line in lines)
 
 
-def _inner_kind(kind: type[Any], annotation: str) -> type[Any] | None:
-    """Return the class of the parts of which a field holds several, None where each is asked, and for other fields."""
+def inner_kind(kind: type[Any], annotation: str) -> type[Any] | None:
+    """Return the class of the parts that a field of a class holds several of, by its annotation.
+
+    None for other fields, for parts with a way of their own, and where the class's module does not import theirs: a
+    function for these is asked for each.
+    """
     name = annotation.removeprefix("Sequence[").removesuffix("]")
     inner = vars(sys.modules[kind.__module__]).get(name) if name != annotation else None
     return inner if isinstance(inner, type) and hasattr(inner, "PREFIXED") and not _has_own_way(inner) else None

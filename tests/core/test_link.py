@@ -2,6 +2,8 @@
 
 import copy
 import math
+import pickle
+import weakref
 
 import pytest
 
@@ -167,6 +169,31 @@ class Tool(Link):
     def __init__(self, length):
         super().__init__(f"tool_{length}", visuals=[Visual(Sphere(length))])
         self.length = length
+
+
+class Locked(Link):
+    """A link that nobody may change any more."""
+
+    def __init__(self, name):
+        super().__init__(name)
+        self.locked = True
+
+    def __setattr__(self, field, value):
+        if "locked" in vars(self):
+            raise TypeError(f"{self.name} is locked")
+        super().__setattr__(field, value)
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda link: pickle.loads(pickle.dumps(link))])
+def test_a_link_that_is_locked_can_be_copied(copied):
+    twin = copied(Locked("base"))
+    assert (twin, twin.locked) == (Locked("base"), True)
+
+
+def test_somebody_may_watch_a_link_that_he_does_not_keep():
+    link = Link("base")
+    seen = weakref.ref(link)
+    assert seen() is link
 
 
 def test_a_link_that_is_made_otherwise_is_copied_and_not_made_anew():

@@ -3,7 +3,7 @@
 import gc
 import sys
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import wraps
 from subprocess import run
 from types import MappingProxyType
@@ -27,6 +27,7 @@ from linkforge_compile.core import (
     Link,
     Material,
     PassiveJoint,
+    PlanningGroup,
     Robot,
     RobotBuilder,
     RobotModelError,
@@ -41,6 +42,7 @@ from linkforge_compile.core import (
     Vector3,
     Visual,
 )
+from linkforge_compile.core.prefixing import inner_kind
 
 Code = ValidationErrorCode
 RED, BLUE = Color(1, 0, 0), Color(0, 0, 1)
@@ -453,3 +455,17 @@ def test_a_prefix_that_no_name_may_have_is_refused():
         with pytest.raises(RobotModelError) as refused:
             joint.with_prefix("a b")
         assert refused.value.code is Code.INVALID_NAME
+
+
+INNER = {
+    Link: ["visuals", "collisions"],
+    Transmission: ["joints", "actuators"],
+    Ros2Control: ["joints", "sensors", "gpios"],
+    PlanningGroup: ["chains"],
+}
+
+
+@pytest.mark.parametrize("kind", INNER)
+def test_what_a_part_holds_several_of_is_copied_with_it(kind):
+    inner = [field.name for field in fields(kind) if field.name in kind.PREFIXED and inner_kind(kind, field.type)]
+    assert inner == INNER[kind]

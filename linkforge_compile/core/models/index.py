@@ -62,7 +62,7 @@ class Filing(NamedTuple, Generic[T]):
 class Renamable:  # noqa: PLW1641 its `__eq__` is there for mypy alone
     """An object that may be renamed while an index holds it: counts renamings, so that indices look again."""
 
-    __slots__ = ()
+    __slots__ = ("__weakref__",)
     renamings: ClassVar[int] = 0
 
     def __setattr__(self, attribute: str, value: object) -> None:

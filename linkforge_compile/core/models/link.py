@@ -268,6 +268,13 @@ class Link(Renamable):
     def __getstate__(self) -> object:
         return object.__getstate__(self)  # without it, the oldest protocols of pickle refuse what has slots
 
+    def __setstate__(self, state: tuple[Mapping[str, object] | None, Mapping[str, object]]) -> None:
+        attributes, slots = state
+        for name, value in slots.items():
+            object.__setattr__(self, name, value)  # somebody else's class may refuse changes
+        if attributes:
+            vars(self).update(attributes)
+
     def _copy(self, name: str, visuals: Iterable[Visual], collisions: Iterable[Collision]) -> Link:
         if type(self) is Link:
             return _of_judged_values(
