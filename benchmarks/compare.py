@@ -98,7 +98,7 @@ def long_chain(setting: Setting) -> Iterator[Row]:
         core.URDFGenerator().generate(robot)
 
     for what, spec in (("each written", text), ("by a `for`", repeated)):
-        runs = {"ours": partial(seconds_of, partial(ours, spec)), "LinkForge": partial(seconds_of, other)}
+        runs = {"ours": partial(seconds_of, partial(ours, spec)), "linkforge-core": partial(seconds_of, other)}
         yield against(f"1,000 links, {what}", setting, runs, reach=1.0)
 
 
@@ -128,10 +128,10 @@ def version(setting: Setting) -> Iterator[Row]:
 
 
 class Comparison(NamedTuple):
-    """What yields rows, and the package that it takes besides ours; None for none."""
+    """What yields rows, and the module of the package that it takes besides ours; None for none."""
 
     rows: Callable[[Setting], Iterator[Row]]
-    package: str | None = None
+    other: str | None = None
 
 
 COMPARISONS = {
@@ -142,6 +142,10 @@ COMPARISONS = {
     "merge": Comparison(merge, "linkforge"),
     "version": Comparison(version),
 }
+
+
+PACKAGES = {"xacro": "xacro", "linkforge": "linkforge-core"}
+"""The package of each module that we compare with, as pip names it."""
 
 
 def imported(robot: Path, folder: Path) -> Path:
@@ -173,16 +177,19 @@ def main() -> None:
     parser.add_argument("--robots", type=Path, nargs="+", default=ROBOTS, help="other robots, as .urdf.xacro")
     options = parser.parse_args()
     print("medians of the processor's time, in turns; of the ratios, less is better\n")
-    print(f"{'what':<32} {'ours':>12} {'the other':>12} {'which is':<12} {'ratio':>8} {'to reach':>9}")
+    print(f"{'what':<32} {'ours':>12} {'the other':>12} {'which is':<14} {'ratio':>8} {'to reach':>9}")
+    left_out = False
     with tempfile.TemporaryDirectory() as folder:
         setting = Setting(options.rounds, tuple(options.robots), Path(folder))
         for name in options.only:
-            rows, package = COMPARISONS[name]
-            if package and find_spec(package) is None:
-                print(f"{name}: '{package}' is not installed")
+            rows, other = COMPARISONS[name]
+            if other and find_spec(other) is None:
+                left_out = True
+                print(f"{name}: not compared, since {PACKAGES[other]} is not installed: pip install '.[dev]' does that")
                 continue
             for row in rows(setting):
                 show(row)
+    sys.exit(left_out)
 
 
 def comparisons_in(text: str) -> list[str]:
@@ -197,7 +204,7 @@ def comparisons_in(text: str) -> list[str]:
 def show(row: Row) -> None:
     sides = [f"{side * 1000:9.1f} {row.unit}" for side in (row.ours, row.other)]
     reach = "" if row.reach is None else f"{row.reach:9.2f} {'reached' if row.ratio <= row.reach else 'missed'}"
-    print(f"{row.what:<32} {' '.join(sides)} {row.other_is:<12} {row.ratio:8.3f} {reach}", flush=True)
+    print(f"{row.what:<32} {' '.join(sides)} {row.other_is:<14} {row.ratio:8.3f} {reach}", flush=True)
 
 
 if __name__ == "__main__":

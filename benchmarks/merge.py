@@ -16,7 +16,7 @@ from types import ModuleType
 
 from timing import medians
 
-LIBRARIES = {"ours": "linkforge_compile.core", "LinkForge": "linkforge.core"}
+LIBRARIES = {"ours": "linkforge_compile.core", "linkforge-core": "linkforge.core"}
 
 
 def module_of(core: ModuleType, links: int) -> object:
@@ -66,7 +66,7 @@ def main() -> None:
     taken = medians(options.rounds, merges(options.modules, options.links))
     print(f"{options.modules} modules of {options.links} links, median of {options.rounds}")
     for label, seconds in taken.items():
-        print(f"{label:<10} {seconds * 1000:10.1f} ms {seconds / taken['ours']:8.1f} x")
+        print(f"{label:<14} {seconds * 1000:10.1f} ms {seconds / taken['ours']:8.1f} x")
 
 
 if __name__ == "__main__":

@@ -21,7 +21,10 @@ def write_to_stdout(text: str) -> None:
     try:
         if sys.stdout is None:
             raise UsageError("cannot write to standard output: it is closed")
-        sys.stdout.buffer.write(_bytes_of(text))
+        unwritten = memoryview(_bytes_of(text))
+        while unwritten:
+            # Without a buffer, as PYTHONUNBUFFERED has it, a disk that fills up takes a part and says only how much.
+            unwritten = unwritten[sys.stdout.buffer.write(unwritten) :]
         sys.stdout.flush()
     except BrokenPipeError:
         raise

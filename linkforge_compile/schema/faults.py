@@ -64,9 +64,9 @@ def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> 
     if not judgements:
         return tree
     judgements = told_once(judgements, tree)
-    for judgement in sorted(judgements, key=lambda judgement: judgement.diagnostic.order):
-        uses = tuple(_uses(tree, judgement.path))
-        told = judgement.diagnostic
+    found = [(judgement.diagnostic, tuple(_uses(tree, judgement.path))) for judgement in judgements]
+    # Where several uses do not fit one anchor, the sink keeps the first: of jsonschema, they come as a set has them.
+    for told, uses in sorted(found, key=lambda one: (one[0].order, [note.span.start for note in one[1] if note.span])):
         sink.report(replace(told, notes=(*told.notes, *uses)) if uses else told)
     if sum(1 + len(judgement.also) for judgement in judgements) > MAX_TOLD:
         raise too_many_errors(judgements[-1].diagnostic.span)

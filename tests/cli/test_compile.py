@@ -5,11 +5,16 @@ import os
 import stat
 import subprocess
 import sys
+from errno import ENOSPC
+from io import BytesIO
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from lxml import etree
 
+from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.cli.output import write_to_stdout
 from tests.cli.in_process import linkforge
 
 PENDULUM = """\
@@ -280,6 +285,30 @@ def test_output_that_cannot_be_written_is_wrong_usage(pendulum: Path):
     run = linkforge("compile", "swing.robot.yaml", "-o", "file/swing.urdf", cwd=pendulum)
     assert run.returncode == 2
     assert "cannot write 'file/swing.urdf': 'file' is not a folder" in run.stderr
+
+
+class _Taking(BytesIO):
+    """A stream without a buffer that takes seven bytes at a time, and at the end no more, as a disk that fills up."""
+
+    def __init__(self, room: int) -> None:
+        super().__init__()
+        self.room = room
+
+    def write(self, chunk: memoryview) -> int:
+        if self.tell() >= self.room:
+            raise OSError(ENOSPC, "No space left on device")
+        return super().write(chunk[:7])
+
+
+def test_standard_output_gets_all_or_it_is_told(monkeypatch: pytest.MonkeyPatch):
+    text = "# 3 µm\n" * 9
+    whole, short = _Taking(len(text.encode())), _Taking(40)
+    monkeypatch.setattr(sys, "stdout", SimpleNamespace(buffer=whole, flush=whole.flush))
+    write_to_stdout(text)
+    assert whole.getvalue() == text.encode()
+    monkeypatch.setattr(sys, "stdout", SimpleNamespace(buffer=short, flush=short.flush))
+    with pytest.raises(UsageError, match="cannot write to standard output: No space left on device"):
+        write_to_stdout(text)
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="Linux's device that is always full")

@@ -185,6 +185,15 @@ def test_what_an_alias_brings_in_is_told_with_the_place_that_uses_it(use: str, p
     assert [(note.message, str(note.span)) for note in told.notes] == [("used here", f"r:{place}")]
 
 
+def test_of_several_uses_that_do_not_fit_the_first_in_the_file_is_told():
+    sink = Diagnostics()
+    uses = "".join(f"  {name}: {{visual: *v}}\n" for name in "hgfedcba")  # jsonschema takes them as a set has them
+    tree = read(SourceFile("r", HEADER + f"x-shape: &v {{color: red}}\nlinks:\n{uses}"), sink)
+    assert tree is not None
+    validate(tree, sink)
+    assert [str(note.span) for told in sink for note in told.notes] == ["r:5:7"]
+
+
 @pytest.mark.parametrize("text", ["name: arm\n", "name: arm\nlinkforge:\n"])
 def test_a_file_that_says_no_version_is_told_to_say_it_first(text: str):
     _, told = judged(text)
