@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from pathlib import Path
 
 from linkforge_compile.bounds import MAX_FILE_BYTES
@@ -34,8 +35,10 @@ def utf8_text(content: bytes) -> str:
     try:
         return content.decode("utf-8")
     except UnicodeDecodeError as error:
+        if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+            raise UnreadableError("it is UTF-16, as PowerShell writes; save it as UTF-8") from error
         line = error.object.count(b"\n", 0, error.start) + 1
-        reason = f"it is not UTF-8: line {line} has the byte {error.object[error.start]:#04x}"
+        reason = f"it is not UTF-8: line {line} has the byte {error.object[error.start]:#04x}; save it as UTF-8"
         raise UnreadableError(reason, error) from error
 
 

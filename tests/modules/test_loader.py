@@ -44,7 +44,8 @@ def test_files_count_in_the_order_they_are_read(tmp_path):
 @pytest.mark.parametrize(
     ("content", "reason"),
     [
-        (b"linkforge: 1\nname: \xff\n", "it is not UTF-8: line 2 has the byte 0xff"),
+        (b"linkforge: 1\nname: \xff\n", "it is not UTF-8: line 2 has the byte 0xff; save it as UTF-8"),
+        ("linkforge: 1\n".encode("utf-16"), "it is UTF-16, as PowerShell writes; save it as UTF-8"),
         (b" " * (MAX_FILE_BYTES + 1), "it is larger than 16 MiB"),
     ],
 )
