@@ -79,6 +79,10 @@ SPECS: dict[str, tuple[str, str | bytes]] = {
         "LF2101",
         f"{HEAD}nosuch: 1\nmetadata:\n  a:\n  - &b 1\n  - |\n" + f"    {'x' * 400}\n" * 12_000 + "  - - *b\n" * 12_000,
     ),
+    "a text of many expressions behind a long one": (
+        "LF3101",
+        f"{HEAD}description: |\n" + f"  {'x' * 400}\n" * 10_000 + "  $(+)\n" * 4_000,
+    ),
     "a huge product": ("LF3301", HEAD + "  l_$(a)_$(b)_$(c): {for: {a: 1000, b: 1000, c: 1000}}\n"),
     "a huge for": ("LF3301", HEAD + "  l_$(a): {for: {a: 1000000000000}}\n"),
     "more links than there may be": ("LF3301", HEAD + "  l_$(a): {for: {a: 40000}}\n"),

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import cache
 from typing import TYPE_CHECKING
 
 from linkforge_compile.named_tuple import NamedTuple
@@ -82,12 +83,20 @@ def mark_of_attribute(source: SourceRef | None, name: str) -> str:
 _KEYS = {"filename": "file"}
 
 
-def mark_of_line(source: SourceRef | None, path: tuple[str | int, ...], line: int) -> str:
-    """Return the mark of one line, counted from 1, of a text of several, where the file has it as a line as well."""
+def marks_of_lines(text: str, source: SourceRef | None, path: tuple[str | int, ...]) -> Callable[[int], str]:
+    """Return what gives the mark of one line, counted from 1, of a text of several written under a path.
+
+    It is that of the whole text where the file does not have the line as one.
+    """
     marks = recorded()
     if marks is None or source is None:
-        return ""
-    from linkforge_compile.source.text_place import line_in_block
+        return lambda _: ""
+    from linkforge_compile.source.text_place import TextPlace
 
-    span = line_in_block(source.at(*path), line)
-    return mark(source, *path) if span is None else marks.mark(Place(span, source.trail_to(span)))
+    place = TextPlace.of(text, source.at(*path))
+
+    def mark_of_line(number: int) -> str:
+        span = place.line(number) or place.span
+        return marks.mark(Place(span, source.trail_to(span)))
+
+    return cache(mark_of_line)

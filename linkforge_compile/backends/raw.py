@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.backends.element import RawXmlError, shown
-from linkforge_compile.backends.marks import mark, mark_of_line, recorded
+from linkforge_compile.backends.marks import mark, marks_of_lines, recorded
 from linkforge_compile.backends.markup import (
     Xml,
     escaped,
@@ -189,7 +189,7 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     parser = expat.ParserCreate("utf-8")
     parser.ordered_attributes = True
     parser.buffer_text = True
-    reader = _Reader(parser, lambda line: mark_of_line(source, path, line))
+    reader = _Reader(parser, marks_of_lines(text, source, path))
     parser.StartElementHandler = reader.begin
     parser.EndElementHandler = reader.end
     parser.CharacterDataHandler = reader.characters

@@ -345,3 +345,9 @@ links:
     assert written(mapped.map, lines.index("second -->") + 1).line == 5
     assert written(mapped.map, lines.index("2</text>") + 1).line == 8
     assert written(mapped.map, lines.index("  </note>") + 1).line == 5
+
+
+def test_no_line_of_a_text_is_mapped_where_an_expression_of_it_has_two():
+    spec = "linkforge: 1\nname: r\nlinks: {base: }\nextra: |\n  <a v='$(1 +\n    2)'>\n    <b/>\n  </a>\n"
+    mapped = render_urdf_with_map(compile_text(spec).result())
+    assert written(mapped.map, mapped.text.splitlines().index("    <b/>") + 1).line == 4

@@ -1,0 +1,13 @@
+"""Where the lines of a text behind `|` stand."""
+
+import pytest
+
+from linkforge_compile import compile_text
+
+ROBOT = "linkforge: 1\nname: r\nlinks: {base: }\nextra: |\n\n  <a>\n    <b x='1' x='2'/>\n  </a>\n"
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_a_line_behind_a_bar_stands_where_it_is_whatever_ends_it(end: str):
+    [fault] = compile_text(ROBOT.replace("\n", end)).diagnostics
+    assert str(fault.span) == "<text>:7:14"
