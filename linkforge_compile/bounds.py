@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from enum import Enum
 
-from linkforge_compile.diagnostics import BeyondLimitError, Where
+from linkforge_compile.diagnostics import BeyondLimitError, Code, Where
 from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
 from linkforge_compile.frozen import dataclass
 
@@ -93,18 +93,19 @@ def factor_of(said: str) -> int | None:
 class Budget:
     """What one compile may still take."""
 
-    def __init__(self, times: int = 1, *, shared_by: str = "", within: Budget | None = None) -> None:
-        """`times` the limits are allowed; `shared_by` says by what, if by more than one compile.
+    def __init__(self, times: int = 1, *, code: Code = BEYOND_LIMIT, within: Budget | None = None) -> None:
+        """`times` the limits are allowed; `code` is told of what is more.
 
         What is taken counts in the budget that this one is `within` as well.
         """
-        self._shared_by, self._within = shared_by, within
+        self._code, self.within = code, within
         self.times = times * (factor_of(os.environ.get(FACTOR_VARIABLE, "")) or 1)
         self._left = {limit: limit.most * self.times for limit in Limit}
 
     def left(self, limit: Limit) -> int:
-        """Return how much is left of one limit, below 0 where it is passed."""
-        return self._left[limit]
+        """Return how much is left of one limit, here and in what this is within; below 0 where it is passed."""
+        own = self._left[limit]
+        return own if self.within is None else min(own, self.within.left(limit))
 
     @property
     def is_spent(self) -> bool:
@@ -113,13 +114,15 @@ class Budget:
 
     def spend(self, limit: Limit, amount: int, where: Where) -> None:
         """Count what is taken at a place; raise BeyondLimitError where that is more than there may be."""
-        left = self._left[limit] = self._left[limit] - amount
-        if left < 0:
+        left = self._left[limit]
+        if self.within is not None:
+            # Refused for whatever amount, a compile takes all that it may have, and the one that is too much.
+            self.within.spend(limit, min(amount, left + 1), where)
+        self._left[limit] = left - amount
+        if amount > left:
             raise self.beyond(limit, where)
-        if self._within is not None:
-            self._within.spend(limit, amount, where)
 
     def beyond(self, limit: Limit, where: Where) -> BeyondLimitError:
         """Return what to raise at the place that passes a limit."""
-        most, counted = f"{limit.most * self.times:,}", f"{limit.counted}{self._shared_by}"
-        return BeyondLimitError(BEYOND_LIMIT.at(where, most=most, counted=counted, way_out=limit.value.way_out))
+        most = f"{limit.most * self.times:,}"
+        return BeyondLimitError(self._code.at(where, most=most, counted=limit.counted, way_out=limit.value.way_out))

@@ -14,6 +14,7 @@ from linkforge_compile.bounds import Budget
 from linkforge_compile.checks import check
 from linkforge_compile.collector import resting
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
+from linkforge_compile.diagnostics.codes.bounds import VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.diagnostics.suggest import suggesting
 from linkforge_compile.frozen import dataclass
@@ -181,25 +182,17 @@ def check_variants(
     packages: Packages | None = None,
     gazebo: Gazebo = "gz",
     allow_outside: bool = False,
-) -> dict[str | None, Compilation]:
-    """Check a spec file with its defaults (None) and each of its variants, by name, as far as five budgets reach."""
-    file, whole = Path(path), Budget(times=5, shared_by=", in all its variants together")
+) -> dict[str | None, Compilation | None]:
+    """Check a spec file with its defaults (None) and each of its variants, by name; None for those not checked.
+
+    Together they may take what five compiles may: LF3304 is told of the one that takes more, the last that is checked.
+    """
+    from linkforge_compile.modules.variants import names_of_variants
+
+    file, whole = Path(path), Budget(times=5, code=VARIANTS_BEYOND_LIMIT)
     settings = Settings(parameters, packages, None, gazebo, Unset.NOTE, allow_outside=allow_outside, whole=whole)
-    names = (None, *_variants(file, settings))
-    return {name: _compile_file(file, settings._replace(variant=name)) for name in names if not whole.is_spent}
-
-
-def _variants(path: Path, settings: Settings) -> Iterable[str]:
-    """Return the names of a spec's variants, none where it cannot be read: then its check says so."""
-    if path.suffix.lower() == XACRO:
-        return ()
-    from linkforge_compile.modules.variants import variants_of
-
-    try:
-        spec = settings.loader(path).open(path, Diagnostics())
-    except BeyondLimitError:
-        return ()
-    return variants_of(spec) if spec else ()
+    names = (None, *names_of_variants(file, settings.loader(file)))
+    return {name: None if whole.is_spent else _compile_file(file, settings._replace(variant=name)) for name in names}
 
 
 @suggesting()

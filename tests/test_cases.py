@@ -28,6 +28,7 @@ WITHOUT_A_CASE = {
     "LF3029": "modules/test_parameters.py",
     "LF3302": "diagnostics/test_floods.py",
     "LF3303": "diagnostics/test_floods.py",
+    "LF3304": "modules/test_variants.py",
     "LF3403": "checks/test_meshes.py",
     "LF5754": "modules/test_urdf_modules.py",
     "LF6010": "lowering/test_mesh_inertia.py",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from linkforge_compile.diagnostics.codes.bounds import VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.ignoring import NOTHING_TO_IGNORE
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note
 from linkforge_compile.frozen import replace
@@ -32,5 +33,8 @@ def told_once(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...
 
 def _with_note(diagnostic: Diagnostic, runs: list[str]) -> Diagnostic:
     *others, last = runs
-    words = f"{', '.join(others)} and {last}" if others else f"{last} only"
-    return replace(diagnostic, notes=(*diagnostic.notes, Note(f"with {words}")))
+    if diagnostic.code is VARIANTS_BEYOND_LIMIT:
+        words = f"what comes behind {last} is not checked"
+    else:
+        words = f"with {', '.join(others)} and {last}" if others else f"with {last} only"
+    return replace(diagnostic, notes=(*diagnostic.notes, Note(words)))

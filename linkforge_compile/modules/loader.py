@@ -103,7 +103,7 @@ class Loader:
         self._read_elsewhere: list[Path] = []
         self._unread: list[Path] = []
         self.budget = budget or Budget()
-        self._budget_of_judges = Budget(times=_TIMES_JUDGED)
+        self._budget_of_judges = Budget(times=_TIMES_JUDGED, within=self.budget.within)
 
     @property
     def sources(self) -> tuple[SourceFile, ...]:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
 from types import MappingProxyType
 
-from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.diagnostics.codes.files import UNKNOWN_VARIANT
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.modules.arguments import COMMAND_LINE
-from linkforge_compile.modules.loader import SpecFile
+from linkforge_compile.modules.loader import Loader, SpecFile
+from linkforge_compile.modules.uses import XACRO
 from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import SourceFile, Span
@@ -47,6 +49,17 @@ def variants_of(spec: SpecFile) -> dict[str, YamlMap]:
         entry.name: entry.value if isinstance(entry.value, YamlMap) else YamlMap({}, entry.value.span)
         for entry in (section if isinstance(section, YamlMap) else ())
     }
+
+
+def names_of_variants(path: Path, loader: Loader) -> Iterable[str]:
+    """Return the names of the variants of a file, none where it cannot be read: then its check says so."""
+    if path.suffix.lower() == XACRO:
+        return ()
+    try:
+        spec = loader.open(path, Diagnostics())
+    except BeyondLimitError:
+        return ()
+    return variants_of(spec) if spec else ()
 
 
 def tell_unknown_variant(name: str, spec: SpecFile, sink: Diagnostics) -> None:

@@ -59,10 +59,9 @@ def read_events(marks: Marks, sink: Diagnostics, budget: Budget, tags: Tags | No
 
 def _document(marks: Marks, sink: Diagnostics, budget: Budget, tags: Tags | None, parser: Parser) -> YamlNode | None:
     reader = _Reader(marks, sink, budget, tags, parser)
+    root = None
     try:
         root = reader.document()
-        budget.spend(Limit.VALUES, reader.size, marks.file.whole)
-        return root
     except _UnreadableError as unreadable:
         sink.report(unreadable.diagnostic)
     except yaml.MarkedYAMLError as error:
@@ -73,7 +72,9 @@ def _document(marks: Marks, sink: Diagnostics, budget: Budget, tags: Tags | None
         from linkforge_compile.syntax.malformed import explain_every
 
         sink.report_all(explain_every(error, marks, reader.last_scalar, reader.brackets))
-    return None
+    # What stands before a fault was read as well.
+    budget.spend(Limit.VALUES, reader.size, marks.file.whole)
+    return root
 
 
 class _UnreadableError(Exception):
@@ -142,7 +143,7 @@ class _Reader:
             return None
         self.size += 1
         if self.size > self._most:
-            raise self._budget.beyond(Limit.VALUES, self._marks.event(event))
+            self._budget.spend(Limit.VALUES, self.size, self._marks.event(event))  # which raises
         self.last_scalar = event
         begin = event.start_mark
         assert begin is not None, "the parser marks every event"
@@ -166,7 +167,7 @@ class _Reader:
     def _count(self, nodes: int, event: events.Event) -> None:
         self.size += nodes
         if self.size > self._most:
-            raise self._budget.beyond(Limit.VALUES, self._marks.event(event))
+            self._budget.spend(Limit.VALUES, self.size, self._marks.event(event))  # which raises
 
     def _alias(self, event: AliasEvent, depth: int) -> YamlNode:
         name, span = event.anchor, self._marks.event(event)

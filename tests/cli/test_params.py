@@ -1,10 +1,12 @@
 """`linkforge params` and `--variant`, run as a program."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from linkforge_compile.bounds import Limit
 from tests.cli.in_process import linkforge
 from tests.cli.test_compile import box_height
 
@@ -108,6 +110,17 @@ def test_all_variants_are_checked_in_one_report(arm: Path):
         "what all have needs no note"
     )
     assert run.stderr.splitlines()[-1] == "checked 1 spec with the defaults and 2 variants: 2 errors"
+
+
+def test_variants_that_were_not_checked_are_counted(arm: Path, monkeypatch: pytest.MonkeyPatch):
+    spec = "linkforge: 1\nname: arm\nlinks: {base: }\nvariants: {a: , b: , c: , d: , e: , f: , g: , h: }\n"
+    (arm / "arm.robot.yaml").write_text(spec)
+    monkeypatch.setattr(Limit.CHARACTERS_READ, "_value_", replace(Limit.CHARACTERS_READ.value, most=len(spec)))
+    run = linkforge("check", "arm.robot.yaml", "--all-variants", cwd=arm)
+    assert run.stderr.splitlines()[1:] == [
+        "note: what comes behind variant 'd' is not checked",
+        "checked 1 spec with the defaults and 4 variants, but not with 4 more: 1 error",
+    ]
 
 
 def test_one_variant_or_all_of_them(arm: Path):

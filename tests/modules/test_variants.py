@@ -1,11 +1,12 @@
 """`variants`: what beats what, and what is told of those that nobody chose."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from linkforge_compile import compile_file, compile_text
-from linkforge_compile.bounds import Budget, Limit
+from linkforge_compile.bounds import Limit
 from linkforge_compile.pipeline import check_variants
 from tests.modules.assembling import write
 
@@ -107,17 +108,42 @@ def test_every_variant_is_checked_and_the_defaults(tmp_path: Path):
     assert {one.diagnostics[0].code.id for one in compilations.values()} == {"LF4102"}
 
 
-def test_variants_share_what_five_compiles_may_take(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    class Spent(Budget):
-        def __init__(self, times: int = 1, *, shared_by: str = "", within: Budget | None = None) -> None:
-            super().__init__(times, shared_by=shared_by, within=within)
-            if shared_by:
-                self.spend(Limit.ENTRIES, times * Limit.ENTRIES.most - 15, None)
+MANY = f"""\
+linkforge: 1
+name: arm
+variants: {{{", ".join(f"v{number}: " for number in range(12))}}}
+links: {{base: }}
+modules: {{tool: {{use: tool.robot.yaml, parent: base}}}}
+"""
+TOOL = "linkforge: 1\nname: tool\nlinks: {tip: }\n"
 
-    monkeypatch.setattr("linkforge_compile.pipeline.Budget", Spent)
-    (tmp_path / "arm.robot.yaml").write_text(SPEC)
-    *whole, (last, ended) = check_variants(tmp_path / "arm.robot.yaml").items()
-    assert [(name, one.diagnostics) for name, one in whole] == [(None, ()), ("sim", ())]
-    assert (last, [one.code.id for one in ended.diagnostics]) == ("lab", ["LF3301"])
-    assert "more than 150,000 links" in ended.diagnostics[0].message
-    assert "in all its variants together" in ended.diagnostics[0].message
+
+@pytest.mark.parametrize(
+    ("limit", "text", "before"),
+    [
+        (Limit.CHARACTERS_READ, TOOL + "#" * 800, 4 * ["LF3301"]),
+        (Limit.VALUES, TOOL + "metadata: {x: [" + "0, " * 600 + "0]}", 4 * ["LF3301"]),
+        (Limit.VALUES, TOOL + "metadata: {x: [" + "0, " * 500 + "0]}", 5 * [""]),
+        (Limit.VALUES, TOOL + "metadata: {x: [" + "0, " * 500 + "0}", 5 * ["LF1009"]),
+        (Limit.ROUNDS, TOOL.replace("tip:", "tip_$(i): {for: {i: 601}}"), 4 * ["LF3301"]),
+    ],
+)
+def test_variants_share_what_five_compiles_may_take(
+    limit: Limit, text: str, before: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(limit, "_value_", replace(limit.value, most=600))
+    (tmp_path / "tool.robot.yaml").write_text(text)
+    (tmp_path / "arm.robot.yaml").write_text(MANY)
+    found = check_variants(tmp_path / "arm.robot.yaml").values()
+    codes = [one and " ".join(told.code.id for told in one.diagnostics) for one in found]
+    assert codes == [*before, "LF3304", *[None] * (12 - len(before))]
+
+
+def test_what_is_judged_for_a_variant_counts_for_all_of_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    # Without what is judged the defaults and all variants take no more than five times as many.
+    monkeypatch.setattr(Limit.ENTRIES, "_value_", replace(Limit.ENTRIES.value, most=28))
+    (tmp_path / "tool.urdf").write_text("<robot name='tool'><link name='tip'/></robot>")
+    (tmp_path / "tool.srdf").write_text("<robot name='tool'><group name='all'><link name='tip'/></group></robot>")
+    (tmp_path / "arm.robot.yaml").write_text(MANY.replace("tool.robot.yaml", "tool.urdf, srdf: tool.srdf"))
+    found = check_variants(tmp_path / "arm.robot.yaml")
+    assert [name for name, one in found.items() if one is None] == ["v9", "v10", "v11"]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import check_spec
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.pipeline import Compilation
+
+    _Compilations: TypeAlias = Mapping[str | None, Compilation | None]
 
 _EXAMPLES = """\
 A required parameter without a value is no error here: what depends on it is not judged.
@@ -70,12 +72,9 @@ def run(arguments: argparse.Namespace) -> int:
             found.setdefault(str(diagnostic), diagnostic)
     told = selected(found.values(), arguments)
     _write(told, arguments)
-    checked = f"checked {_counted(len(reports), 'spec')}"
-    variants = sum(report.variants for report in reports.values())
-    if arguments.all_variants:
-        checked += f" with the defaults and {_counted(variants, 'variant')}"
     if not arguments.quiet:
-        to_stderr(f"{checked}: {summary(told)}\n")
+        variants = _variants_of(reports.values()) if arguments.all_variants else ""
+        to_stderr(f"checked {_counted(len(reports), 'spec')}{variants}: {summary(told)}\n")
     return FAULTY_SPEC if has_errors(told) else OK
 
 
@@ -115,7 +114,7 @@ def _without_specs(meant: Mapping[str, tuple[str, ...]]) -> Iterator[Diagnostic]
     return (NO_SPEC_BELOW.at(None, path=word) for word, specs in meant.items() if not specs)
 
 
-def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Mapping[str | None, Compilation]:
+def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -> _Compilations:
     """Check a spec with the variant that was asked for, or with the defaults, None, and every variant."""
     if not arguments.all_variants:
         return {arguments.variant: check_spec(spec, assignments, arguments)}
@@ -139,22 +138,31 @@ def _write(told: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
 
 
 class _Report(NamedTuple):
-    """What is told of a spec, how many variants of it were checked, and the real paths of its files."""
+    """What is told of a spec, how many variants of it were checked and were not, and the real paths of its files."""
 
     diagnostics: tuple[Diagnostic, ...]
     variants: int
+    unchecked: int
     files: frozenset[str]
 
 
-def _report(compilations: Mapping[str | None, Compilation]) -> _Report:
+def _report(compilations: _Compilations) -> _Report:
     from linkforge_compile.diagnostics.runs import told_once
 
+    checked = {variant: one for variant, one in compilations.items() if one is not None}
     runs = {
-        "the defaults" if variant is None else f"variant '{variant}'": compilation.diagnostics
-        for variant, compilation in compilations.items()
+        "the defaults" if variant is None else f"variant '{variant}'": one.diagnostics
+        for variant, one in checked.items()
     }
-    files = frozenset(os.path.realpath(file) for compilation in compilations.values() for file in compilation.files)
-    return _Report(told_once(runs), len(compilations) - 1, files)
+    files = frozenset(os.path.realpath(file) for one in checked.values() for file in one.files)
+    return _Report(told_once(runs), len(checked) - 1, len(compilations) - len(checked), files)
+
+
+def _variants_of(reports: Collection[_Report]) -> str:
+    """Say how many variants of the specs were checked, and how many were not."""
+    words = f" with the defaults and {_counted(sum(report.variants for report in reports), 'variant')}"
+    unchecked = sum(report.unchecked for report in reports)
+    return f"{words}, but not with {unchecked:,} more" if unchecked else words
 
 
 def _without_parts(reports: Mapping[str, _Report]) -> dict[str, _Report]:

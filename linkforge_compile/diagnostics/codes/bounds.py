@@ -13,3 +13,10 @@ TOO_MANY_ERRORS = Code(
     "LF3302", Severity.ERROR, "nothing is read behind so many {what}; mend some of them first", ends_report=True
 )
 MORE_WARNINGS = Code("LF3303", Severity.WARNING, "{count} more warnings and notes are not told", ends_report=True)
+VARIANTS_BEYOND_LIMIT = Code(
+    "LF3304",
+    Severity.ERROR,
+    "the spec with all its variants takes more than {most} {counted}; check some of them apart, with '--variant' "
+    "(LINKFORGE_LIMITS=10 in the environment allows ten times as much)",
+    ends_report=True,
+)
