@@ -5,20 +5,20 @@ from __future__ import annotations
 from pathlib import Path
 
 from linkforge_compile.pattern import pattern
-from linkforge_compile.roots import is_file
+from linkforge_compile.roots import ANYWHERE, Roots, is_file
 
 # A stranger wrote what it is searched in: no character is tried twice.
 _NAME = pattern(r"<name>([^<]*)</name>")
 _MOST_BYTES = 1024 * 1024
 
 
-def package_name(folder: Path) -> str | None:
-    """Return the name in a folder's package.xml, None where there is none.
+def package_name(folder: Path, roots: Roots = ANYWHERE) -> str | None:
+    """Return the name in a folder's package.xml, None where there is none, or a link that leads out of the roots.
 
     Read as text: one tag of a file that strangers wrote is not worth an XML parser and its entities.
     """
     manifest = folder / "package.xml"
-    if not is_file(manifest):  # a pipe of that name would make us wait
+    if roots.are_left_by(manifest) or not is_file(manifest):  # a pipe of that name would make us wait
         return None
     try:
         with manifest.open("rb") as stream:

@@ -310,7 +310,7 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
     instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant)
     lowered = lower(instance, sink, meshes)
     # Meshes are looked for in the user's packages, the spec's, and then those of its modules.
-    resolver = FileSystemResolver(packages={**instance.packages_of_all, **loader.packages})
+    resolver = FileSystemResolver(packages={**instance.packages_of_all, **loader.packages}, roots=loader.roots)
     for robot, gaps in lowered.robots:
         robot.resource_resolver = resolver
         sink.report_all(check(robot, gaps.looking(loader.roots.hold)))

@@ -64,6 +64,11 @@ class Roots:
         is_installed = ".." not in named.parts and any(named.is_relative_to(prefix) for prefix in self.installed)
         return is_installed or any(real.is_relative_to(prefix) for prefix in _real(self.installed))
 
+    def are_left_by(self, path: Path) -> bool:
+        """Whether a path is a link that leads out of them, which no search follows: it may be a stranger's."""
+        # os.path answers for what may not be looked at as well, where pathlib raises.
+        return os.path.islink(path) and not self.hold(path)  # noqa: PTH114
+
     def reasons(self, path: Path) -> tuple[str, str]:
         """Return why a path may not be read that they do not hold, for notes: how it leads out, and of what."""
         return self.way_out(path), f"what may be read lies in {self}"
@@ -119,7 +124,8 @@ def _top_of(place: Path) -> Path:
     """Return the package or repository in which a file or folder lies, else its folder, or the folder itself."""
     # os.path answers for names that no file can have and what may not be looked at, where pathlib raises.
     folder = place if os.path.isdir(place) else place.parent  # noqa: PTH112
-    tops = (top for top in (folder, *folder.parents) if any(map(os.path.exists, (top / marker for marker in MARKERS))))
+    # A marker that is a link is one wherever that leads: whether there is anything is none of a stranger's business.
+    tops = (top for top in (folder, *folder.parents) if any(map(os.path.lexists, (top / marker for marker in MARKERS))))
     return next(tops, folder)
 
 

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import Compilation, check_file, compile_file, compile_text, import_urdf
-from linkforge_compile.roots import Roots
+from linkforge_compile.modules.packages import find_package
+from linkforge_compile.roots import ANYWHERE, Roots
 
 PART = "linkforge: 1\nname: part\nlinks: {tip: }\n"
 REFUSED = ["LF3401"]
@@ -217,6 +218,74 @@ def test_no_way_leads_out(way: Callable[[Path], str], tmp_path: Path):
     spec = using(tmp_path / "cell" / "cell.robot.yaml", file, packages)
     assert codes(compile_file(spec)) == REFUSED
     assert codes(compile_file(spec, allow_outside=True)) == []
+
+
+SECRET = "<package><name>secret</name></package>"
+
+
+@pytest.mark.parametrize(
+    ("link", "target"), [("x", ""), ("x", "secret"), ("x/y", "secret"), ("x/package.xml", "secret/package.xml")]
+)
+@pytest.mark.parametrize("allow_outside", [False, True])
+def test_the_search_for_a_package_that_is_nowhere_leaves_by_no_link(
+    link: str, target: str, allow_outside: bool, tmp_path: Path
+):
+    written(tmp_path / "far" / "away" / "secret" / "package.xml", SECRET)
+    spec = using(tmp_path / "src" / "cell" / "cell.robot.yaml", "package://secret/part.robot.yaml")
+    (spec.parent / link).parent.mkdir(exist_ok=True)
+    (spec.parent / link).symlink_to(tmp_path / "far" / "away" / target)
+    [unknown] = compile_file(spec, allow_outside=allow_outside).diagnostics
+    assert unknown.code.id == "LF3005"
+    assert len(unknown.notes) == allow_outside
+
+
+MESH_OF_SECRET = "links: {base: {visual: {mesh: 'package://secret/part.stl'}}}\n"
+
+
+@pytest.mark.parametrize(("allow_outside", "told"), [(False, ["LF3005"]), (True, ["LF6021"])])
+def test_a_manifest_that_is_a_link_out_names_no_package(allow_outside: bool, told: list[str], tmp_path: Path):
+    """Else whoever asks by `package://` learns whether that file is there and what it says."""
+    written(tmp_path / "far" / "package.xml", SECRET)
+    spec = using(tmp_path / "cell" / "cell.robot.yaml", "package://secret/part.robot.yaml")
+    written(spec.parent / "part.robot.yaml", f"linkforge: 1\nname: part\n{MESH_OF_SECRET}")
+    (spec.parent / "package.xml").symlink_to(tmp_path / "far" / "package.xml")
+    assert codes(compile_file(spec, allow_outside=allow_outside)) == told
+    mesh = written(spec.parent / "mesh.robot.yaml", f"linkforge: 1\nname: mesh\n{MESH_OF_SECRET}")
+    assert codes(compile_file(mesh, allow_outside=allow_outside)) == [one for one in told if allow_outside]
+
+
+@pytest.mark.parametrize("link", ["secret", "hands/secret", "hands"])
+@pytest.mark.parametrize("is_there", [False, True])
+def test_a_link_out_of_ros_package_path_does_not_tell_whether_a_package_is_there(
+    link: str, is_there: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    if is_there:
+        written(tmp_path / "far" / "secret" / "package.xml", SECRET)
+    (tmp_path / "ws" / link).parent.mkdir(parents=True)
+    (tmp_path / "ws" / link).symlink_to(tmp_path / "far" / ("" if link == "hands" else "secret"))
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ws"))
+    spec = using(tmp_path / "cell" / "cell.robot.yaml", "package://secret/part.robot.yaml")
+    assert codes(compile_file(spec)) == ["LF3005"]
+
+
+@pytest.mark.parametrize("name", ["..", "/etc", "*", "a/../b", ""])
+def test_what_is_no_name_of_a_folder_is_no_package(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """As `$(find /etc)` in a xacro of a stranger, by which he would learn what is there."""
+    written(tmp_path / "ws" / "a" / "b" / "package.xml", "<package><name>b</name></package>")
+    (tmp_path / "ws" / "share").mkdir()
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ws"))
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path / "ws"))
+    assert find_package("b", {}, None, ANYWHERE) == tmp_path / "ws" / "a" / "b"
+    assert find_package(name, {}, None, ANYWHERE) is None
+
+
+@pytest.mark.parametrize("is_there", [False, True])
+def test_a_marker_that_is_a_link_is_one_wherever_it_leads(is_there: bool, tmp_path: Path):
+    if is_there:
+        written(tmp_path / "far")
+    part = written(tmp_path / "cell" / "part.robot.yaml")
+    (part.parent / "package.xml").symlink_to(tmp_path / "far")
+    assert codes(compile_file(using(part.parent / "in" / "cell.robot.yaml", "../part.robot.yaml"))) == []
 
 
 def test_a_package_that_the_user_names_may_be_read(tmp_path: Path):

@@ -11,7 +11,7 @@ from typing import Protocol, runtime_checkable
 
 from linkforge_compile.manifest import package_name
 from linkforge_compile.pattern import pattern
-from linkforge_compile.roots import exists, identity
+from linkforge_compile.roots import ANYWHERE, Roots, exists, identity
 
 _PACKAGE_URI = pattern(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
 _WINDOWS_DRIVE = pattern(r"^/(?=[A-Za-z]:)")
@@ -40,13 +40,18 @@ class FileSystemResolver:
     Packages are in the folders that `packages` says by their names; others are looked for in
     `additional_search_paths`, then in those of ROS_PACKAGE_PATH, then under `share` of those of AMENT_PREFIX_PATH,
     then from `relative_to` up to ten folders outwards, where a package is a folder of its name or with a package.xml
-    that says the name. The first of them that holds the file wins. Relative paths are looked for in `relative_to`,
-    then in the current folder.
+    that says the name; one that is a link out of `roots` says nothing. The first of them that holds the file wins.
+    Relative paths are looked for in `relative_to`, then in the current folder.
     """
 
     def __init__(
-        self, additional_search_paths: list[Path] | None = None, *, packages: Mapping[str, Path] | None = None
+        self,
+        additional_search_paths: list[Path] | None = None,
+        *,
+        packages: Mapping[str, Path] | None = None,
+        roots: Roots = ANYWHERE,
     ) -> None:
+        self._roots = roots
         self.additional_search_paths = additional_search_paths
         self.packages = dict(packages or {})
 
@@ -84,7 +89,7 @@ class FileSystemResolver:
                 yield Path(folder)
         start = Path(identity(start))
         for folder in islice((start, *start.parents), _LEVELS_UP):
-            if folder.name == package or package_name(folder) == package:
+            if folder.name == package or package_name(folder, self._roots) == package:
                 yield folder
 
 

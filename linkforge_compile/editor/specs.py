@@ -45,7 +45,7 @@ def specs_below(
     found: list[Path] = []
     for spec in _named_so(root, unread):
         # Before it is looked for, so that nothing is told of what is there.
-        if spec.is_symlink() and not roots.hold(spec):
+        if roots.are_left_by(spec):
             if outside is not None:
                 outside(spec)
             continue

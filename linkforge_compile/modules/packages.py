@@ -12,11 +12,15 @@ from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
 from linkforge_compile.frozen import dataclass
 from linkforge_compile.manifest import package_name
-from linkforge_compile.roots import as_walked, is_file, is_folder
+from linkforge_compile.pattern import pattern
+from linkforge_compile.roots import Roots, as_walked, is_file, is_folder
 from linkforge_compile.source import Span
 
 if TYPE_CHECKING:
     from linkforge_compile.modules.loader import Loader
+
+_NAME = pattern(r"\w[\w.-]*")
+"""The name of a folder that may be a package: no way to another folder, as `$(find ../..)` of a xacro would be."""
 
 _SOURCES = "src"
 """The folder of a workspace of ROS in which its packages and repositories lie."""
@@ -37,21 +41,23 @@ class Package:
     folder: Path
 
 
-def find_package(name: str, declared: Mapping[str, Path], start: Path | None) -> Path | None:
-    """Return the folder of a package, None where it is nowhere.
+def find_package(name: str, declared: Mapping[str, Path], start: Path | None, roots: Roots) -> Path | None:
+    """Return the folder of a package, None where it is nowhere that the roots let a spec look.
 
     `declared` are the places that the user named. After them come the source tree (a folder upward from `start`
     whose package.xml has that name), AMENT_PREFIX_PATH and ROS_PACKAGE_PATH.
     """
     if name in declared:
         return declared[name]
-    return next(chain(_in_source_tree(name, start), _in_ament(name), _in_ros_1(name)), None)
+    if not _NAME.fullmatch(name):
+        return None
+    return next(chain(_in_source_tree(name, start, roots), _in_ament(name), _in_ros_1(name, roots)), None)
 
 
-def _in_source_tree(name: str, start: Path | None) -> Iterator[Path]:
+def _in_source_tree(name: str, start: Path | None, roots: Roots) -> Iterator[Path]:
     folder = as_walked(start) if start else None
     for candidate in (folder, *folder.parents) if folder else ():
-        if package_name(candidate) == name:
+        if package_name(candidate, roots) == name:
             yield candidate
 
 
@@ -62,14 +68,14 @@ def _in_ament(name: str) -> Iterator[Path]:
             yield folder
 
 
-def _in_ros_1(name: str) -> Iterator[Path]:
+def _in_ros_1(name: str, roots: Roots) -> Iterator[Path]:
     """A path may lead to the package, to the folder that holds it, or to one of repositories that hold it."""
     for root in _search_path("ROS_PACKAGE_PATH"):
-        if package_name(root) == name:
+        if package_name(root, roots) == name:
             yield root
-        if is_file(root / name / "package.xml"):
-            yield root / name
-        yield from (path.parent for path in sorted(root.glob(f"*/{name}/package.xml")))
+        # A repository that lies there is a stranger's, and may hold links: whether they lead to a package is not told.
+        manifests = (root / name / "package.xml", *sorted(root.glob(f"*/{name}/package.xml")))
+        yield from (path.parent for path in manifests if roots.hold(path) and is_file(path))
 
 
 def unknown_package(
@@ -97,12 +103,13 @@ def unknown_package(
 def _seen_around(start: Path, loader: Loader) -> Mapping[str, Path]:
     """Return the packages near a folder, the nearest one of each name; looked for once in a compile."""
     if start not in loader.packages_around:
-        folders = reversed([*islice(_folders_around(as_walked(start)), _MOST_FOLDERS)])
-        loader.packages_around[start] = {name: folder for folder in folders if (name := package_name(folder))}
+        roots = loader.roots
+        folders = reversed([*islice(_folders_around(as_walked(start), roots), _MOST_FOLDERS)])
+        loader.packages_around[start] = {name: folder for folder in folders if (name := package_name(folder, roots))}
     return loader.packages_around[start]
 
 
-def _folders_around(start: Path) -> Iterator[Path]:
+def _folders_around(start: Path, roots: Roots) -> Iterator[Path]:
     """Yield the folders beside those above a folder, and what is in them, up to the sources of its workspace.
 
     The top folders of a machine, where networks are mounted, and what lies in a home are not gone through.
@@ -110,21 +117,22 @@ def _folders_around(start: Path) -> Iterator[Path]:
     for above in islice((start, *start.parents), _LEVELS_UP):
         if len(above.parts) <= _TOP or str(above) == os.path.expanduser("~"):  # noqa: PTH111 - Path.home() may raise
             return
-        beside = _folders_in(above)
+        beside = _folders_in(above, roots)
         yield from beside
         for folder in beside:
-            yield from _folders_in(folder)
+            yield from _folders_in(folder, roots)
         if above.name == _SOURCES:
             return
 
 
-def _folders_in(folder: Path) -> list[Path]:
+def _folders_in(folder: Path, roots: Roots) -> list[Path]:
+    """Return the folders in a folder, but for hidden ones and links that lead out of the roots."""
     try:
         with os.scandir(folder) as entries:
             found = [
                 entry.name
                 for entry in islice(entries, _MOST_FOLDERS)
-                if entry.is_dir() and not entry.name.startswith(".")
+                if not entry.name.startswith(".") and not roots.are_left_by(folder / entry.name) and entry.is_dir()
             ]
     except OSError:
         return []

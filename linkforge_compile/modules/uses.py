@@ -168,7 +168,7 @@ def _in_package(site: UseSite, path: str, loader: Loader, sink: Diagnostics) -> 
 
     name = match[1]
     declared = {**site.packages, **loader.packages}
-    folder = find_package(name, declared, site.user.folder)
+    folder = find_package(name, declared, site.user.folder, loader.roots)
     if folder is None:
         sink.report(unknown_package(site.where, name, site.user.folder, loader, near=declared))
         return None

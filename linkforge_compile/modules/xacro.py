@@ -144,7 +144,7 @@ class Asked:
 
     def find(self, name: str) -> Path | None:
         declared = {**(self._use.packages or {}), **self._loader.packages}
-        folder = find_package(name, declared, self._use.path.parent)
+        folder = find_package(name, declared, self._use.path.parent, self._loader.roots)
         if folder is None:
             self.lost.append(name)
         return folder

@@ -105,7 +105,7 @@ class _Search:
         if kind == "dirname":
             return str(user.parent.absolute())
         if kind == "find":
-            folder = find_package(name, self._loader.packages, user.parent)
+            folder = find_package(name, self._loader.packages, user.parent, self._loader.roots)
             if folder is None:
                 raise _NotListedError(f"no package named '{name}'; say where it is with --package {name}=FOLDER")
             return str(folder)
