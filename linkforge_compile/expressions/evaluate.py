@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TypeAlias, TypeVar
 
@@ -14,7 +14,7 @@ from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expressions.access import field, item
 from linkforge_compile.expressions.comparisons import COMPARISONS
 from linkforge_compile.expressions.functions import CONSTANTS, FILE_FUNCTIONS, FUNCTIONS
-from linkforge_compile.expressions.in_xml import in_xml
+from linkforge_compile.expressions.in_xml import values_in_xml
 from linkforge_compile.expressions.operators import ARITHMETIC, MAX_TEXT, is_too_long, signed, truth
 from linkforge_compile.expressions.scope import Scope
 from linkforge_compile.expressions.template import Expression, Template
@@ -53,23 +53,18 @@ def evaluate(
     match template.parts:
         case (Expression() as whole,):
             return _Evaluation(whole, scope, sink, trace).result()
-    texts = [part if isinstance(part, str) else _Evaluation(part, scope, sink, trace).text() for part in template.parts]
-    if None in texts:
+    found = [part if isinstance(part, str) else _Evaluation(part, scope, sink, trace).text() for part in template.parts]
+    texts = [text for text in found if text is not None]
+    if len(texts) < len(found):
         return FAULT
-    text = joined(*(_in_xml(template, texts) if is_xml else (text for text in texts if text is not None)))
+    if is_xml:
+        texts = list(values_in_xml(zip(texts, (isinstance(part, Expression) for part in template.parts), strict=True)))
+    text = joined(*texts)
     if is_too_long(text):
         sink.report(codes.TEXT_TOO_LONG.at(template.span, limit=f"{MAX_TEXT:,}"))
         return FAULT
     scope.budget.spend(Limit.CHARACTERS_MADE, len(text), template.span)
     return text
-
-
-def _in_xml(template: Template, texts: Sequence[str | None]) -> Iterator[str]:
-    written = ""
-    for part, text in zip(template.parts, texts, strict=True):
-        if isinstance(part, str):
-            written += part
-        yield part if isinstance(part, str) else in_xml(text or "", written)
 
 
 def handed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, ...]] | None:

@@ -2,26 +2,47 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Iterator
+
 from linkforge_compile.expressions.types import PathText
 
 _REFERENCES = str.maketrans(
     {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&apos;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
 )
 
+_BEGIN = re.compile(r"<!--|<!\[CDATA\[")
+_END_OF_COMMENT = re.compile("-->")
+_END_OF_CDATA = re.compile(r"\]\]>")
+_END = {"<!--": _END_OF_COMMENT, "<![CDATA[": _END_OF_CDATA}
+_LONGEST_PART = len("<![CDATA[") - 1
 
-def in_xml(value: str, before: str) -> str:
-    """Return the text of a value as raw XML says it behind what the author wrote before: escaped, but for comments.
 
-    A comment knows no escapes; what would end it is put out of action.
+def values_in_xml(texts: Iterable[tuple[str, bool]]) -> Iterator[str]:
+    """Yield the texts that stand behind one another in raw XML, those that are values as it says them.
+
+    Values are escaped, but in comments, which know no escapes: what would end one is put out of action.
     """
+    awaited, behind = _BEGIN, ""
+    for text, is_value in texts:
+        said = _in_xml(text, awaited) if is_value else text
+        yield said
+        awaited, behind = _read(behind + said, awaited)
+
+
+def _in_xml(value: str, awaited: re.Pattern[str]) -> str:
     if isinstance(value, PathText):
-        return PathText(in_xml(str(value), before), in_xml(value.from_compiled, before))
-    if _is_inside(before, "<!--", "-->"):
+        return PathText(_in_xml(str(value), awaited), _in_xml(value.from_compiled, awaited))
+    if awaited is _END_OF_COMMENT:
         return value.replace("--", "- -").replace("--", "- -").replace(">", "&gt;")
     escaped = value.translate(_REFERENCES)
-    return f"]]>{escaped}<![CDATA[" if _is_inside(before, "<![CDATA[", "]]>") else escaped
+    return f"]]>{escaped}<![CDATA[" if awaited is _END_OF_CDATA else escaped
 
 
-def _is_inside(before: str, opening: str, closing: str) -> bool:
-    """Whether text ends inside of what begins and ends with these; in XML neither kind lies in the other."""
-    return before.rfind(opening) > before.rfind(closing)
+def _read(text: str, awaited: re.Pattern[str]) -> tuple[re.Pattern[str], str]:
+    """Return what ends the comment or CDATA that is open behind text, or begins the next, and a part of that mark."""
+    position = 0
+    while found := awaited.search(text, position):
+        position = found.end()
+        awaited = _END.get(found[0], _BEGIN)
+    return awaited, text[max(position, len(text) - _LONGEST_PART) :]

@@ -14,13 +14,14 @@ SPEC = """
 linkforge: 1
 name: r
 parameters: {value: {type: string}}
+variables: {nothing: ''}
 links:
   base:
     extra:
       - <a single='$(value)' double="$(value)">x $(value) y</a>
       - <b>$(value)$(value)</b>
-      - <c><![CDATA[a < $(value)]]></c>
-      - <!-- ($(value).$(value)) --><d/>
+      - <c><![CDATA[a < $(value)]]$(nothing)>$(value)]]></c>
+      - <!-- ($(value).$(value)) -$(nothing)-><d e="$(value)"/>
 """
 
 
@@ -33,7 +34,8 @@ def extras(value: str) -> list[etree._Element]:
 def test_a_value_is_the_text_that_it_is(value: str):
     a, b, c, comment, d = extras(value)
     assert dict(a.attrib) == {"single": value, "double": value}
-    assert (a.text, b.text, c.text) == (f"x {value} y", value * 2 if value.strip() else None, f"a < {value}")
+    assert (a.text, b.text, c.text) == (f"x {value} y", value * 2 if value.strip() else None, f"a < {value}]]>{value}")
+    assert d.attrib == {"e": value}
     assert isinstance(comment, etree._Comment)
     assert not any(map(len, (a, b, c, d)))
 
