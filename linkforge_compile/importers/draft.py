@@ -36,7 +36,12 @@ _MOST_DECIMALS = 3
 """So many digits behind the point may an angle in degrees have: more is no round angle, but a coincidence."""
 
 _TIMES_DRAFTED = 2
-"""How often a value may be drafted of which the spec holds one: of vendors' robots it is one and a half times."""
+"""How often a value is counted, at most, of which the spec holds one.
+
+An element that has been read counts for no more than its node holds. Counted a second time is what moves from one map
+to another, which a value does once: a block of Gazebo to its link, the parts of a joint to a frame; and collisions
+that are not written, for they are as the visuals, until their link has been read.
+"""
 
 
 Where: TypeAlias = Span | XmlAttribute | XmlElement | YamlNode
@@ -59,7 +64,7 @@ class Draft:
     elements, by their spans, that are known to be no use to the language, and why. `has_quaternions` says whether
     the document is of a version of URDF whose readers take them; the others ignore them. `shapes` are the robot's.
     `at_fault` are the elements in which an error has been told: what of them cannot be read is at fault, not raw.
-    `size` is how many values were put into maps, keys among them: what cannot but have too many ends there.
+    `size` is how many values there are, keys among them: what cannot but have too many ends where it gets there.
     """
 
     def __init__(
@@ -202,6 +207,17 @@ def number_of(text: str) -> float | None:
         return None
     value = float(stripped)
     return value if math.isfinite(value) else None
+
+
+def values_in(node: YamlNode) -> int:
+    """Return how many values a node holds, keys among them."""
+    match node:
+        case YamlMap():
+            return sum([2 + values_in(entry.value) for entry in node])
+        case YamlList():
+            return sum([1 + values_in(item) for item in node])
+        case _:
+            return 0
 
 
 def same(one: YamlNode | None, other: YamlNode | None) -> bool:

@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Iterator
 
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
-from linkforge_compile.importers.draft import DeclinedError, Draft
+from linkforge_compile.importers.draft import DeclinedError, Draft, values_in
 from linkforge_compile.importers.prefixed import MARKUP, raw_with_prefix
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
 from linkforge_compile.source import Span
@@ -188,6 +188,8 @@ class Reading:
             return None
         self._keep_left(reading)
         del self._children[child]
+        # A short form holds less than was drafted for it.
+        self.draft.size = size + (values_in(node) if node is not None else 0)
         if node is not None:
             self.draft.made(node, child)
         return (node,)

@@ -10,6 +10,9 @@ import pytest
 from linkforge_compile import Import, compile_text, import_urdf, render_urdf
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.core.physics import rotation_matrix
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.source import SourceFile
+from linkforge_compile.syntax import read as read_yaml
 
 
 @pytest.fixture
@@ -657,21 +660,52 @@ def test_a_robot_that_no_spec_may_hold_is_told_at_its_place(limit: Limit, monkey
     assert limit.counted in told.message
 
 
-@pytest.mark.parametrize(("limit", "room", "line"), [(Limit.VALUES, "draft", 7), (Limit.ENTRIES, "urdf.robot", 12)])
-def test_what_cannot_but_be_too_much_is_told_where_it_gets_there(
-    limit: Limit, room: str, line: int, monkeypatch: pytest.MonkeyPatch
-):
+def _leaving(left: int, limit: Limit) -> type[Budget]:
+    """Return the class of budgets that leave so much of one limit."""
+
     class Spent(Budget):
         def __init__(self, times: int = 1) -> None:
             super().__init__(times)
-            self.spend(limit, times * limit.most - 10, None)
+            self.spend(limit, times * (limit.most - left), None)
 
-    monkeypatch.setattr(f"linkforge_compile.importers.{room}.Budget", Spent)
+    return Spent
+
+
+@pytest.mark.parametrize(("limit", "room", "line"), [(Limit.VALUES, "draft", 12), (Limit.ENTRIES, "urdf.robot", 12)])
+def test_what_cannot_but_be_too_much_is_told_where_it_gets_there(
+    limit: Limit, room: str, line: int, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(f"linkforge_compile.importers.{room}.Budget", _leaving(10, limit))
     monkeypatch.setattr("linkforge_compile.importing.count_entries", None)
     links = "".join(f"<link name='l{i}'/>\n" for i in range(20))
     imported = import_urdf("r.urdf", text=f"<robot name='r'>\n{links}</robot>")
     [told] = imported.diagnostics
     assert (imported.text, told.code.id, str(told.span)) == (None, "LF3301", f"r.urdf:{line}:1")
+
+
+_SHAPE = "<{0}><geometry><mesh filename='a.stl' scale='1 1 1'/></geometry></{0}>"
+_PAIRS = (_SHAPE.format("visual") + _SHAPE.format("collision")) * 10
+_BLOCKS = "<gazebo reference='l{0}'><mu1>1</mu1><a b='c'><d>1</d></a></gazebo>" * 10
+_FIXED = "<joint name='j{0}' type='fixed'><parent link='l0'/><child link='l{0}'/><origin xyz='1 0 0'/></joint>"
+
+
+@pytest.mark.parametrize(
+    ("inside", "beside"), [("", ""), (_PAIRS, ""), ("", _BLOCKS)], ids=["frames", "same", "blocks"]
+)
+def test_what_the_short_forms_leave_out_of_a_robot_does_not_make_it_too_large(
+    inside: str, beside: str, monkeypatch: pytest.MonkeyPatch
+):
+    links = "".join(f"<link name='l{i}'>{inside}</link>{beside.format(i)}" for i in range(20))
+    robot = f"<robot name='r'>{links}{''.join(map(_FIXED.format, range(1, 20)))}</robot>"
+    text = import_urdf("r.urdf", text=robot).text
+    assert text
+    read_yaml(SourceFile("spec", text), Diagnostics(), budget := Budget())
+    values = Limit.VALUES.most - budget.left(Limit.VALUES)
+    for room in ("importing", "importers.draft"):
+        monkeypatch.setattr(f"linkforge_compile.{room}.Budget", _leaving(values, Limit.VALUES))
+    assert import_urdf("r.urdf", text=robot).text == text
+    monkeypatch.setattr("linkforge_compile.importing.Budget", _leaving(values - 1, Limit.VALUES))
+    assert import_urdf("r.urdf", text=robot).text is None
 
 
 def test_the_entries_of_its_srdf_count_for_a_spec(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

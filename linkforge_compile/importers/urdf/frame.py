@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Collection
 
-from linkforge_compile.importers.draft import Draft
+from linkforge_compile.importers.draft import Draft, values_in
 from linkforge_compile.importers.urdf.material import Named
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
@@ -30,6 +30,7 @@ def frames_of(draft: Draft, links: Named, joints: Named) -> Named:
         if frame is None:
             break
         del links[link], joints[joint]
+        draft.size -= values_in(joint_node)  # the frame counts in its place
         if joint != f"{link}_joint":
             named = draft.text(joint, joint_name.span)
             frame = draft.map_of({**{one.name: one.value for one in frame}, "joint": named}, frame.span)
