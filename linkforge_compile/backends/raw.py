@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
-from linkforge_compile.backends.element import RawXmlError, shown
+from linkforge_compile.backends.element import RawXmlError
 from linkforge_compile.backends.marks import mark, marks_of_lines, recorded
 from linkforge_compile.backends.markup import (
     Xml,
@@ -27,8 +27,13 @@ from linkforge_compile.source import SourceRef
 if TYPE_CHECKING:
     from xml.parsers.expat import XMLParserType
 
-_WRAPPER = "<extra>"
-"""Stands around raw XML, so that any number of elements is one document and a DOCTYPE is a fault."""
+_BEGIN, _END = "<raw-xml-of-a-spec>", "</raw-xml-of-a-spec>"
+"""Stand around raw XML, so that any number of elements is one document and a DOCTYPE is a fault.
+
+No author writes this name, so that an `</extra>` too many closes nothing that is open.
+"""
+
+_TEXT_OUTSIDE = "raw XML must be elements, found text"
 
 _LONGEST_KEPT = 10_000
 """Characters of raw XML that is remembered laid out."""
@@ -86,10 +91,7 @@ def _kept(text: str) -> Xml:
 
 def _laid_out(text: str, source: SourceRef | None, path: Path) -> Xml:
     require_writable(text)
-    content = _parse(text, source, path)
-    if any(map(is_text, content)):
-        raise RobotGeneratorError(f"raw XML must be elements, found text in {shown(text)}")
-    return Xml("\n".join(_lines(content)))
+    return Xml("\n".join(_lines(_parse(text, source, path))))
 
 
 def nodes_of(text: str) -> list[Node]:
@@ -189,7 +191,7 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     parser = expat.ParserCreate("utf-8")
     parser.ordered_attributes = True
     parser.buffer_text = True
-    reader = _Reader(parser, marks_of_lines(text, source, path))
+    reader = _Reader(parser, text, marks_of_lines(text, source, path))
     parser.StartElementHandler = reader.begin
     parser.EndElementHandler = reader.end
     parser.CharacterDataHandler = reader.characters
@@ -197,9 +199,9 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     parser.StartCdataSectionHandler = reader.begin_cdata
     parser.ProcessingInstructionHandler = reader.instruction
     try:
-        parser.Parse(f"{_WRAPPER}{text}</extra>", True)
-    except expat.ExpatError as error:
-        raise reader.malformed(error.code, text) from None
+        parser.Parse(f"{_BEGIN}{text}{_END}", True)
+    except expat.ExpatError:
+        raise reader.malformed() from None
     finally:
         # The two know each other, and would stay until Python looks for cycles: 13 kB each, while a compile rests that.
         del reader.parser
@@ -211,8 +213,9 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
 class _Reader:
     """What a parser tells of a document, as nodes below `document`, each with the mark of its line."""
 
-    def __init__(self, parser: XMLParserType, mark: Callable[[int], str]) -> None:
+    def __init__(self, parser: XMLParserType, text: str, mark: Callable[[int], str]) -> None:
         self.parser = parser
+        self._text = text
         self.document = Node("", (), [])
         self._mark = mark
         self._open = [self.document]
@@ -222,7 +225,7 @@ class _Reader:
 
     def begin(self, tag: str, attributes: list[str]) -> None:
         if len(self._open) > MAX_NESTED_ELEMENTS:
-            raise RobotGeneratorError(f"raw XML is nested more than {MAX_NESTED_ELEMENTS} elements deep")
+            raise self._refused(f"raw XML is nested more than {MAX_NESTED_ELEMENTS} elements deep")
         pairs = tuple(zip(attributes[::2], attributes[1::2], strict=True))
         node = Node(tag, pairs, [], self._mark(self.parser.CurrentLineNumber))
         self._open[-1].content.append(node)
@@ -238,32 +241,65 @@ class _Reader:
             content[:] = [item for item in content if not is_text(item)]
 
     def characters(self, text: str) -> None:
+        if self._is_outside and text.strip():
+            # Text is told once it has ended, which is where the parser is then.
+            end = len(self._text[: self._index(self.parser.CurrentByteIndex)].rstrip())
+            begin = self._text.rfind(">", 0, end - 1) + 1
+            begin += len(self._text[begin:end]) - len(self._text[begin:end].lstrip())
+            raise RawXmlError(_TEXT_OUTSIDE, self._text, begin)
         self._open[-1].content.append(text)
 
     def comment(self, text: str) -> None:
         self._open[-1].content.append(verbatim_comment(text))
 
     def begin_cdata(self) -> None:
+        if self._is_outside:
+            raise self._refused(_TEXT_OUTSIDE)
         self._keeps_space[-1] = True
 
     def instruction(self, target: str, _: str) -> None:
         reason = "most readers of URDF refuse a file with one"
-        raise RobotGeneratorError(f"raw XML holds the processing instruction '<?{target}'; {reason}")
+        raise self._refused(f"raw XML holds the processing instruction '<?{target}'; {reason}")
 
-    def malformed(self, code: int, text: str) -> RawXmlError:
-        """Return what is wrong where the parser gave up with a code of expat's."""
+    def malformed(self) -> RawXmlError:
+        """Return what is wrong where the parser gave up."""
         from linkforge_compile.source.malformed_xml import malformed
 
-        read = text.encode()
-
-        def index(byte: int) -> int:
-            """Return the index into the text for one of expat, who counts bytes, and those of the wrapper."""
-            return min(len(read[: byte - len(_WRAPPER)].decode(errors="replace")), len(text.rstrip()))
-
-        at = index(self.parser.ErrorByteIndex)
-        if text.startswith("<!DOCTYPE", at - len("<!")):
+        code, byte = self._fault()
+        at = self._index(byte)
+        if self._text.startswith("<!DOCTYPE", at - len("<!")):
             reason = "raw XML has a document type, whose entities can hold and fetch anything; delete that"
-            return RawXmlError(reason, text, at - len("<!"))
-        found = malformed(code, text, at, [node.tag for node in self._open[2:]])
-        begun = index(self._begun[-1]) if found.is_open else None
-        return RawXmlError(f"raw XML is not well-formed: {found.problem}", text, found.at, begun)
+            return RawXmlError(reason, self._text, at - len("<!"))
+        if self._text.startswith(("<?xml ", "<?xml?"), at):
+            reason = "raw XML is part of a file, which has its '<?xml'; delete this one"
+            return RawXmlError(reason, self._text, at)
+        found = malformed(code, self._text, at, [node.tag for node in self._open[2:]])
+        begun = self._index(self._begun[-1]) if found.is_open else None
+        return RawXmlError(f"raw XML is not well-formed: {found.problem}", self._text, found.at, begun)
+
+    def _fault(self) -> tuple[int, int]:
+        """Return expat's code of what is wrong, and at which byte.
+
+        Both as of a text that just ends: a tag that is not closed would be one that holds what stands around the text.
+        """
+        from xml.parsers import expat
+
+        parser = expat.ParserCreate("utf-8")
+        try:
+            parser.Parse(f"{_BEGIN}{self._text}", True)
+        except expat.ExpatError as error:
+            return error.code, parser.ErrorByteIndex
+        return self.parser.ErrorCode, self.parser.ErrorByteIndex
+
+    @property
+    def _is_outside(self) -> bool:
+        """Whether no element of the text is open: only the document, and what stands around the text."""
+        return len(self._open) == 2
+
+    def _refused(self, reason: str) -> RawXmlError:
+        return RawXmlError(reason, self._text, self._index(self.parser.CurrentByteIndex))
+
+    def _index(self, byte: int) -> int:
+        """Return the index into the text for one of expat, who counts bytes, and those of what stands around it."""
+        read = self._text.encode()[: byte - len(_BEGIN)]
+        return min(len(read.decode(errors="replace")), len(self._text.rstrip()))

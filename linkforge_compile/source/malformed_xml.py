@@ -33,6 +33,11 @@ def malformed(code: int, text: str, at: int, open_tags: Sequence[str]) -> Malfor
     known, innermost = ErrorString(code), _shown(open_tags[-1]) if open_tags else None
     if known == errors.XML_ERROR_INVALID_TOKEN and (fault := _of_invalid_token(text, at)):
         return fault
+    if known == errors.XML_ERROR_UNCLOSED_TOKEN:
+        what = "comment" if text.startswith("<!--", at) else "tag"
+        return Malformed(f"this {what} is not closed", at)
+    if known == errors.XML_ERROR_UNCLOSED_CDATA_SECTION:
+        return Malformed("this CDATA is not closed; it ends with ']]>'", text.rfind("<![CDATA[", 0, at))
     if known == errors.XML_ERROR_TAG_MISMATCH and (name := _NAME.match(text, at)):
         found = f"</{_shown(name[0])}>"
         if innermost is None:
@@ -44,7 +49,7 @@ def malformed(code: int, text: str, at: int, open_tags: Sequence[str]) -> Malfor
         return Malformed("there is no element in it", at)
     if known == errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
         return Malformed("it has one element, behind which nothing but comments may stand", at)
-    return Malformed(known, at)
+    return Malformed("invalid token" if known == errors.XML_ERROR_INVALID_TOKEN else known, at)
 
 
 def _of_invalid_token(text: str, at: int) -> Malformed | None:

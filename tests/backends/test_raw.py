@@ -5,6 +5,7 @@ import gc
 import pytest
 
 from linkforge_compile.backends import render_urdf
+from linkforge_compile.backends.element import RawXmlError
 from linkforge_compile.backends.raw import parameter_elements, raw_elements
 from linkforge_compile.core import Robot
 from linkforge_compile.core.exceptions import RobotGeneratorError
@@ -86,6 +87,32 @@ def test_a_processing_instruction_is_refused_with_the_reason():
 def test_raw_xml_that_is_none_is_refused(raw: str):
     with pytest.raises(RobotGeneratorError):
         raw_elements(raw)
+
+
+@pytest.mark.parametrize(
+    ("raw", "at", "problem"),
+    [
+        ("<a/>\n<b c='ä\n", 5, "raw XML is not well-formed: this tag is not closed"),
+        ("<a>\n<!-- b\n", 4, "raw XML is not well-formed: this comment is not closed"),
+        ("<a>\n<![CDATA[b\n", 4, "raw XML is not well-formed: this CDATA is not closed; it ends with ']]>'"),
+        ("<a/></extra><b/>", 6, "raw XML is not well-formed: </extra> closes nothing that is open"),
+        ("< a/>", 1, "raw XML is not well-formed: invalid token"),
+        ("<?xml version='1.0'?><a/>", 0, "raw XML is part of a file, which has its '<?xml'; delete this one"),
+        ("<ä/>\n é &gt; <b/>", 6, "raw XML must be elements, found text"),
+        ("<a/> é\n", 5, "raw XML must be elements, found text"),
+        ("<a/>\n<![CDATA[ ]]>", 5, "raw XML must be elements, found text"),
+        (
+            "<é/><?a b?>",
+            4,
+            "raw XML holds the processing instruction '<?a'; most readers of URDF refuse a file with one",
+        ),
+        ("\n" + "<a>" * 101, 298, "raw XML is nested more than 100 elements deep"),
+    ],
+)
+def test_what_is_wrong_with_raw_xml_is_told_where_it_is(raw: str, at: int, problem: str):
+    with pytest.raises(RawXmlError) as refused:
+        raw_elements(raw)
+    assert (refused.value.at, refused.value.problem) == (at, problem)
 
 
 def test_raw_xml_cannot_be_bottomless():

@@ -50,8 +50,9 @@ def elements(element: XmlElement):
             "this line is one that git leaves of a merge conflict; keep one of the two sides",
         ),
         ("<a/>\n<a/>", (2, 1), "it has one element, behind which nothing but comments may stand"),
-        ('<a b="1"c="2"/>', (1, 9), "not well-formed (invalid token)"),
-        ("< a/>", (1, 2), "not well-formed (invalid token)"),
+        ('<a b="1"c="2"/>', (1, 9), "invalid token"),
+        ("< a/>", (1, 2), "invalid token"),
+        ("<a>\n <b c='d\n", (2, 2), "this tag is not closed"),
     ],
 )
 def test_what_is_no_xml_is_told_where_that_is_certain(text: str, place: tuple[int, int], problem: str):
