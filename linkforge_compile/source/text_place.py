@@ -9,17 +9,14 @@ from collections.abc import Sequence
 from functools import cached_property
 
 from linkforge_compile.frozen import dataclass
+from linkforge_compile.source.file import Room
 from linkforge_compile.source.span import Span
 
 _LINE = re.compile(r"^.*$", re.MULTILINE)
 
 
-class _Room:
-    """Where `cached_property` keeps a value: slots have none."""
-
-
 @dataclass(frozen=True, slots=True, eq=False)
-class TextPlace(_Room):
+class TextPlace(Room):
     """The span of a scalar, its text, and where in it that begins.
 
     `start` is None where the text does not stand on one line of the file as it is: of a text behind `|` each line still
