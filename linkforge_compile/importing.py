@@ -124,7 +124,7 @@ def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     if both is None:
         return None
     sink.report_all(both[1].faults)
-    return both[1].robot
+    return None if sink.has_errors else both[1].robot
 
 
 def _judge_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Judged]:
@@ -172,7 +172,8 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     # The tree has the spans of the files, so what is wrong with the robot is told there.
     whole, compiled = both
     sink.report_all(compiled.faults)
-    if compiled.robot is not None:
+    # A robot with an error has what stands in for that, which is in neither of its documents.
+    if compiled.robot is not None and not sink.has_errors:
         sink.report_all(check_written_twice(doubtful_parts_of_urdf(compiled.robot).with_extras))
         sink.report_all(_losses(whole, compiled.robot, sink.places_of(LOSSES)))
         if settings.output is not None:

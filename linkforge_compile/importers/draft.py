@@ -93,7 +93,8 @@ class Draft:
         """Report what is to be told; what is kept raw for the same reason at many places is told at the first."""
         alike: dict[str, list[Diagnostic]] = {}
         for number, one in enumerate(self.told):
-            alike.setdefault(one.message if one.code is KEPT_RAW else str(number), []).append(one)
+            kind = f"{one.severity} {one.message}" if one.code is KEPT_RAW else str(number)
+            alike.setdefault(kind, []).append(one)
         for first, *others in alike.values():
             more = [Note(f"and {len(others)} more like this, the next one here", others[0].span)] if others else []
             sink.report(replace(first, notes=(*first.notes, *more)))

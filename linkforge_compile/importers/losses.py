@@ -18,7 +18,7 @@ from linkforge_compile.importers.orders import recolored
 from linkforge_compile.importers.said import Said, said
 from linkforge_compile.importers.xml import XmlDocument, XmlElement
 from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlFault, YamlMap, YamlNode, YamlScalar
 
 _Key: TypeAlias = tuple[str | None, ...]
 
@@ -32,7 +32,7 @@ def losses(document: XmlDocument, again: XmlDocument) -> Iterator[Diagnostic]:
 
 def unread(tree: YamlNode, again: YamlNode | None, name: str = "robot") -> Iterator[Diagnostic]:
     """Yield what the text of a spec does not say of the tree that it was written from."""
-    if same(tree, again):
+    if isinstance(tree, YamlFault) or same(tree, again):  # a fault is told, and has no text
         return
     if isinstance(tree, YamlMap) and isinstance(again, YamlMap):
         for entry in tree:

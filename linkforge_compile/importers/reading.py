@@ -10,7 +10,9 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
+from linkforge_compile.diagnostics import Note, Severity
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
+from linkforge_compile.frozen import replace
 from linkforge_compile.importers.draft import DeclinedError, Draft, values_in
 from linkforge_compile.importers.prefixed import MARKUP, raw_with_prefix
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
@@ -108,6 +110,16 @@ class Reading:
         """Take the first child of a tag, which is read; None where there is none, or it is declined."""
         child = self._only(tag)
         nodes = self._read(child, read) if child else None
+        return nodes[0] if nodes else None
+
+    def must(self, tag: str, read: Read) -> YamlNode | None:
+        """Take the first child of a tag without which this element is no use: one that is declined is an error."""
+        child = self._only(tag)
+        nodes = self._read(child, read) if child else ()
+        if child and nodes is None:
+            needed = Note(f"this <{self.element.tag}> needs it", self.span)
+            self.draft.told[-1] = replace(self.draft.told[-1], taken_for=Severity.ERROR, notes=(needed,))
+            return YamlFault(child.span)
         return nodes[0] if nodes else None
 
     def each(self, tag: str, read: Read) -> list[YamlNode]:

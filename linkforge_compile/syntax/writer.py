@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import TypeAlias
 
-from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import is_cut_expression, scalar_value
 from linkforge_compile.units import Quantity, number_text
 
@@ -42,7 +42,7 @@ _ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\
 
 
 def write(tree: YamlMap, comments: Comments = MappingProxyType({}), endings: Comments = MappingProxyType({})) -> str:
-    """Return a tree without faults as YAML of which `read` makes the same tree, spans aside.
+    """Return a tree as YAML of which `read` makes the same tree, spans and entries at fault aside.
 
     `endings` are comments below the last entry or item, by the map or list that holds it, `tree` itself for the end
     of the file. Expressions stay what they are. Text with characters that no spec may hold is written, and refused
@@ -80,6 +80,8 @@ class _Layout:
     def _block(self, node: YamlNode, indent: str) -> Iterator[str]:
         if isinstance(node, YamlMap):
             for entry in node:
+                if isinstance(entry.value, YamlFault):
+                    continue
                 yield from self._comment(entry.key, indent)
                 yield from self._value(f"{indent}{self._key(entry.name, in_brackets=False)}:", entry.value, indent)
         elif isinstance(node, YamlList):

@@ -73,6 +73,15 @@ def test_what_is_kept_raw_is_no_loss(arm, capfd: pytest.CaptureFixture[str]):
     assert "LF8021" in capfd.readouterr().err
 
 
+def test_a_spec_that_lacks_what_is_raw_is_written_and_fails(arm, capfd: pytest.CaptureFixture[str]):
+    joint = '<joint name="j" type="revolute"><parent link="base"/><child link="tip"/>{}<limit effort="1,5"/></joint>'
+    assert main(["import", arm('<link name="tip"/>' + joint.format('<axis xyz="0 0"/>'))]) == 1
+    written, told = capfd.readouterr()
+    assert '    child: tip\n    extra: [<axis xyz="0 0"/>, "<limit effort=\\"1,5\\"/>"]\n' in written
+    assert told.count("error: ") == told.count("note: this <joint> needs it") == 2
+    assert "warning: " not in told
+
+
 def test_the_version_that_a_capsule_needs_is_no_loss(arm, capfd: pytest.CaptureFixture[str]):
     capsule = '<link name="rod"><visual><geometry><capsule radius="1" length="1"/></geometry></visual></link>'
     joint = '<joint name="j" type="fixed"><parent link="base"/><child link="rod"/></joint>'

@@ -57,7 +57,7 @@ def read_joint(joint: Reading, joints: Collection[str], blocks: Blocks) -> YamlM
         child=child,
         origin=joint.one("origin", read_origin),
         axis=_axis_of(joint) if motion.has_axis else None,
-        limits=_part(joint, "limit", _limits, motion) if motion.has_limits else None,
+        limits=_limits_of(joint, motion) if motion.has_limits else None,
         dynamics=_part(joint, "dynamics", _dynamics, motion),
         mimic=joint.one("mimic", lambda mimic: _mimic(mimic, motion, joints)),
         safety_controller=_part(joint, "safety_controller", _safety_controller, motion),
@@ -78,7 +78,7 @@ def _link(end: Reading) -> YamlNode:
 
 def _axis_of(joint: Reading) -> YamlNode | None:
     """Read the axis; URDF's is x where nothing is said, and the language wants it said."""
-    return joint.one("axis", _axis) if joint.has("axis") else joint.draft.text("x", joint.span)
+    return joint.must("axis", _axis) if joint.has("axis") else joint.draft.text("x", joint.span)
 
 
 def _axis(axis: Reading) -> YamlNode:
@@ -88,6 +88,11 @@ def _axis(axis: Reading) -> YamlNode:
         return axis.draft.text("x", axis.span)
     letter = _AXES.get(tuple(map(number_of, (axis.element.get("xyz") or "").split())))
     return axis.draft.text(letter, xyz) if letter else xyz
+
+
+def _limits_of(joint: Reading, motion: _Motion) -> YamlNode | None:
+    take = joint.must if motion.needs_limits else joint.one
+    return take("limit", lambda limit: _limits(limit, motion))
 
 
 def _limits(limit: Reading, motion: _Motion) -> YamlNode:
