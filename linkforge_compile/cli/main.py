@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile._version import __version__
-from linkforge_compile.cli.exits import FAULTY_SPEC, INTERRUPTED, OK, WRONG_USAGE, UsageError
+from linkforge_compile.cli.exits import INTERRUPTED, OK, WRONG_USAGE, UsageError
 
 if TYPE_CHECKING:
     import argparse
@@ -54,14 +54,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _silence_stdout()
         return OK
     except MemoryError:
-        # Of the machine, or of a limit that its owner set: the bounds of specs take less than 512 MB.
-        print("linkforge: there is not enough memory for this spec", file=sys.stderr)
-        return FAULTY_SPEC
+        # Told below, where what took the memory is let go: to tell takes some.
+        pass
     except Exception as fault:
         # The last stand: whatever gets here is our fault, not the user's, and is told as such.
         from linkforge_compile.cli.internal_fault import confess
 
         return confess(fault, words)
+    # Of the machine, or of a limit that its owner set, and no error in a spec: its bounds take less than 512 MB.
+    return _wrong_usage(
+        _shown(" ".join(words)), "there is not enough memory; free some, or raise the limit (ulimit -v)"
+    )
 
 
 def _run(words: list[str]) -> int:

@@ -54,6 +54,13 @@ def test_the_traceback_is_shown_where_it_is_asked_for(
     assert capsys.readouterr().err.startswith("Traceback (most recent call last):")
 
 
+def test_too_little_memory_is_no_error_in_the_spec(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
+    plant(monkeypatch, MemoryError())
+    assert main(COMMAND) == 2
+    way_out = "free some, or raise the limit (ulimit -v)"
+    assert capsys.readouterr().err == f"linkforge {' '.join(COMMAND)}: there is not enough memory; {way_out}\n"
+
+
 def test_a_report_that_cannot_be_saved_is_offered_otherwise(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ):
