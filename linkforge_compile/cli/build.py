@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.banner import banner_of
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK
 from linkforge_compile.cli.one_spec import compile_spec
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.cli.telling import say, tell
@@ -57,7 +57,9 @@ def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespac
     """Tell of a compilation and write or compare what comes out of it; return the exit code."""
     outputs = None if compilation.robot is None else _outputs(compilation.robot, order, arguments)
     if outputs is not None:
-        _refuse_to_replace(compilation.files, outputs, file_to_write(arguments.depfile))
+        from linkforge_compile.cli.output import refuse_to_replace
+
+        refuse_to_replace(compilation.files, (*(output.path for output in outputs), file_to_write(arguments.depfile)))
     stale = _stale(outputs, order.spec, compilation.robot) if arguments.check and outputs else ()
     if tell((*_report(compilation, outputs), *stale), arguments) or outputs is None:
         return FAULTY_SPEC
@@ -68,21 +70,6 @@ def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespac
         # for a warning.
         _write((*outputs, _depfile(outputs, compilation, arguments.depfile)))
     return OK
-
-
-def _refuse_to_replace(files: Sequence[Path], outputs: Sequence[Output], depfile: Path | None) -> None:
-    """Refuse to write over what the robot is made from, or over another output, as a depfile over the URDF."""
-    from linkforge_compile.cli.output import refuse_to_replace
-
-    paths = [path for path in (*(output.path for output in outputs), depfile) if path is not None]
-    refuse_to_replace(files, paths)
-    places: set[Path] = set()
-    for path in paths:
-        place = path.resolve()
-        # A device, such as /dev/null, takes whatever comes.
-        if place in places and (place.is_file() or not place.exists()):
-            raise UsageError(f"'{path}' would be written twice, and the second replaces the first; give each a file")
-        places.add(place)
 
 
 def _report(compilation: Compilation, outputs: Sequence[Output] | None) -> tuple[Diagnostic, ...]:
@@ -148,12 +135,10 @@ def _put(outputs: Sequence[Output], arguments: argparse.Namespace) -> None:
 
 def _write(outputs: Sequence[Output]) -> frozenset[Path]:
     """Write all outputs, or none where one cannot be; return the files that had to be written."""
-    from linkforge_compile.cli.output import write_changed, write_to_stdout
+    from linkforge_compile.cli.output import write_changed
 
-    for output in outputs:
-        if output.path is None:
-            write_to_stdout(output.text)
-    return write_changed({output.path: output.text for output in outputs if output.path is not None})
+    texts = {output.path: output.text for output in outputs if output.path is not None}
+    return write_changed(texts, next((output.text for output in outputs if output.path is None), None))
 
 
 def _depfile(outputs: Sequence[Output], compilation: Compilation, name: str) -> Output:

@@ -1,5 +1,6 @@
 """`linkforge compile`, run as a program where that may make a difference."""
 
+import errno
 import json
 import os
 import stat
@@ -256,6 +257,9 @@ def test_nothing_is_left_beside_the_output(pendulum: Path):
     assert [path.name for path in (pendulum / "out").iterdir()] == ["swing.urdf"]
 
 
+PLANNED = "linkforge: 1\nname: arm\nlinks: {base: }\nsemantic: {no_default_collision_links: [base]}\n"
+
+
 @pytest.mark.parametrize(
     ("refused", "options", "count"),
     [
@@ -265,8 +269,7 @@ def test_nothing_is_left_beside_the_output(pendulum: Path):
     ],
 )
 def test_of_outputs_all_are_written_or_none(refused: str, options: tuple[str, ...], count: int, tmp_path: Path):
-    semantic = "semantic: {no_default_collision_links: [base]}\n"
-    (tmp_path / "arm.robot.yaml").write_text(f"linkforge: 1\nname: arm\nlinks: {{base: }}\n{semantic}")
+    (tmp_path / "arm.robot.yaml").write_text(PLANNED)
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "arm.urdf").write_text("old")
     (tmp_path / refused).mkdir()
@@ -278,6 +281,59 @@ def test_of_outputs_all_are_written_or_none(refused: str, options: tuple[str, ..
     (tmp_path / refused).rmdir()
     assert linkforge(*build, cwd=tmp_path).returncode == 0
     assert len([*(tmp_path / "out").iterdir()]) == count
+
+
+def refuse_to_move(monkeypatch: pytest.MonkeyPatch, *, first: int, last: int) -> None:
+    """Refuse these moves of files, counted from 1, as over one that is mounted by itself."""
+    moves = iter(range(1, 10))
+    replace = Path.replace
+
+    def replace_others(path: Path, target: Path) -> Path:
+        if first <= next(moves) <= last:
+            raise OSError(errno.EBUSY, "busy")
+        return replace(path, target)
+
+    monkeypatch.setattr(Path, "replace", replace_others)
+
+
+def no_link(*_: object, **__: object) -> None:
+    raise PermissionError(errno.EPERM, "no links here")
+
+
+@pytest.mark.parametrize("has_links", [True, False])
+@pytest.mark.parametrize("before", [("robot.urdf", "robot.srdf"), ("robot.srdf",)])
+def test_what_was_moved_is_put_back_where_the_next_cannot_be(
+    before: tuple[str, ...], has_links: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    refuse_to_move(monkeypatch, first=2, last=2)
+    if not has_links:
+        monkeypatch.setattr(os, "link", no_link)
+    for name in before:
+        (tmp_path / name).write_text("old")
+        os.utime(tmp_path / name, ns=(1, 1))
+    run = linkforge("compile", "-", "-o", "./", "--depfile", "-", cwd=tmp_path, stdin=PLANNED)
+    mounted = "busy; where this file is mounted alone, mount its folder, for a file is replaced whole"
+    assert (run.returncode, run.stdout) == (2, "")
+    assert run.stderr == f"linkforge compile: cannot write 'robot.srdf': {mounted}\n"
+    left = {path.name: (path.read_text(), path.stat().st_mtime_ns) for path in tmp_path.iterdir()}
+    assert left == dict.fromkeys(before, ("old", 1))
+
+
+def test_what_cannot_be_put_back_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    refuse_to_move(monkeypatch, first=2, last=3)
+    (tmp_path / "robot.urdf").write_text("old")
+    run = linkforge("compile", "-", "-o", ".", cwd=tmp_path, stdin=PLANNED)
+    assert run.returncode == 2
+    assert run.stderr.endswith("; 'robot.urdf' is new already and cannot be put back: busy\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["robot.urdf"]
+
+
+@pytest.mark.parametrize("output", ["loop.urdf", "loop.urdf/arm.urdf"])
+def test_a_link_that_leads_to_itself_is_wrong_usage(output: str, pendulum: Path):
+    (pendulum / "loop.urdf").symlink_to("loop.urdf")
+    run = linkforge("compile", "swing.robot.yaml", "-o", output, cwd=pendulum)
+    assert (run.returncode, f"'{output}'" in run.stderr) == (2, True), run.stderr
+    assert (pendulum / "loop.urdf").is_symlink()
 
 
 def test_output_that_cannot_be_written_is_wrong_usage(pendulum: Path):

@@ -236,8 +236,8 @@ def test_what_a_robot_is_made_from_is_not_written_over(
 
 def test_each_file_is_resolved_once_for_all_outputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     resolved: list[Path] = []
-    resolve = Path.resolve
-    monkeypatch.setattr(Path, "resolve", lambda path: resolved.append(path) or resolve(path))
+    resolve = os.path.realpath
+    monkeypatch.setattr(os.path, "realpath", lambda path: resolved.append(path) or resolve(path))
     files, outputs = ([tmp_path / f"{number}{ending}" for number in range(4)] for ending in (".yaml", ".urdf"))
     refuse_to_replace(files, outputs)
     assert sorted(resolved) == sorted([*files, *outputs])
@@ -256,6 +256,17 @@ def test_one_output_does_not_replace_another(cell: Path, capfd: pytest.CaptureFi
     assert main(["compile", "cell.robot.yaml", *words]) == 2
     assert "would be written twice, and the second replaces the first; give each a file" in capfd.readouterr().err
     assert not (cell / "out").exists()
+
+
+def test_standard_output_gets_nothing_of_an_output_that_is_not_written(cell: Path, capfd: pytest.CaptureFixture[str]):
+    assert main(["compile", "cell.robot.yaml", "-o", "table.yaml/sub/cell.urdf", "--depfile", "-"]) == 2
+    captured = capfd.readouterr()
+    assert (captured.out, "'table.yaml' is not a folder" in captured.err) == ("", True)
+
+
+def test_folders_of_an_output_that_is_not_written_are_not_left(cell: Path):
+    assert main(["compile", "cell.robot.yaml", "-o", "new/sub/", "--depfile", "table.yaml/cell.d"]) == 2
+    assert not (cell / "new").exists()
 
 
 @pytest.mark.parametrize(

@@ -45,8 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.writers import write_spec
 
     output = file_to_write(arguments.output)
-    if output is not None:
-        refuse_to_replace(compilation.files, [output])
+    refuse_to_replace(compilation.files, [output])
     name = on_one_line(Path(spec).name)
     banner = None if spec == "-" else f"Expanded by linkforge from {name}; edit that file, not this one."
     text = write_spec(compilation.robot, banner=banner, origins=True)

@@ -66,8 +66,8 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import refuse_to_replace
 
     require_file("--srdf", arguments.srdf)
-    if (named := file_to_write(arguments.output)) is not None:
-        refuse_to_replace([Path(file) for file in (urdf, arguments.srdf) if file is not None], [named])
+    given = [Path(file) for file in (urdf, arguments.srdf) if file is not None]
+    refuse_to_replace(given, [file_to_write(arguments.output)])
     output = imported_spec(urdf, arguments.output)
     from linkforge_compile.importing import import_urdf
 

@@ -49,21 +49,28 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _written(place: RobotFolder, name: str) -> list[str]:
     """Write what is not there yet and the schema, all or nothing; say what was done."""
-    from linkforge_compile.cli.output import refuse_links_out, write_changed, write_if_changed
+    from linkforge_compile.cli.output import (
+        place_of,
+        refuse_links_out,
+        without_new_folders,
+        write_changed,
+        write_if_changed,
+    )
     from linkforge_compile.cli.workspace import schema_of
     from linkforge_compile.editor.robot_folder import SCHEMA
 
     files, schema = place.files(name), place.workspace / SCHEMA
     new = {path: text for path, text in files.items() if not (path.exists() or path.is_symlink())}
     refuse_links_out((*new, schema), place.folders, "--dir")
-    written = write_changed(new)
-    try:
-        # A first folder is no leave to run what is in the others.
-        is_new = write_if_changed(schema, schema_of(place.workspace, {}, runs_xacro=False))
-    except BaseException:
-        for path in written:
-            path.unlink()
-        raise
+    with without_new_folders(map(place_of, (*new, schema))):
+        written = write_changed(new)
+        try:
+            # A first folder is no leave to run what is in the others.
+            is_new = write_if_changed(schema, schema_of(place.workspace, {}, runs_xacro=False))
+        except BaseException:
+            for path in written:
+                path.unlink()
+            raise
     told = [f"wrote {path}" if path in written else f"kept {path}, which is there already" for path in files]
     return [*told, f"wrote {schema}" if is_new else f"{schema} is up to date"]
 
