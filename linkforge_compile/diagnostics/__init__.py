@@ -1,6 +1,15 @@
 """What went wrong, as values: a code, a sentence, a place, and the way out."""
 
-from linkforge_compile.diagnostics.diagnostic import Blame, Code, Diagnostic, Note, Severity, Where, notes_of_changes
+from linkforge_compile.diagnostics.diagnostic import (
+    Blame,
+    Code,
+    Diagnostic,
+    Note,
+    Severity,
+    Where,
+    brought_in_at,
+    notes_of_changes,
+)
 from linkforge_compile.diagnostics.gaps import Gaps, Removed
 from linkforge_compile.diagnostics.sink import MAX_TOLD, BeyondLimitError, Diagnostics, too_many_errors
 
@@ -16,6 +25,7 @@ __all__ = [
     "Removed",
     "Severity",
     "Where",
+    "brought_in_at",
     "notes_of_changes",
     "too_many_errors",
 ]

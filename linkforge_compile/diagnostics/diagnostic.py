@@ -128,13 +128,14 @@ class Code:
         span = where.at(*path) if isinstance(where, SourceRef) else where
         trail = where.trail_to(span) if isinstance(where, SourceRef) and span else ()
         changed = notes_of_changes(where.changes(*path), span) if isinstance(where, SourceRef) else ()
+        brought = brought_in_at(where.brought_in(*path)) if isinstance(where, SourceRef) else ()
         span, moved = self._blamed(span) if span else (None, ())
         sentence = self.in_xml if self.in_xml and span and span.file.is_xml else self.message
         whole = sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
         left_out = hash(whole) if len(whole) > _LONGEST else 0
         includes = [Note("included here", include) for include in (span.file.includes if span else ())]
         uses = [Note("used here", use) for use in trail]
-        all_notes = (*notes, *moved, *changed, *includes, *uses)
+        all_notes = (*notes, *brought, *moved, *changed, *includes, *uses)
         return Diagnostic(self, _quotable(whole), span, all_notes, left_out=left_out)
 
     def _blamed(self, used: Span) -> tuple[Span, tuple[Note, ...]]:
@@ -147,6 +148,11 @@ class Code:
         meant = used.meant if self.blame is Blame.KIND else None
         way_out = f"; write '{meant}'" if meant else ""
         return used, (Note(f"the value is written here{way_out}", origin.span),)
+
+
+def brought_in_at(places: Iterable[Span]) -> tuple[Note, ...]:
+    """Return where aliases and `<<` bring in what is told."""
+    return tuple(Note("brought in here", place) for place in places)
 
 
 def notes_of_changes(changes: Iterable[Change], told: Span | None) -> tuple[Note, ...]:

@@ -183,7 +183,7 @@ class Fields(SpecObject):
         """Open an object that stands at a node, such as an item of a list."""
         if node.__class__ is YamlMap:
             path = f"{self.path}.{field}" if self.path else field
-            return Fields(node, self.owner, self.sink, self.trail, None, path)
+            return Fields(node, self.owner, self.sink, self.trail, None, path, self)
         self.tell_kind(node, field, "a map")
         return None
 
@@ -196,7 +196,7 @@ class Fields(SpecObject):
             if not isinstance(node, YamlMap) and is_null(node):
                 node = YamlMap({}, entry.key.span)
             if isinstance(node, YamlMap):
-                yield name, lower(Fields(node, owner, self.sink, self.trail, entry.key), name)
+                yield name, lower(Fields(node, owner, self.sink, self.trail, entry.key, "", section), name)
                 continue
             self.tell_kind(node, owner, "a map")
             yield name, None

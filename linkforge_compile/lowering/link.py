@@ -203,7 +203,7 @@ def _one_of_mass_and_density(inertial: Fields) -> bool:
     if mass is None and density is None:
         inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass' or 'density'")
     elif mass is not None and density is not None:
-        inertial.sink.report(MASS_AND_DENSITY.at(inertial.ref, Key("density"), owner=inertial.title))
+        inertial.tell(MASS_AND_DENSITY, inertial.ref, Key("density"), owner=inertial.title)
     else:
         return True
     return False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 
 from linkforge_compile.core.exceptions import RobotModelError
@@ -10,9 +10,9 @@ from linkforge_compile.diagnostics import Code, Diagnostics, Note, notes_of_chan
 from linkforge_compile.diagnostics.codes.model import MISSING_FIELD, REFUSED, WRONG_KIND
 from linkforge_compile.lowering.quantities import found
 from linkforge_compile.source import SourceRef, Span
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.ref import Located, Step, brought_in
 from linkforge_compile.syntax import leaves_in
-from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlNode
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode
 from linkforge_compile.unjudged import unjudged
 
 _NEEDED_IN_XML = {
@@ -35,22 +35,17 @@ def has_fault(node: YamlMap) -> bool:
     return YamlFault in [entry.value.__class__ for entry in node.entries.values()]
 
 
-def _use_of(place: Span, key: Span | None) -> tuple[Note, ...]:
-    """Return the key of a value that stands at a place above it: an alias says it there."""
-    is_above = key is not None and place.file is key.file and place.start < key.start
-    return (Note("used here", key),) if is_above else ()
-
-
 class SpecObject:
     """A map of the tree that an object of the IR is made of.
 
     `owner` is the named thing whose fields these are, as messages say it: "joint 'elbow'"; `key` is the node of the
     object's name, None for one without a name; `path` is the way from the owner to this object: "limits",
-    "inertial.inertia", empty for the owner itself.
+    "inertial.inertia", empty for the owner itself. `outer` is the object that this one was opened in, None for a file
+    and for what stands apart.
     """
 
     # There is one for every map of a spec: to make a frozen one takes four times as long.
-    __slots__ = ("key", "node", "owner", "path", "sink", "trail")
+    __slots__ = ("key", "node", "outer", "owner", "path", "sink", "trail")
 
     def __init__(  # noqa: PLR0917 as above: arguments by name take longer
         self,
@@ -60,9 +55,11 @@ class SpecObject:
         trail: tuple[Span, ...] = (),
         key: Located | None = None,
         path: str = "",
+        outer: SpecObject | None = None,
     ) -> None:
         self.node, self.owner, self.sink = node, owner, sink
         self.trail, self.key, self.path = trail, key, path
+        self.outer = outer
 
     @property
     def ref(self) -> SourceRef:
@@ -74,14 +71,38 @@ class SpecObject:
         """How messages name this very object: "limits of joint 'elbow'"."""
         return f"{self.path} of {self.owner}" if self.path else self.owner
 
-    def tell(self, code: Code, where: YamlNode | SourceRef, *, near: Iterable[str] = (), **facts: object) -> None:
-        """Report a fault at a node of this object, or at what a reference points to."""
+    def tell(
+        self, code: Code, where: YamlNode | SourceRef, *path: str | int, near: Iterable[str] = (), **facts: object
+    ) -> None:
+        """Report a fault at a node of this object, or at what a path leads to from a reference."""
         if isinstance(where, SourceRef):
-            self.sink.report(code.at(where, near=near, notes=(), **facts))
+            self.sink.report(code.at(where, *path, near=near, notes=self._brought_in(), **facts))
             return
         changed = notes_of_changes(self.node.span.changes, where.span) if where is not self.node else ()
-        used = _use_of(where.span, self.node.key_span(str(facts.get("field"))))
-        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=(*used, *changed), **facts))
+        brought = self._brought_in((None, self.node.span), (self._key_of(where, str(facts.get("field"))), where.span))
+        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=(*brought, *changed), **facts))
+
+    def _brought_in(self, *inside: Step) -> Iterator[Note]:
+        """Yield where aliases and `<<` bring in what stands in this object, with its name."""
+        for place in brought_in((*self._way(), *inside)):
+            yield Note(f"brought in here, for {self.title}", place)
+
+    def _way(self) -> tuple[Step, ...]:
+        """The places of all objects that this one stands in, then of its name, or its own."""
+        above: tuple[Step, ...] = (*self.outer._way(), (None, self.outer.node.span)) if self.outer else ()
+        if self.key:
+            return (*above, (self.key.span, None))
+        field = self.path.rpartition(".")[2]
+        return (*above, (self.outer._key_of(self.node, field) if self.outer else None, self.node.span))
+
+    def _key_of(self, node: YamlNode, field: str) -> Span | None:
+        """Return the key of a field, else the one that a node stands under, alone or in a list."""
+        if field in self.node.entries:
+            return self.node.key_span(field)
+        for entry in self.node:
+            if node is entry.value or (isinstance(entry.value, YamlList) and node in entry.value.items):
+                return entry.key.span
+        return None
 
     @property
     def is_faulty(self) -> bool:
@@ -109,7 +130,7 @@ class SpecObject:
         except RobotModelError as error:
             if not self._has_told_faults:
                 reason = error.message.removeprefix(f"{self.title} ")
-                self.sink.report(REFUSED.at(self.ref, *error.field, owner=self.title, reason=reason))
+                self.tell(REFUSED, self.ref, *error.field, owner=self.title, reason=reason)
             return None
 
     @property

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 from jsonschema import Draft7Validator
 
-from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, Note, too_many_errors
+from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, brought_in_at, too_many_errors
 from linkforge_compile.frozen import replace
 from linkforge_compile.schema.explain import Judgement, explain
 from linkforge_compile.schema.json_types import Schema
@@ -18,6 +18,7 @@ from linkforge_compile.schema.missing_level import told_once
 from linkforge_compile.schema.registry import linked
 from linkforge_compile.schema.shapes import FREE, shape_of
 from linkforge_compile.schema.validator import HEADER
+from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, fault_of
 
 if TYPE_CHECKING:
@@ -64,25 +65,13 @@ def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> 
     if not judgements:
         return tree
     judgements = told_once(judgements, tree)
-    found = [(judgement.diagnostic, tuple(_uses(tree, judgement.path))) for judgement in judgements]
+    found = [(one.diagnostic, SourceRef(tree).brought_in(*one.path)) for one in judgements]
     # Where several uses do not fit one anchor, the sink keeps the first: of jsonschema, they come as a set has them.
-    for told, uses in sorted(found, key=lambda one: (one[0].order, [note.span.start for note in one[1] if note.span])):
-        sink.report(replace(told, notes=(*told.notes, *uses)) if uses else told)
+    for told, places in sorted(found, key=lambda one: (one[0].order, [place.start for place in one[1]])):
+        sink.report(replace(told, notes=(*told.notes, *brought_in_at(places))) if places else told)
     if sum(1 + len(judgement.also) for judgement in judgements) > MAX_TOLD:
         raise too_many_errors(judgements[-1].diagnostic.span)
     return _pruned(tree, judgements)
-
-
-def _uses(tree: YamlMap, path: Path) -> Iterator[Note]:
-    """Yield where aliases and `<<` bring in what stands on a path: its anchor is above, and may fit another place."""
-    node: YamlNode | None = tree
-    place = tree.span
-    for step in path:
-        key, node = (node.key_span(str(step)), node.child(step)) if node else (None, None)
-        for following in (key, node.span if node else None):
-            if following and following.start < place.start:
-                yield Note("used here", place)
-            place = following or place
 
 
 @cache

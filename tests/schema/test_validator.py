@@ -182,7 +182,7 @@ def test_what_an_alias_brings_in_is_told_with_the_place_that_uses_it(use: str, p
     validate(tree, sink)
     [told] = sink
     assert str(told.span) == "r:3:14"
-    assert [(note.message, str(note.span)) for note in told.notes] == [("used here", f"r:{place}")]
+    assert [(note.message, str(note.span)) for note in told.notes] == [("brought in here", f"r:{place}")]
 
 
 def test_of_several_uses_that_do_not_fit_the_first_in_the_file_is_told():
