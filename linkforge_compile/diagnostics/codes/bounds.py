@@ -7,6 +7,8 @@ BEYOND_LIMIT = Code(
     Severity.ERROR,
     "the robot takes more than {most} {counted}; {way_out} (LINKFORGE_LIMITS=10 in the environment allows ten times "
     "as much)",
+    in_xml="a spec of this robot takes more than {most} {counted}; for one of your own, LINKFORGE_LIMITS=10 in the "
+    "environment allows ten times as much",
     ends_report=True,
 )
 TOO_MANY_ERRORS = Code(
