@@ -29,8 +29,9 @@ def prefixed_copy(part: P, prefix: str) -> P:
     one goes through the constructor, which says what is wrong with it. So does a part of somebody else's class, which
     may check or compute more than ours.
     """
-    copier = _COPIERS.get(type(part)) or _copier_of(type(part))
-    copy: P = copier((part,), prefix, {})[0] if is_harmless(prefix) else _constructed_copy(part, prefix)
+    if is_harmless(prefix):
+        return written_copies((part,), prefix, {})[0]
+    copy: P = _constructed_copy(part, prefix)
     return copy
 
 
@@ -47,7 +48,7 @@ def prefixed_copies(parts: Sequence[P], prefix: str, shared: Copies | None = Non
 
 
 def written_copies(parts: Sequence[P], prefix: str, shared: Copies) -> list[P]:
-    """Return copies under a prefix that is harmless, of parts of one class of ours with a way of its own.
+    """Return copies under a prefix that is harmless, of parts of one class, whatever way of its own that has.
 
     That way calls this, for what it asks before it copies.
     """
@@ -58,8 +59,8 @@ def written_copies(parts: Sequence[P], prefix: str, shared: Copies) -> list[P]:
 
 
 def _harmless_copies(parts: Sequence[P], prefix: str, shared: Copies) -> list[P]:
-    """Return what `prefixed_copies` does for a prefix that is harmless."""
-    return _DIRECT.get(type(parts[0]), _asked_or_learned)(parts, prefix, shared) if parts else []
+    """Return what `prefixed_copies` does for some parts and a prefix that is harmless."""
+    return _DIRECT.get(type(parts[0]), _asked_or_learned)(parts, prefix, shared)
 
 
 @lru_cache
