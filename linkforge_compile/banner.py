@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import re
 
-from linkforge_compile.pattern import pattern
-
 _START, _END = "Compiled by linkforge from ", "; edit that file, not this one."
 
-BANNER = pattern(rf"{re.escape(_START)}(?P<spec>.+){re.escape(_END)}")
+BANNER = re.compile(rf"{re.escape(_START)}(?P<spec>.+){re.escape(_END)}")
 """What a banner is known by; `spec` is the file name of the spec."""
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from enum import Enum
 
 from linkforge_compile.diagnostics import BeyondLimitError, Code, Where
 from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
-from linkforge_compile.frozen import dataclass
 
 MAX_FILE_BYTES = 16 * 1024 * 1024
 """How large one text may be that is read, a spec, data or XML."""

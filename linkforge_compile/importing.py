@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.backends import render_srdf, render_urdf
 from linkforge_compile.bounds import Budget, Limit
-from linkforge_compile.collector import resting
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.suggest import suggesting
-from linkforge_compile.frozen import dataclass, replace
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
 from linkforge_compile.modules import XACRO, Arguments, Loader, SpecFile, Used
 from linkforge_compile.modules.assembly import count_entries
-from linkforge_compile.named_tuple import NamedTuple
-from linkforge_compile.pipeline import Judged, Packages, Parameters, Settings, judged
+from linkforge_compile.pipeline import Judged, Packages, Parameters, Settings, gc_paused, judged
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.stack import with_room
 from linkforge_compile.syntax import YamlMap, read
 
 if TYPE_CHECKING:
@@ -76,7 +73,7 @@ def import_urdf(
     """
     settings = Settings(arguments, packages, allow_outside=allow_outside, output=Path(output) if output else None)
     urdf = _Urdf(Path(path), text)
-    return with_room(lambda: _imported(urdf, None if srdf is None else Path(srdf), settings))
+    return _imported(urdf, None if srdf is None else Path(srdf), settings)
 
 
 class _Urdf(NamedTuple):
@@ -100,14 +97,14 @@ def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> ReadBack:
     """
     sink = Diagnostics()
     try:
-        back = with_room(lambda: _read_back(robot, gazebo, sink))
+        back = _read_back(robot, gazebo, sink)
     except BeyondLimitError as beyond:
         sink.end(beyond)
         back = None
     return ReadBack(back, tuple(one for one in sink.sorted() if one.severity is Severity.ERROR))
 
 
-@resting
+@gc_paused()
 @suggesting()
 def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     from linkforge_compile.importers.srdf import with_srdf
@@ -133,7 +130,7 @@ def _judge_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Judged]:
     return lambda tree: judged(meshes, replace(spec, tree=tree), loader)
 
 
-@resting
+@gc_paused()
 @suggesting()
 def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     sink = Diagnostics()

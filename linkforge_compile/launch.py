@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 from time import time_ns
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from weakref import ref
 
 import launch.logging
@@ -25,7 +25,6 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch_ros.parameter_descriptions import ParameterValue
 
 from linkforge_compile.modules import XACRO
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.pipeline import CompileError, Packages, Told, compile_file, parameters_of
 from linkforge_compile.stamps import Stamps
 

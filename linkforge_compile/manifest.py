@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
-from linkforge_compile.pattern import pattern
 from linkforge_compile.roots import ANYWHERE, Roots, is_file
 
 # A stranger wrote what it is searched in: no character is tried twice.
-_NAME = pattern(r"<name>([^<]*)</name>")
+_NAME = re.compile(r"<name>([^<]*)</name>")
 _MOST_BYTES = 1024 * 1024
 
 

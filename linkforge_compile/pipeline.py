@@ -5,19 +5,20 @@ Values flow down, faults flow sideways into the sink, and no stage stops the lin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+import gc
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.bounds import Budget
 from linkforge_compile.checks import check
-from linkforge_compile.collector import resting
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.bounds import VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.diagnostics.suggest import suggesting
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
     XACRO,
@@ -31,9 +32,7 @@ from linkforge_compile.modules import (
     arguments_from_values,
     expand,
 )
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.roots import ANYWHERE, Roots
-from linkforge_compile.stack import with_room
 
 if TYPE_CHECKING:
     from linkforge_compile.backends.urdf.sensor import Gazebo
@@ -63,6 +62,21 @@ diagnostics then say of a missing one as well."""
 
 Packages: TypeAlias = Mapping[str, str | Path]
 """The folder that `package://NAME/` stands for, by name; they come before every other place to look."""
+
+
+@contextmanager
+def gc_paused() -> Iterator[None]:
+    """Pause the garbage collector: a robot holds no cycles, and to look for them takes a third of a long compile.
+
+    The collector is one for all threads: of two compiles at once, the first that ends resumes it.
+    """
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
 
 
 class CompileError(Exception):
@@ -267,13 +281,9 @@ def _compile_text(text: str, name: str, folder: str | Path | None, settings: Set
     return _compile(lambda loader, sink: loader.parse(text, name, place, sink), place, settings)
 
 
-def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation:
-    return with_room(lambda: _compiled(read, place, settings))
-
-
-@resting
+@gc_paused()
 @suggesting()
-def _compiled(read: _Read, place: Path | None, settings: Settings) -> Compilation:
+def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation:
     require_dialect(settings.gazebo)
     sink = Diagnostics()
     loader = settings.loader(place)

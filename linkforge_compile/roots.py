@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
-
-from linkforge_compile.frozen import dataclass, replace
 
 MARKERS = ("package.xml", ".git")
 """What the top folder of a package or repository holds."""

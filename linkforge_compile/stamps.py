@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-
-from linkforge_compile.named_tuple import NamedTuple
+from typing import NamedTuple
 
 
 class _Stamp(NamedTuple):

@@ -11,12 +11,6 @@ PACKAGE = Path(__file__).parents[1] / "linkforge_compile"
 
 MAY_IMPORT = {
     "bytecode": "",
-    "constructors": "bytecode",
-    "field": "",
-    "frozen": "constructors field",
-    "named_tuple": "constructors",
-    "unjudged": "constructors",
-    "pattern": "",
     "banner": "",
     "source": "",
     "units": "",
@@ -24,8 +18,6 @@ MAY_IMPORT = {
     "roots": "",
     "manifest": "roots",
     "shape_order": "",
-    "stack": "",
-    "collector": "",
     "stamps": "",
     "_version": "",
     "diagnostics": "source",
@@ -35,19 +27,18 @@ MAY_IMPORT = {
     "schema": "bytecode source diagnostics syntax units resources expressions",
     "importers": "banner source diagnostics bounds units syntax shape_order",
     "modules": "source diagnostics bounds units syntax schema expressions importers manifest roots",
-    "core": "collector manifest source units roots shape_order",
+    "core": "manifest source units roots shape_order",
     "lowering": "source diagnostics bounds units syntax modules core roots shape_order",
     "checks": "source diagnostics units core roots",
-    "backends": "bytecode collector source diagnostics bounds units core resources shape_order",
+    "backends": "bytecode source diagnostics bounds units core resources shape_order",
     "writers": "source units syntax core modules shape_order",
     "compare": "core backends shape_order",
     "pipeline": (
-        "source diagnostics bounds units syntax schema importers modules lowering checks backends core roots stack "
-        "collector"
+        "source diagnostics bounds units syntax schema importers modules lowering checks backends core roots "
     ),
-    "importing": "collector source diagnostics bounds syntax importers modules core lowering backends pipeline stack",
+    "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline",
     "launch": "diagnostics backends core modules pipeline stamps",
-    "editor": "diagnostics syntax schema modules lowering core roots stack resources",
+    "editor": "diagnostics syntax schema modules lowering core roots resources",
     "cli": (
         "banner source diagnostics bounds roots core checks schema modules pipeline importing backends writers compare "
         "editor resources stamps _version"
@@ -92,8 +83,7 @@ def test_a_room_imports_only_what_lies_below_it(path: Path):
     room = room_of(path)
     if room in FACES:
         return
-    # Ways of defining classes and patterns, which every room has.
-    allowed = {room, "frozen", "named_tuple", "unjudged", "pattern", *MAY_IMPORT[room].split()}
+    allowed = {room, *MAY_IMPORT[room].split()}
     above = {
         other
         for other in rooms_imported_by(path)

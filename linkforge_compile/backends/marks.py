@@ -8,19 +8,17 @@ have to hand it on otherwise, for the sake of the few documents that are rendere
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
-from typing import TYPE_CHECKING
-
-from linkforge_compile.named_tuple import NamedTuple
-from linkforge_compile.pattern import pattern
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from linkforge_compile.source import SourceRef, Span
 
-MARK = pattern("\x1c([0-9]+)\x1d")
+MARK = re.compile("\x1c([0-9]+)\x1d")
 
 
 class Place(NamedTuple):

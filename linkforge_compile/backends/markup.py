@@ -7,6 +7,7 @@ a document can be indented, or not, without touching what it says.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from operator import methodcaller
 from typing import TypeAlias, TypeGuard
@@ -14,16 +15,15 @@ from typing import TypeAlias, TypeGuard
 from linkforge_compile.backends.marks import mark, recorded
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.geometry import Vector3
-from linkforge_compile.pattern import Characters, pattern
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import double_text, number_text
 
-_EMPTY = pattern(r"<(([^\s<>/]+)[^<>]*)(?<!/)></\2>")
+_EMPTY = re.compile(r"<(([^\s<>/]+)[^<>]*)(?<!/)></\2>")
 
 # No XML 1.0 document may hold these, not even as a reference.
 _CONTROLS, _BEYOND_ASCII = "\x00-\x08\x0b\x0c\x0e-\x1f", "\ud800-\udfff\ufffe\uffff"
-_UNWRITABLE = Characters(_CONTROLS, _BEYOND_ASCII)
-_MARKED = Characters(f'&<>"\t\n\r{_CONTROLS}', _BEYOND_ASCII)
+_UNWRITABLE = re.compile(f"[{_CONTROLS}{_BEYOND_ASCII}]")
+_MARKED = re.compile(f'[&<>"\t\n\r{_CONTROLS}{_BEYOND_ASCII}]')
 _REFERENCES = str.maketrans(
     {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
 )
@@ -35,7 +35,7 @@ _STAND_INS = str.maketrans({"\n": _LINE_END, "<": _LESS_THAN})
 # A letter or `_`, and then digits, `-` and `.` as well. Written as what of ASCII is none of these: ranges of what is
 # beyond it take a fifth of a whole compile to be made ready.
 _LOCAL_NAME = r"[^\x00-@\[-^`{-\x7f][^\x00-,/:-@\[-^`{-\x7f]*"
-_XML_NAME = pattern(rf"(?:{_LOCAL_NAME}:)?{_LOCAL_NAME}")
+_XML_NAME = re.compile(rf"(?:{_LOCAL_NAME}:)?{_LOCAL_NAME}")
 
 
 MARK = "\x00"

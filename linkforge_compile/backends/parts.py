@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import fields
 from functools import cache
 from itertools import chain
 from operator import attrgetter
 from types import NoneType
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends.element import inside_of
 from linkforge_compile.backends.markup import is_writable
@@ -16,8 +17,6 @@ from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link, LinkPhysics
 from linkforge_compile.core.part import Element
 from linkforge_compile.core.part import Part as BasePart
-from linkforge_compile.frozen import fields
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:

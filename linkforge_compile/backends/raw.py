@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends.element import RawXmlError
 from linkforge_compile.backends.marks import mark, marks_of_lines, recorded
@@ -21,7 +21,6 @@ from linkforge_compile.backends.markup import (
 )
 from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:

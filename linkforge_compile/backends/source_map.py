@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.backends.marks import MARK, Marks, Place, recording
 from linkforge_compile.backends.markup import restored
 from linkforge_compile.backends.srdf import render_srdf
 from linkforge_compile.backends.urdf import render_urdf
-from linkforge_compile.frozen import dataclass
-from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

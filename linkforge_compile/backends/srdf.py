@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.document import render
-from linkforge_compile.collector import resting
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -13,7 +12,6 @@ if TYPE_CHECKING:
 __all__ = ["render_srdf"]
 
 
-@resting
 def render_srdf(robot: Robot, *, pretty: bool = True, banner: str | None = None) -> str:
     """Return the robot's semantic part as an SRDF document, sections in the order of MoveIt's own writer.
 

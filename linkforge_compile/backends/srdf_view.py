@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.backends.element import attributes, elements, leaf
 from linkforge_compile.backends.marks import mark
 from linkforge_compile.backends.markup import Xml, placed, spelled
-from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -12,12 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from jinja2 import Environment, nodes
 
 from linkforge_compile.backends.markup import INDENT, is_closing, is_opening
-from linkforge_compile.named_tuple import NamedTuple
 
 _Names: TypeAlias = Mapping[str, str]
 """The variable of Python that stands for each name of a template in sight."""

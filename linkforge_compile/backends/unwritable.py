@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 
 from linkforge_compile.backends.element import (
@@ -19,7 +20,6 @@ from linkforge_compile.core.models.link import LinkPhysics
 from linkforge_compile.core.part import Element, attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.backends import UNWRITABLE
-from linkforge_compile.frozen import replace
 from linkforge_compile.source import Key, SourceRef
 
 

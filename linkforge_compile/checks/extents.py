@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Iterable, Sequence
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Transform
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.physics import rotation_matrix
-from linkforge_compile.named_tuple import NamedTuple
 
 Shapes: TypeAlias = Sequence[Visual] | Sequence[Collision] | Sequence[Visual | Collision]
 

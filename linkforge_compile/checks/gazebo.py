@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence, Set
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.checks.references import SHOWN, Use, listed
 from linkforge_compile.checks.tree import hanging, parent_joints
@@ -20,7 +20,6 @@ from linkforge_compile.diagnostics.codes.physics import (
     MERGED_LINK_NAMED,
     TINY_MASS,
 )
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.units import number_text
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sized
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.checks.ranges import WITHIN_LIMITS, missed_range
 from linkforge_compile.checks.references import Use
@@ -24,7 +24,6 @@ from linkforge_compile.diagnostics.codes.physics import (
     UNKNOWN_INTERFACE,
 )
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:

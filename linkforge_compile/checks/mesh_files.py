@@ -12,7 +12,7 @@ import re
 import struct
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 
 from linkforge_compile.checks.extents import Extent, Room, room_of
 from linkforge_compile.core.models.geometry import Mesh
@@ -20,8 +20,6 @@ from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
 from linkforge_compile.diagnostics import Gaps
-from linkforge_compile.named_tuple import NamedTuple
-from linkforge_compile.pattern import pattern
 from linkforge_compile.roots import exists, is_file
 
 HEADER, TRIANGLE, SAMPLES = 84, 50, 128
@@ -41,7 +39,7 @@ MOST_NOWHERE = 500
 
 LFS_POINTER = b"version https://git-lfs"
 
-_CORNER = pattern(rb"^[ \t]*v(?:ertex)?[ \t]+(\S{1,40})[ \t]+(\S{1,40})[ \t]+(\S{1,40})(?=\s)", re.MULTILINE)
+_CORNER = re.compile(rb"^[ \t]*v(?:ertex)?[ \t]+(\S{1,40})[ \t]+(\S{1,40})[ \t]+(\S{1,40})(?=\s)", re.MULTILINE)
 """A corner in OBJ, or in an STL of text."""
 
 

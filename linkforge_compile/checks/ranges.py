@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
+import re
 
 from linkforge_compile.core.constants import UNKNOWN
 from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.pattern import pattern
 from linkforge_compile.source import Key
 
 WITHIN_LIMITS: dict[str, str] = {JointType.REVOLUTE: "rad", JointType.PRISMATIC: "m"}
@@ -19,9 +19,9 @@ ROUNDING = 1e-4
 _SIZES = {"deg": math.pi / 180, "°": math.pi / 180, "mm": 0.001, "cm": 0.01}
 """What a unit in which positions are often written is in [rad] or [m]."""
 
-_UNIT = pattern(r"[0-9.]\s*(?P<unit>deg|°|mm|cm)['\"]?")
+_UNIT = re.compile(r"[0-9.]\s*(?P<unit>deg|°|mm|cm)['\"]?")
 
-_SAYS_UNIT = pattern(r"[0-9]\.?\s*(?![eE][-+]?[0-9])[^\W\d_]|°|\$\(")
+_SAYS_UNIT = re.compile(r"[0-9]\.?\s*(?![eE][-+]?[0-9])[^\W\d_]|°|\$\(")
 
 
 def says_unit(text: str | None) -> bool:

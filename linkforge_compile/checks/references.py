@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from dataclasses import replace
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Gaps, Note
-from linkforge_compile.frozen import replace
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import Key, SourceRef, Span
 
 if TYPE_CHECKING:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from linkforge_compile.checks.references import Use, unknown
@@ -14,12 +15,11 @@ from linkforge_compile.diagnostics.codes.names import (
     UNKNOWN_FRAME,
     UNKNOWN_LINK,
 )
-from linkforge_compile.pattern import pattern
 
-_STRANGE = pattern(r"[^A-Za-z0-9_/~{}]")
-_SUBSTITUTION = pattern(r"\{[A-Za-z_][A-Za-z0-9_]*\}")
-_BRACE = pattern(r"[{}]")
-_NUMBERED = pattern(r"(?:^|/)([0-9][^/]*)")
+_STRANGE = re.compile(r"[^A-Za-z0-9_/~{}]")
+_SUBSTITUTION = re.compile(r"\{[A-Za-z_][A-Za-z0-9_]*\}")
+_BRACE = re.compile(r"[{}]")
+_NUMBERED = re.compile(r"(?:^|/)([0-9][^/]*)")
 
 
 def check_sensor_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:

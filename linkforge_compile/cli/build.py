@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.banner import banner_of
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
 from linkforge_compile.cli.one_spec import compile_spec
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.cli.telling import say, tell
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:

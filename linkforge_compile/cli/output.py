@@ -9,11 +9,11 @@ from contextlib import ExitStack, contextmanager, suppress
 from errno import EBUSY, EISDIR
 from itertools import takewhile
 from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.cli.telling import line_to_stderr
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.roots import Roots, exists, identity, real_path
 
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli.exits import UsageError
-from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     import argparse

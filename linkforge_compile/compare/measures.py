@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import NamedTuple
 
 from linkforge_compile.core.models.collision_rules import SrdfSphere
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Sphere
@@ -17,7 +18,6 @@ from linkforge_compile.core.models.joint import (
 from linkforge_compile.core.models.link import Inertial, LinkPhysics
 from linkforge_compile.core.models.sensor import CameraInfo, LidarInfo, Sensor
 from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
-from linkforge_compile.named_tuple import NamedTuple
 
 
 class Measure(NamedTuple):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from linkforge_compile.compare.likeness import likeness
 from linkforge_compile.compare.raw_parts import RawElement
@@ -12,7 +13,6 @@ from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.link import Collision, Visual
 from linkforge_compile.core.models.planning import Chain, GroupState, JointProperty
 from linkforge_compile.core.part import Inside
-from linkforge_compile.named_tuple import NamedTuple
 
 
 class Pair(NamedTuple):

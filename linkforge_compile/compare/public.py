@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 from linkforge_compile.compare.renames import Renames, find_renames
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.named_tuple import NamedTuple
 
 
 class _Name(NamedTuple):

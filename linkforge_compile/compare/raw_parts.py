@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 from linkforge_compile.backends.raw import Node, inline, is_text, nodes_of
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.frozen import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
 from enum import Enum, auto
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.compare.likeness import likeness
 from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
@@ -27,7 +27,6 @@ from linkforge_compile.core.models.sensor import Sensor
 from linkforge_compile.core.models.srdf import SemanticRobotDescription
 from linkforge_compile.core.models.transmission import TransmissionJoint
 from linkforge_compile.core.part import Inside
-from linkforge_compile.named_tuple import NamedTuple
 
 
 class Renames(NamedTuple):

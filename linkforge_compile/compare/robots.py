@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.renames import Renames, find_renames, under_new_names
@@ -11,7 +12,6 @@ from linkforge_compile.compare.walk import TOLERANCE, How, stated_differences, w
 from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.frozen import replace
 
 
 def compare(

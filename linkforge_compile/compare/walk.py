@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.measures import BARE, Measure, change_told, is_near, measure_of, position_measure
@@ -31,7 +31,6 @@ from linkforge_compile.core.models.ros2_control import (
 )
 from linkforge_compile.core.models.sensor import SensorNoise
 from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
-from linkforge_compile.named_tuple import NamedTuple
 
 TOLERANCE = 1e-6
 """Below which a difference is not told, unless said: of poses in metres and radians, of other numbers as a share."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar, Final, Self
 
 from linkforge_compile.core.frozen_map import FrozenMap, frozen
 from linkforge_compile.core.prefixing import prefixed_copy
-from linkforge_compile.frozen import FIELDS, dataclass, field
 from linkforge_compile.source import Sourced
 
 
@@ -21,9 +21,8 @@ class Part(Sourced):
     def __init_subclass__(cls) -> None:
         # For its slots, dataclass makes a class twice, and knows its fields the second time. It puts inherited ones
         # first; `astuple` and `fields` shall give those of the class itself first, and then what every part has.
-        for attribute in FIELDS:
-            if isinstance(fields := vars(cls).get(attribute), dict):
-                setattr(cls, attribute, dict(sorted(fields.items(), key=lambda item: item[1].kw_only is True)))
+        if fields := vars(cls).get("__dataclass_fields__"):
+            cls.__dataclass_fields__ = dict(sorted(fields.items(), key=lambda item: item[1].kw_only is True))
 
     def __copy__(self) -> Self:
         return self

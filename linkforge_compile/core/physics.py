@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
@@ -18,7 +19,6 @@ from linkforge_compile.core.models.geometry import (
     Vector3,
 )
 from linkforge_compile.core.models.link import Inertial, InertiaTensor
-from linkforge_compile.frozen import replace
 
 if TYPE_CHECKING:
     from linkforge_compile.core.solid import Solid

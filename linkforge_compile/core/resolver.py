@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 from linkforge_compile.manifest import package_name
-from linkforge_compile.pattern import pattern
 from linkforge_compile.roots import ANYWHERE, Roots, exists, identity
 
-_PACKAGE_URI = pattern(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
-_WINDOWS_DRIVE = pattern(r"^/(?=[A-Za-z]:)")
+_PACKAGE_URI = re.compile(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
+_WINDOWS_DRIVE = re.compile(r"^/(?=[A-Za-z]:)")
 _LEVELS_UP = 10
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
 from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.core.models.link import InertiaTensor
-from linkforge_compile.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True)

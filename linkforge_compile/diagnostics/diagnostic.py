@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
+from dataclasses import dataclass
 from enum import Enum, StrEnum
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics.suggest import did_you_mean
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Change, SourceRef, Span
 from linkforge_compile.source.characters import on_one_line
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from linkforge_compile.diagnostics.diagnostic import Note
-from linkforge_compile.frozen import dataclass, field, replace
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics.codes import REGISTER
 from linkforge_compile.diagnostics.codes.ignoring import (
@@ -14,7 +15,6 @@ from linkforge_compile.diagnostics.codes.ignoring import (
 )
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
 from linkforge_compile.diagnostics.sink import Diagnostics
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import Span
 
 

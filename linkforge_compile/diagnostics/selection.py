@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Severity
-from linkforge_compile.frozen import replace
-from linkforge_compile.named_tuple import NamedTuple
 
 
 class Selection(NamedTuple):

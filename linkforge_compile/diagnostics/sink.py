@@ -5,11 +5,11 @@ from __future__ import annotations
 from bisect import bisect_left, insort
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator
+from dataclasses import replace
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics.codes.bounds import MORE_WARNINGS, TOO_MANY_ERRORS
 from linkforge_compile.diagnostics.diagnostic import Code, Diagnostic, Note, Severity
-from linkforge_compile.frozen import replace
 from linkforge_compile.source import Position, SourceFile, Span
 
 MAX_TOLD = 1_000

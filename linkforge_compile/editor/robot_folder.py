@@ -7,9 +7,9 @@ import os
 import re
 import textwrap
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from pathlib import Path, PurePath
 
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.resources import templates_folder
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.diagnostics.suggest import suggesting
-from linkforge_compile.frozen import dataclass, field, replace
 from linkforge_compile.lowering import lower
 from linkforge_compile.modules import (
     Arguments,
@@ -21,7 +21,6 @@ from linkforge_compile.modules import (
 from linkforge_compile.modules.assembly import joint_name_of
 from linkforge_compile.modules.listing import ListedParameter, list_parameters, list_used
 from linkforge_compile.roots import Roots
-from linkforge_compile.stack import with_room
 from linkforge_compile.syntax import YamlEntry, YamlMap
 
 
@@ -44,19 +43,16 @@ class Vocabulary:
     has_name: bool = True
 
 
+@suggesting()
 def vocabulary_of(
-    spec: Path, root: Path, packages: Mapping[str, Path] | None = None, *, runs_xacro: bool = True
+    path: Path, root: Path, packages: Mapping[str, Path] | None = None, *, runs_xacro: bool = True
 ) -> Vocabulary:
     """Read a spec as far as its faults leave it; `root` is the folder of the workspace.
 
     `packages` are where `package://` leads first. Meshes are not read: they bear no names. Without `runs_xacro`, the
     names in xacro files are missing.
     """
-    return with_room(lambda: _vocabulary_of(spec, root, packages or {}, runs_xacro=runs_xacro))
-
-
-@suggesting()
-def _vocabulary_of(path: Path, root: Path, packages: Mapping[str, Path], *, runs_xacro: bool) -> Vocabulary:
+    packages = packages or {}
     found = Vocabulary((_relative(path, root),), is_whole=False)
     sink, loader = Diagnostics(), Loader(packages, Roots.around(path, (root, *packages.values())))
     loader.runs_xacro = runs_xacro

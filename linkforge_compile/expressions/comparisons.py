@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 import operator
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.access import key_text
 from linkforge_compile.expressions.operators import number, shared_dimension
 from linkforge_compile.expressions.types import RefusedError, Value, kind_name
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.units import Quantity
 
 Predicate = Callable[[Any, Any], bool]  # of the operator module, which is typed no closer

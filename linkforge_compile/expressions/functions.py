@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import keyword
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.operators import Number, bounded, number, shared_dimension, with_dimension
 from linkforge_compile.expressions.types import RefusedError, Value, as_text, dimension_name, kind_name
-from linkforge_compile.frozen import dataclass
-from linkforge_compile.pattern import pattern
 from linkforge_compile.units import Dimension, Quantity, number_text
 
-_WHOLE_NUMBER = pattern(r"\s*[+-]?[0-9]{1,300}\s*")
-_DECIMAL_NUMBER = pattern(r"\s*[+-]?(?:[0-9]{1,300}(?:\.[0-9]{0,300})?|\.[0-9]{1,300})(?:[eE][+-]?[0-9]{1,3})?\s*")
+_WHOLE_NUMBER = re.compile(r"\s*[+-]?[0-9]{1,300}\s*")
+_DECIMAL_NUMBER = re.compile(r"\s*[+-]?(?:[0-9]{1,300}(?:\.[0-9]{0,300})?|\.[0-9]{1,300})(?:[eE][+-]?[0-9]{1,3})?\s*")
 
 
 @dataclass(frozen=True, slots=True)

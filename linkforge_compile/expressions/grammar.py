@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes import expressions as codes
@@ -12,7 +13,6 @@ from linkforge_compile.expressions.comparisons import COMPARISONS
 from linkforge_compile.expressions.functions import CONSTANTS, SIGNATURES
 from linkforge_compile.expressions.operators import ARITHMETIC, MAX_INTEGER_BITS
 from linkforge_compile.expressions.template import Expression
-from linkforge_compile.frozen import replace
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 
 MAX_DEPTH = 100

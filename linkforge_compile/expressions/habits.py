@@ -5,10 +5,9 @@ from __future__ import annotations
 import keyword
 import re
 
-from linkforge_compile.pattern import pattern
 from linkforge_compile.units import UNITS
 
-_STRING = pattern(r"'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\"", re.DOTALL)
+_STRING = re.compile(r"'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\"", re.DOTALL)
 _UNITS = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
 _KEYWORDS = "|".join(keyword.kwlist)
 

@@ -6,6 +6,7 @@ import ast
 import math
 import operator
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics.codes import expressions as codes
@@ -18,7 +19,6 @@ from linkforge_compile.expressions.types import (
     kind_name,
     seen_from_compiled,
 )
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.units import UNITS, Dimension, Quantity, parse_quantity, unit_meant, unit_text
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import ast
+from dataclasses import dataclass
 
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Span
 from linkforge_compile.source.text_place import TextPlace
 

@@ -10,11 +10,11 @@ from collections import defaultdict
 from collections.abc import Iterator
 from itertools import accumulate
 from textwrap import dedent
+from typing import NamedTuple
 
 from linkforge_compile.importers.banners import without_banners
 from linkforge_compile.importers.draft import Draft
 from linkforge_compile.importers.xml import XmlComment, XmlDocument, XmlElement
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Callable
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import NOT_A_ROBOT, NOTHING_EXPANDED, ROBOT_WITHOUT_NAME, STILL_XACRO
 from linkforge_compile.importers.comments import Comments
 from linkforge_compile.importers.xml import XmlDocument, XmlElement, read_xml
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap
 

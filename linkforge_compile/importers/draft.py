@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Iterable, Mapping
+from dataclasses import replace
 from types import MappingProxyType
 from typing import TypeAlias
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW
-from linkforge_compile.frozen import replace
 from linkforge_compile.importers.prefixed import NO_SHAPES, Shapes
 from linkforge_compile.importers.xml import Bounds, XmlAttribute, XmlElement
 from linkforge_compile.source import Span

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from typing import NamedTuple
 
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.syntax import YamlScalar
 
 _PREFIX = "$(prefix)"

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from linkforge_compile.diagnostics import Note, Severity
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
-from linkforge_compile.frozen import replace
 from linkforge_compile.importers.draft import DeclinedError, Draft, values_in
 from linkforge_compile.importers.prefixed import MARKUP, raw_with_prefix
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement

@@ -8,11 +8,10 @@ same text, but for the space around its words.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.importers.draft import number_of
 from linkforge_compile.importers.xml import XmlElement
-from linkforge_compile.named_tuple import NamedTuple
 
 Value: TypeAlias = tuple[float | str, ...]
 """The words of a text, numbers among them as what they are."""

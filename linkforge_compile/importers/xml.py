@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from sys import maxsize
 from types import MappingProxyType
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 from xml.parsers import expat
 
 from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
@@ -20,8 +21,6 @@ from linkforge_compile.diagnostics.codes.importing import (
     TOO_MANY_ELEMENTS,
     TOO_MUCH_INSIDE,
 )
-from linkforge_compile.frozen import dataclass
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile, Span, span_of
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 

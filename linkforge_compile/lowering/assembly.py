@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics, Gaps
-from linkforge_compile.frozen import replace
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.file import gaps_of, lower_file
 from linkforge_compile.lowering.joint import position_measure

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.names import MODULES_SHARE_NAMES, NAMES_OF_THIS_FILE
 from linkforge_compile.modules.assembly import Instance
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, NotRequired, TypedDict, TypeVar
 
 from linkforge_compile.core.part import Element, Inside
 from linkforge_compile.core.raw_xml import RawXml
-from linkforge_compile.frozen import replace
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:

@@ -32,18 +32,15 @@ from linkforge_compile.lowering.quantities import (
     plain_numbers,
     si_number,
 )
-from linkforge_compile.lowering.spec_object import SpecObject, made_ref
+from linkforge_compile.lowering.spec_object import SpecObject
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.syntax.xacro import xacro_facts
-from linkforge_compile.unjudged import unjudged
 
 T = TypeVar("T")
 Choice = TypeVar("Choice", bound=StrEnum)
-
-_made_vector, _made_pose = unjudged(Vector3), unjudged(Transform)
 
 
 class Fields(SpecObject):
@@ -159,13 +156,13 @@ class Fields(SpecObject):
             return plain
         if isinstance(node, YamlList):
             xyz = self.vector3_at(node, "origin", LENGTH)
-            return _made_pose(xyz, is_stated=True, source=made_ref(node, None, self.trail)) if xyz else IDENTITY
+            return Transform(xyz, is_stated=True, source=SourceRef(node, None, self.trail)) if xyz else IDENTITY
         pose = self.map_at(node, "origin")
         if pose is None:
             return IDENTITY
         xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
         is_stated = bool(xyz or rpy) or pose.said("xyz") is not None or pose.said("rpy") is not None
-        made = _made_pose(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, source=pose.ref)
+        made = Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, source=pose.ref)
         return with_extras(made, pose)
 
     # Opening what is nested
@@ -276,7 +273,7 @@ class Fields(SpecObject):
     def vector3_at(self, node: YamlNode, field: str, measure: Measure) -> Vector3 | None:
         plain = plain_numbers(node, measure)
         numbers = plain if len(plain) == 3 else self.numbers_at(node, field, measure, 3)
-        return _made_vector(*numbers) if numbers else None
+        return Vector3(*numbers) if numbers else None
 
     def text_at(self, node: YamlNode, field: str) -> str | None:
         if isinstance(node, YamlScalar):
@@ -308,11 +305,11 @@ def _plain_pose(node: YamlNode, trail: tuple[Span, ...]) -> Transform | None:
         numbers = plain_numbers(entry.value, measure) if measure else ()
         if len(numbers) != 3:
             return None
-        vectors[key] = _made_vector(*numbers)
+        vectors[key] = Vector3(*numbers)
     if not vectors:
         return None
     xyz, rpy = vectors.get("xyz", IDENTITY.xyz), vectors.get("rpy", IDENTITY.rpy)
-    return _made_pose(xyz, rpy, is_stated=True, source=made_ref(node, None, trail))
+    return Transform(xyz, rpy, is_stated=True, source=SourceRef(node, None, trail))
 
 
 _OF_A_POSE = {"xyz": LENGTH, "rpy": ANGLE}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.constants import IR_VERSION
@@ -12,7 +13,6 @@ from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics, Gaps
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.duplicates import tell_duplicate
 from linkforge_compile.lowering.extra import outer_extras_of
 from linkforge_compile.lowering.fields import Fields

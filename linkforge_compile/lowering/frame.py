@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.joint import Ends, joint_between
-from linkforge_compile.named_tuple import NamedTuple
 
 
 class Frame(NamedTuple):

@@ -12,13 +12,10 @@ from linkforge_compile.lowering.quantities import EXTENT, NOT_ZERO, Measure
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode
-from linkforge_compile.unjudged import unjudged
 
 _FACTOR = Measure(bound=NOT_ZERO)
 
 # What their constructors ask of numbers, EXTENT and _FACTOR have asked.
-_made_box, _made_sphere, _made_mesh = unjudged(Box), unjudged(Sphere), unjudged(Mesh)
-_made_cylinder, _made_capsule = unjudged(Cylinder), unjudged(Capsule)
 
 
 def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
@@ -41,19 +38,19 @@ def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
         size, rest = body.vector3("size", EXTENT, required="[0.1, 0.1, 0.1]"), besides(body)
     else:
         size, rest = shape.vector3_at(node, "box", EXTENT), _short(shape, node)
-    return None if size is None else _made_box(size, **rest)
+    return None if size is None else Box(size, **rest)
 
 
 def _cylinder(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "cylinder")
     extents = body and _radius_and_length(body)
-    return with_extras(_made_cylinder(*extents, source=body.ref), body) if body and extents else None
+    return with_extras(Cylinder(*extents, source=body.ref), body) if body and extents else None
 
 
 def _capsule(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "capsule")
     extents = body and _radius_and_length(body)
-    return with_extras(_made_capsule(*extents, source=body.ref), body) if body and extents else None
+    return with_extras(Capsule(*extents, source=body.ref), body) if body and extents else None
 
 
 def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
@@ -62,7 +59,7 @@ def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None
         radius, rest = body.number("radius", EXTENT, required="0.1"), besides(body)
     else:
         radius, rest = shape.number_at(node, "sphere", EXTENT), _short(shape, node)
-    return None if radius is None else _made_sphere(radius, **rest)
+    return None if radius is None else Sphere(radius, **rest)
 
 
 def _mesh(shape: Fields, node: YamlNode, scope: FileScope) -> Geometry | None:
@@ -85,7 +82,7 @@ def _mesh_file(  # noqa: PLR0917 both forms of a mesh end here
         fields.tell(NO_MESH_FILE, node.child("file") or node, owner=fields.title)
         return None
     resource = scope.resource(file, node.child("file") or node)
-    return _made_mesh(resource, scale, is_scale_stated=node.child("scale") is not None, **rest)
+    return Mesh(resource, scale, is_scale_stated=node.child("scale") is not None, **rest)
 
 
 def _scale(mesh: Fields) -> Vector3 | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from linkforge_compile.core.constants import EPSILON, UNKNOWN
 from linkforge_compile.core.models.geometry import Transform, Vector3
@@ -36,11 +37,9 @@ from linkforge_compile.lowering.quantities import (
     Measure,
     found,
 )
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
-from linkforge_compile.unjudged import unjudged
 
 
 class _Motion(NamedTuple):
@@ -82,7 +81,6 @@ _STAND_IN_AXIS = Vector3(0.0, 0.0, 1.0)
 _STAND_IN_LIMITS = JointLimits(-UNKNOWN, UNKNOWN, 1.0, 1.0)
 
 # What their constructors ask of values, the measures and what reads the others have asked.
-_made_limits, _made_dynamics, _made_joint = unjudged(JointLimits), unjudged(JointDynamics), unjudged(Joint)
 
 _AXES = {
     "x": Vector3(1.0, 0.0, 0.0),
@@ -176,10 +174,8 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
     if parent == child:
         fields.tell(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
         return None
-    # A name may be empty, and an axis too long to be made a unit vector.
-    make = _made_joint if parent and child and axis_as_written is None else Joint
     return fields.build(
-        lambda: make(
+        lambda: Joint(
             name,
             joint_type,
             parent,
@@ -255,7 +251,7 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: _Motion) -> Jo
         upper = _STAND_IN_LIMITS.upper if has_range else None
     effort = _STAND_IN_LIMITS.effort if effort is None else effort
     velocity = _STAND_IN_LIMITS.velocity if velocity is None else velocity
-    return with_extras(_made_limits(lower, upper, effort, velocity, source=limits.ref), limits)
+    return with_extras(JointLimits(lower, upper, effort, velocity, source=limits.ref), limits)
 
 
 def _is_lost(fields: Fields, key: str) -> bool:
@@ -274,7 +270,7 @@ def _dynamics(fields: Fields, motion: _Motion) -> JointDynamics | None:
     if dynamics is None:
         return None
     damping, friction = dynamics.numbers(("damping", AMOUNT, ""), ("friction", motion.effort, ""))
-    return with_extras(_made_dynamics(damping or 0.0, friction or 0.0, source=dynamics.ref), dynamics)
+    return with_extras(JointDynamics(damping or 0.0, friction or 0.0, source=dynamics.ref), dynamics)
 
 
 def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:

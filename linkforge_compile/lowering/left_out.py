@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
 
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.models.srdf import GroupState, PlanningGroup, SemanticRobotDescription
 from linkforge_compile.core.part import Inside
-from linkforge_compile.frozen import replace
-from linkforge_compile.named_tuple import NamedTuple
 
 
 class Remainder(NamedTuple):

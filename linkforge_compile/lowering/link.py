@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from linkforge_compile.core.constants import DEFAULT_LINK_MASS
 from linkforge_compile.core.models.geometry import Geometry, Mesh, Transform
@@ -25,7 +26,6 @@ from linkforge_compile.diagnostics.codes.model import (
     ORIGIN_WITHOUT_INERTIA,
     WRONG_KIND,
 )
-from linkforge_compile.frozen import replace
 from linkforge_compile.lowering.extra import besides, outer_extras_of, with_extras
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.geometry import lower_geometry
@@ -35,7 +35,6 @@ from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
-from linkforge_compile.unjudged import unjudged
 
 _MASS, _MASS_TO_SPREAD = Measure((Dimension.MASS,), NOT_NEGATIVE), Measure((Dimension.MASS,), ABOVE_ZERO)
 _DENSITY, _INERTIA = Measure((Dimension.DENSITY,), ABOVE_ZERO), Measure((Dimension.INERTIA,))
@@ -46,8 +45,6 @@ _PRODUCTS = [(key, _INERTIA, "") for key in ("ixy", "ixz", "iyz")]
 _UNSAID_PHYSICS = LinkPhysics()
 
 # What their constructors ask of values, the measures and what reads the others have asked.
-_made_inertial, _made_tensor = unjudged(Inertial), unjudged(InertiaTensor)
-_made_visual, _made_collision, _made_link = unjudged(Visual), unjudged(Collision), unjudged(Link)
 
 Shapes = Sequence[Visual | None] | Sequence[Collision | None]
 
@@ -66,7 +63,7 @@ def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
     shape_order = _shape_order(fields, visuals, collisions)
     if not valid:
         return None
-    return _made_link(
+    return Link(
         name,
         inertial,
         physics,
@@ -126,7 +123,7 @@ def _visual(shape: Fields | None, scope: FileScope) -> Visual | None:
         return None
     geometry, origin = lower_geometry(shape, scope), shape.origin()
     material, name = lower_visual_material(shape, scope), shape.text("name")
-    made = _made_visual(geometry, origin, material, name, source=shape.ref) if geometry else None
+    made = Visual(geometry, origin, material, name, source=shape.ref) if geometry else None
     return made and with_extras(made, shape)
 
 
@@ -148,7 +145,7 @@ def _collision(shape: Fields | None, scope: FileScope) -> Collision | None:
     if shape is None:
         return None
     geometry, origin, name = lower_geometry(shape, scope), shape.origin(), shape.text("name")
-    made = _made_collision(geometry, origin, name, source=shape.ref) if geometry else None
+    made = Collision(geometry, origin, name, source=shape.ref) if geometry else None
     return made and with_extras(made, shape)
 
 
@@ -184,7 +181,7 @@ def _written(inertial: Fields, mass: float | None, origin: Transform) -> Inertia
         inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass'")
     if mass is None or tensor is None:
         return None
-    return with_extras(_made_inertial(mass, origin, tensor, source=inertial.ref), inertial)
+    return with_extras(Inertial(mass, origin, tensor, source=inertial.ref), inertial)
 
 
 def _tensor(inertial: Fields) -> InertiaTensor | None:
@@ -194,7 +191,7 @@ def _tensor(inertial: Fields) -> InertiaTensor | None:
     ixx, iyy, izz, ixy, ixz, iyz = inertia.numbers(*_MOMENTS, *_PRODUCTS)
     if ixx is None or iyy is None or izz is None:
         return None
-    made = _made_tensor(ixx, iyy, izz, ixy or 0.0, ixz or 0.0, iyz or 0.0, source=inertia.ref)
+    made = InertiaTensor(ixx, iyy, izz, ixy or 0.0, ixz or 0.0, iyz or 0.0, source=inertia.ref)
     return with_extras(made, inertia)
 
 

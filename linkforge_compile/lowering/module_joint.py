@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.diagnostics import Diagnostics
@@ -10,7 +10,6 @@ from linkforge_compile.diagnostics.codes.model import JOINT_WITHOUT_PARENT
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.joint import Ends, joint_between
 from linkforge_compile.modules.assembly import Instance, joint_name_of
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
 
 if TYPE_CHECKING:

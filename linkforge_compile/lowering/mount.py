@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from linkforge_compile.core.constants import WORLD
 from linkforge_compile.core.models.geometry import Transform
@@ -16,7 +17,6 @@ from linkforge_compile.diagnostics.codes.model import (
     MOUNT_SAYS_ENDS,
     TWO_MOUNTS,
 )
-from linkforge_compile.frozen import replace
 from linkforge_compile.lowering.duplicates import tell_duplicate
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.joint import Ends, joint_between

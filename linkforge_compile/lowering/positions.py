@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.joint import joints_of, position_measure
 from linkforge_compile.lowering.quantities import Refusal, si_number
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.syntax.nodes import YamlMap, YamlNode, YamlScalar
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import re
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass, field
 
 from linkforge_compile.core.constants import EPSILON
 from linkforge_compile.diagnostics import Code
@@ -17,8 +19,6 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_DIMENSION,
     WRONG_KIND,
 )
-from linkforge_compile.frozen import dataclass, field
-from linkforge_compile.pattern import pattern
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import scalar_value
 from linkforge_compile.units import (
@@ -273,7 +273,7 @@ def _no_number(node: YamlNode, measure: Measure) -> Refusal:
     return Refusal(UNKNOWN_UNIT, {"expected": measure.words, "name": unit, "hint": ""}, known)
 
 
-_WORD = pattern(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$])+")
+_WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$])+")
 """One of the numbers of a row that was written as one text: what holds no space, or an expression."""
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.diagnostics import Gaps
-from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.modules.mesh_files import no_mesh
 from linkforge_compile.modules.path_starts import written_place

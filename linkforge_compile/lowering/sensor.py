@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from enum import StrEnum
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from linkforge_compile.core import constants as default
 from linkforge_compile.core.models.sensor import (
@@ -32,7 +32,6 @@ from linkforge_compile.lowering.quantities import (
     UP_TO_HALF_A_TURN,
     Measure,
 )
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.units import Dimension
 
 T = TypeVar("T")

@@ -13,7 +13,6 @@ from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.ref import Located, Step, brought_in
 from linkforge_compile.syntax import leaves_in
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode
-from linkforge_compile.unjudged import unjudged
 
 _NEEDED_IN_XML = {
     "axis": """an <axis>; write '<axis xyz="0 0 1"/>'""",
@@ -25,7 +24,6 @@ _NEEDED_IN_XML = {
 
 T = TypeVar("T")
 
-made_ref = unjudged(SourceRef)
 """Makes one of the many that a robot has; those for a message take the constructor."""
 
 
@@ -64,7 +62,7 @@ class SpecObject:
     @property
     def ref(self) -> SourceRef:
         """What the object of the IR has as its `source`."""
-        return made_ref(self.node, self.key, self.trail)
+        return SourceRef(self.node, self.key, self.trail)
 
     @property
     def title(self) -> str:

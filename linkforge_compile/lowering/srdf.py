@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from enum import StrEnum
 from functools import partial
+from typing import NamedTuple
 
 from linkforge_compile.core.models.srdf import (
     Chain,
@@ -25,7 +26,6 @@ from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import is_unsaid
 from linkforge_compile.lowering.quantities import LENGTH, NOT_NEGATIVE, Measure
 from linkforge_compile.lowering.srdf_states import WrittenState, written_states
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode
 from linkforge_compile.units import Dimension

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from operator import attrgetter
 from typing import TypeVar
 
 from linkforge_compile.core.models.srdf import SemanticRobotDescription
-from linkforge_compile.frozen import replace
 
 T = TypeVar("T")
 

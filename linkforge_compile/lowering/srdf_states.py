@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Container, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from graphlib import CycleError, TopologicalSorter
 from typing import TypeAlias
@@ -10,7 +11,6 @@ from typing import TypeAlias
 from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.diagnostics.codes.model import STATE_CIRCLE, STATE_VALUE_TWICE, UNKNOWN_STATE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.lowering.extra import EXTRA_KEYS, besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import Measure

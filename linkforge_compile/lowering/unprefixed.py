@@ -5,33 +5,31 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import takewhile
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.frozen_map import FreePart
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.model import ABSOLUTE_TOPIC, UNPREFIXED_NAME, UNPREFIXED_TOPICS
-from linkforge_compile.named_tuple import NamedTuple
-from linkforge_compile.pattern import pattern
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
-_RAW_NAME = pattern(r"[\w:.-]+")
+_RAW_NAME = re.compile(r"[\w:.-]+")
 # An attribute may hold a `>`. What is read is not given back: an unclosed quote would be tried from each place in it.
-_REST_OF_TAG = pattern(r"""(?:[^>"']|"[^"]*"|'[^']*')*+>""")
+_REST_OF_TAG = re.compile(r"""(?:[^>"']|"[^"]*"|'[^']*')*+>""")
 # It begins with the first character of a name only: tried from each, a long name would take quadratic time.
-_RAW_VALUE = pattern(r"""(?<![\w:.-])([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
+_RAW_VALUE = re.compile(r"""(?<![\w:.-])([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 _NAMED_FOR_ITSELF = ("visual", "collision", "material")
 """Elements whose own name may well be that of their link."""
 
-_SAYS_TOPIC_OR_FRAME = pattern(
+_SAYS_TOPIC_OR_FRAME = re.compile(
     r"(?:topic|frame|namespace|remapping)(?:_?(?:name|id|prefix))?s?$|^collision$", re.IGNORECASE
 )
 """The end of a key, a tag or an attribute that plugins give topics and frames by: `imageTopicName`, `frame_id`; and
 the tag by which a contact sensor names what it feels."""
 
 # In a force-torque sensor, `frame` is one of three words.
-_IS_NO_NAME = pattern(r"[-+.\d\s]*|true|false|child|parent|sensor|__.*__", re.IGNORECASE)
+_IS_NO_NAME = re.compile(r"[-+.\d\s]*|true|false|child|parent|sensor|__.*__", re.IGNORECASE)
 _MOST_SHOWN = 5
 
 _AROUND_A_LIST = " \t\r\n[](){}'\""

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE
-from linkforge_compile.frozen import dataclass, field, replace
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlNode, YamlScalar, scalar_value
 from linkforge_compile.units import Quantity

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Removed
-from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.modules.mesh_files import FindMesh, no_mesh
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar

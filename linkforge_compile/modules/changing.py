@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from linkforge_compile.pattern import pattern
+import re
+
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 
 # Nearly every robot has an effort.
-_FOR = pattern(r"for\b")
+_FOR = re.compile(r"for\b")
 _SIGNS = ("$(", "\\", *(word for word in WORDS if word != "for"))
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT
@@ -17,10 +18,8 @@ from linkforge_compile.diagnostics.codes.repetition import (
     RESERVED_KEY,
 )
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression
-from linkforge_compile.frozen import replace
 from linkforge_compile.modules.origins import Setting
 from linkforge_compile.modules.values import describe
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import Shape
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, has_expression

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Note, Removed
-from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 

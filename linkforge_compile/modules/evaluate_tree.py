@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
@@ -22,7 +23,6 @@ from linkforge_compile.expressions import (
     kind_name,
     parse_template,
 )
-from linkforge_compile.frozen import dataclass, field, replace
 from linkforge_compile.modules.changing import Changing
 from linkforge_compile.modules.computed import judge_computed
 from linkforge_compile.modules.conditions import occurrences, without_words

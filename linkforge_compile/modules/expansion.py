@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
@@ -13,7 +14,6 @@ from linkforge_compile.diagnostics.codes.modules import (
     USE_TOO_DEEP,
 )
 from linkforge_compile.expressions import FAULT, Fault
-from linkforge_compile.frozen import dataclass, field, replace
 from linkforge_compile.modules.arguments import Arguments, Unset
 from linkforge_compile.modules.assembly import Instance, count_entries, own_name, robot_part
 from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
@@ -14,7 +16,6 @@ from linkforge_compile.diagnostics.codes.modules import (
     UNKNOWN_PARAMETER,
 )
 from linkforge_compile.expressions import FAULT, Fault, Value
-from linkforge_compile.frozen import dataclass, replace
 from linkforge_compile.modules.arguments import COMMAND_LINE, Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.kinds import Kind, kind_of
@@ -26,7 +27,6 @@ from linkforge_compile.modules.parameters import Declaration, Parameter, paramet
 from linkforge_compile.modules.uses import rebased
 from linkforge_compile.modules.values import plain_value
 from linkforge_compile.modules.variants import Variants
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.files import (
@@ -17,7 +18,6 @@ from linkforge_compile.diagnostics.codes.files import (
 )
 from linkforge_compile.modules.paths import follow
 from linkforge_compile.modules.whole import Whole
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import (

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import partial
 
 from linkforge_compile.expressions import Value
 from linkforge_compile.expressions.types import as_text, dimension_name
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.units import Dimension, Quantity, units_of
 
 

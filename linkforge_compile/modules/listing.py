@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expressions import FAULT, Value
@@ -16,7 +16,6 @@ from linkforge_compile.modules.names import FileNames, Shared, UseOfFile
 from linkforge_compile.modules.parameters import Declaration, parameter_of
 from linkforge_compile.modules.uses import SPEC_ENDINGS, open_use
 from linkforge_compile.modules.variants import Variants, variants_of
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
 

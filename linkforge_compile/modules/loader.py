@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
@@ -11,7 +12,6 @@ from linkforge_compile.bounds import MAX_FILE_BYTES, Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
 from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
-from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.modules.file_text import UnreadableError, file_bytes, file_text, utf8_text
 from linkforge_compile.modules.noted import NotedSink, used_from
 from linkforge_compile.modules.path_starts import looked_for

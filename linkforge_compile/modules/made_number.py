@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics
@@ -15,7 +16,6 @@ from linkforge_compile.expressions import (
     as_one_expression,
     forgotten_expression,
 )
-from linkforge_compile.frozen import replace
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlNode, YamlScalar, has_expression, scalar_value
 from linkforge_compile.units import UNITS, Quantity, parse_quantity

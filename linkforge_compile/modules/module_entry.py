@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import MODULE_FIELD, MODULE_WITHOUT_FILE, NOT_A_MODULE, SAME_KEY
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.frozen import dataclass, field, replace
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.schema.shapes import Shape, shapes

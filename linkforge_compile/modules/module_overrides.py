@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 from linkforge_compile.diagnostics import Removed
-from linkforge_compile.frozen import dataclass, replace
 from linkforge_compile.modules.assembly import joint_name_of
 from linkforge_compile.modules.module_entry import ModuleEntry, with_fields
 from linkforge_compile.modules.overrides import Override

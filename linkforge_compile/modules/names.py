@@ -5,8 +5,10 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.expressions import SEEN_IN_THE_TEXT
@@ -18,7 +20,6 @@ from linkforge_compile.diagnostics.codes.modules import (
     RESERVED_NAME,
 )
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Lazy, PathText, Scope, Value
-from linkforge_compile.frozen import dataclass, replace
 from linkforge_compile.modules.arguments import Unset
 from linkforge_compile.modules.evaluate_tree import Expressions, TreeEvaluator
 from linkforge_compile.modules.given import Given, parameter_value, tell_unset
@@ -32,7 +33,6 @@ from linkforge_compile.modules.paths import follow
 from linkforge_compile.modules.uses import from_base, mesh_base, rebased
 from linkforge_compile.modules.values import plain_value
 from linkforge_compile.modules.variants import Variants, variants_of
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar

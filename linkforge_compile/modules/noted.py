@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.frozen import replace
 from linkforge_compile.source import Span
 
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expressions import FAULT, forgotten_expression, handed_on
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.values import describe
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import ComputedSpan, Key, Origin
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 

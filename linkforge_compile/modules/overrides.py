@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 from linkforge_compile.diagnostics import Code, Diagnostics, Note, Removed
 from linkforge_compile.diagnostics.codes.repetition import (
@@ -16,7 +17,6 @@ from linkforge_compile.diagnostics.codes.repetition import (
     SAME_AS_BEFORE,
 )
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.gazebo_tags import with_tags_as_patched
 from linkforge_compile.modules.normal_form import (
     CHOICES,

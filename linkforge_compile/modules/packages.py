@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.manifest import package_name
-from linkforge_compile.pattern import pattern
 from linkforge_compile.roots import Roots, as_walked, is_file, is_folder
 from linkforge_compile.source import Span
 
 if TYPE_CHECKING:
     from linkforge_compile.modules.loader import Loader
 
-_NAME = pattern(r"\w[\w.-]*")
+_NAME = re.compile(r"\w[\w.-]*")
 """The name of a folder that may be a package: no way to another folder, as `$(find ../..)` of a xacro would be."""
 
 _SOURCES = "src"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from linkforge_compile.bounds import Limit
@@ -20,7 +21,6 @@ from linkforge_compile.diagnostics.codes.modules import (
     UNFIT_CONSTRAINT,
 )
 from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_expression
-from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.kinds import KINDS, Kind
 from linkforge_compile.modules.values import describe

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.files import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
 from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
 from linkforge_compile.expressions import Expression, parse_template
 from linkforge_compile.modules.telltale import TELLTALE
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.schema.words import field
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
-from linkforge_compile.frozen import replace
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package
 from linkforge_compile.modules.uses import XACRO
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap
 

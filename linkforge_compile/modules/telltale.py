@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from linkforge_compile.pattern import pattern
+import re
 
-TELLTALE = pattern(r"\bprefix\b(?!['\"]?\s*:)|\b(?:path|link|joint)[\s)]*\(|\$\{|[“„‘]")
+TELLTALE = re.compile(r"\bprefix\b(?!['\"]?\s*:)|\b(?:path|link|joint)[\s)]*\(|\$\{|[“„‘]")
 """Is in every text that has something to judge; hardly a spec needs the walk through its tree."""
 
 SIGNS = ("$", "\\", "“", "„", "‘")

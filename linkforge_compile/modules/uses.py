@@ -6,16 +6,14 @@ import os
 import posixpath
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, USE_OF_NOWHERE
-from linkforge_compile.frozen import dataclass, replace
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
 from linkforge_compile.modules.paths import follow
-from linkforge_compile.named_tuple import NamedTuple
-from linkforge_compile.pattern import pattern
 from linkforge_compile.source import Span
 
 if TYPE_CHECKING:
@@ -26,8 +24,8 @@ SPEC_ENDINGS = (".yaml", ".yml")
 _URDF_ENDING = ".urdf"
 XACRO = ".xacro"
 """How the name of a xacro file ends."""
-_SCHEME = pattern(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
-_PACKAGE_PATH = pattern(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
+_SCHEME = re.compile(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
+_PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 from linkforge_compile.expressions import FAULT, Fault, Value, as_text, seen_from_compiled
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import Key, Span
 from linkforge_compile.syntax import ScalarValue, YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, parse_quantity

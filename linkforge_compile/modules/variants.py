@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.diagnostics.codes.files import UNKNOWN_VARIANT
@@ -12,7 +13,6 @@ from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.modules.arguments import COMMAND_LINE
 from linkforge_compile.modules.loader import Loader, SpecFile
 from linkforge_compile.modules.uses import XACRO
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
+from typing import NamedTuple
 
 from linkforge_compile.modules.paths import follow
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap
 

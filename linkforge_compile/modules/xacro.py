@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Mapping
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import (
@@ -15,7 +16,6 @@ from linkforge_compile.diagnostics.codes.importing import (
     XACRO_WARNS,
 )
 from linkforge_compile.expressions import FAULT
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.arguments import Arguments
 from linkforge_compile.modules.evaluate_tree import TreeEvaluator
 from linkforge_compile.modules.loader import Loader, SpecFile, Used
@@ -23,7 +23,6 @@ from linkforge_compile.modules.noted import used_from
 from linkforge_compile.modules.packages import Package, find_package
 from linkforge_compile.modules.values import plain_value
 from linkforge_compile.modules.xacro_faults import Telling, Written
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, number_text, parse_quantity

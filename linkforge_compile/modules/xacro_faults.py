@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
@@ -15,7 +16,6 @@ from linkforge_compile.diagnostics.codes.importing import (
     XACRO_UNKNOWN_NAME,
 )
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.modules.loader import Loader, Used
 from linkforge_compile.modules.packages import unknown_package
 from linkforge_compile.modules.paths import as_typed, names_in

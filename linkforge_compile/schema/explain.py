@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.schema import (
@@ -17,7 +17,6 @@ from linkforge_compile.diagnostics.codes.schema import (
 )
 from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, TAB_INDENTATION, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.json_types import Schema, mapping
 from linkforge_compile.schema.keys_meant import like_space_before, unknown_keys
 from linkforge_compile.schema.meant import Misfit, Path, way_out, word_meant

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import cache
 from itertools import islice
 from typing import TYPE_CHECKING, Final
@@ -10,7 +11,6 @@ from typing import TYPE_CHECKING, Final
 from jsonschema import Draft7Validator
 
 from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, brought_in_at, too_many_errors
-from linkforge_compile.frozen import replace
 from linkforge_compile.schema.explain import Judgement, explain
 from linkforge_compile.schema.json_types import Schema
 from linkforge_compile.schema.meant import Path

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, islice
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import MAX_TOLD
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
 from linkforge_compile.schema.numbers_meant import number_to_write
 from linkforge_compile.schema.repetition import has_names

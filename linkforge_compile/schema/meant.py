@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.expressions import forgotten_expression
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.colors_meant import color_meant
 from linkforge_compile.schema.json_types import Schema, branches, mapping
 from linkforge_compile.schema.keys_meant import nested, steps_of

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
+from dataclasses import replace
 
-from linkforge_compile.frozen import replace
 from linkforge_compile.schema.explain import Judgement
 from linkforge_compile.schema.meant import Path
 from linkforge_compile.syntax.nodes import YamlMap, YamlNode, is_null

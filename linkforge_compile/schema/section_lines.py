@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.schema import SECTION_LINE_INDENTED, SECTION_LINE_LOST
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.schema.fit import fit_of
 from linkforge_compile.schema.json_types import branches, mapping
 from linkforge_compile.schema.shapes import Shape, shapes

@@ -7,7 +7,6 @@ from collections.abc import Collection
 from functools import cache
 from typing import Final
 
-from linkforge_compile.pattern import pattern
 from linkforge_compile.schema.json_types import Schema, branches, mapping
 from linkforge_compile.schema.patches import POSITION
 from linkforge_compile.schema.registry import linked
@@ -115,7 +114,7 @@ class Shape:
         return FREE
 
 
-_UNIT = pattern(r"number \[(\S+)\]")
+_UNIT = re.compile(r"number \[(\S+)\]")
 """Where a schema's message says the unit of a number, if there is but one: "[kg]", not "[rad or m]"."""
 
 _EXPRESSION = r"\$\("

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from linkforge_compile.pattern import Characters, pattern
+import re
 
 # U+0085, U+2028 and U+2029 are line breaks to YAML 1.1 parsers and none to editors and YAML 1.2: every line number
 # behind one would be wrong. The list is of what is forbidden because one of what is allowed takes 4 ms to compile.
-FORBIDDEN_CHARACTER = Characters(
-    "\x00-\x08\x0b\x0c\x0e-\x1f\x7f", "\x80-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff"
-)
+FORBIDDEN_CHARACTER = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\x80-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]")
 """Finds a control character, a lone surrogate, a stray byte order mark, or one of those line separators."""
 
 
-LIKE_SPACES = pattern(r"[ \t]*([\u00a0\u2000-\u200b\u202f\u3000])")
+LIKE_SPACES = re.compile(r"[ \t]*([\u00a0\u2000-\u200b\u202f\u3000])")
 """Finds what looks like a space where a line begins, such as a no-break space of a web page: it indents nothing."""
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 import codecs
 import re
 
-from linkforge_compile.pattern import pattern
 from linkforge_compile.source.file import SourceFile
 from linkforge_compile.source.span import Span
 
 _MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be"))
-_DECLARED = pattern(rb"""<\?xml\s(?:(?!\?>).)*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""", re.DOTALL)
+_DECLARED = re.compile(rb"""<\?xml\s(?:(?!\?>).)*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""", re.DOTALL)
 _SEARCHED = 4096
 """A declaration is looked for in so many bytes: some generators write a comment before it."""
 

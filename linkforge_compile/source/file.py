@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
 from pathlib import Path
 
-from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.source.characters import on_one_line
 from linkforge_compile.source.span import Span
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from typing import NamedTuple
 from xml.parsers.expat import ErrorString, errors
-
-from linkforge_compile.named_tuple import NamedTuple
 
 _CONFLICT = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 _REFERENCE = re.compile(r"&[\w.-]*\Z")

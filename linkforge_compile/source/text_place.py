@@ -6,9 +6,9 @@ import re
 from array import array
 from bisect import bisect_right
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.source.file import Room
 from linkforge_compile.source.span import Span
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
-from linkforge_compile.pattern import pattern
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null, new
 
-STUCK = pattern(r"[A-Za-z_]\w*:\S.*")
+STUCK = re.compile(r"[A-Za-z_]\w*:\S.*")
 """A key and its value without the space between them."""
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import yaml
@@ -19,7 +20,6 @@ from yaml.events import (
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import syntax as codes
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.syntax.entries import entries_of, plain_entries
 from linkforge_compile.syntax.marks import Marks

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
 from yaml import MarkedYAMLError
 from yaml.events import CollectionStartEvent, ScalarEvent
@@ -11,7 +12,6 @@ from yaml.events import CollectionStartEvent, ScalarEvent
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.source import Span
 from linkforge_compile.source.characters import LIKE_SPACES, code_point
 from linkforge_compile.syntax.marks import Marks

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
+
 from yaml.events import Event, NodeEvent, ScalarEvent
 
-from linkforge_compile.pattern import pattern
 from linkforge_compile.source import SourceFile, Span
 
-_TAG = pattern(r"!\S*")
-_PROPERTIES = pattern(r"(?:[&!]\S*\s*|#[^\r\n]*\s*)+")
+_TAG = re.compile(r"!\S*")
+_PROPERTIES = re.compile(r"(?:[&!]\S*\s*|#[^\r\n]*\s*)+")
 """Anchors and tags before a value, and comments between them and it."""
 
 _BLOCK_STYLES = ("|", ">")

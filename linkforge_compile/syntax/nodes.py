@@ -7,10 +7,9 @@ by a node of its value with the expression's span, so a tree without expressions
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import TypeAlias
+from dataclasses import dataclass
+from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.frozen import dataclass
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile, Span, span_of
 from linkforge_compile.units import Quantity
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from linkforge_compile.bounds import Budget, Limit
+from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.syntax.entries import STUCK, kind_of
+from linkforge_compile.syntax.event_reader import read_events
+from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.nodes import Tags, YamlFault, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.syntax.quick_reader import read_quickly
 
 
 def read(file: SourceFile, sink: Diagnostics, budget: Budget | None = None) -> YamlMap | None:
@@ -41,18 +42,7 @@ def _root(file: SourceFile, sink: Diagnostics, budget: Budget, tags: Tags | None
         span = file.between(*forbidden.span())
         sink.report(codes.FORBIDDEN_CHARACTER.at(span, character=code_point(forbidden[0])))
         return None
-    left, text = budget.left(Limit.VALUES), file.counted
-    # So many will be too many values, of which the other reader tells the place: it is not read twice until there.
-    is_too_much = text.count("\n") + text.count(",") > 2 * left
-    if is_too_much or (quick := read_quickly(file, left)) is None:
-        # PyYAML waits for what is not simple: to import it takes a sixth of a short compile.
-        from linkforge_compile.syntax.event_reader import read_events
-        from linkforge_compile.syntax.marks import Marks
-
-        return read_events(Marks(file), sink, budget, tags)
-    root, size = quick
-    budget.spend(Limit.VALUES, size, file.whole)
-    return root
+    return read_events(Marks(file), sink, budget, tags)
 
 
 def _report_top_level(root: YamlNode, sink: Diagnostics) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 
-from linkforge_compile.pattern import pattern
 from linkforge_compile.syntax.nodes import ScalarValue
 
 _WORDS: dict[str, ScalarValue] = {
@@ -27,7 +26,7 @@ _NUMBER = re.compile(
       | (?P<fraction> [-+]? (?: \.[0-9]+ | [0-9]+ (?: \.[0-9]* )? ) (?: [eE] [-+]? [0-9]+ )? )""",
     re.VERBOSE,
 )
-IN_QUOTES = pattern(r"'[^']*'|\"[^\"]*\"")
+IN_QUOTES = re.compile(r"'[^']*'|\"[^\"]*\"")
 
 _BASES = {"decimal": 10, "octal": 8, "hexadecimal": 16}
 _MOST_DIGITS = 400

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from linkforge_compile.pattern import pattern
+import re
 
-XACRO_EXPRESSION = pattern(r"\$\{(?P<within>[^{}\r\n]*)\}")
+XACRO_EXPRESSION = re.compile(r"\$\{(?P<within>[^{}\r\n]*)\}")
 
 
 def xacro_facts(text: str) -> tuple[dict[str, str], ...]:

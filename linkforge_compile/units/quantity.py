@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, field
 from enum import StrEnum
 
-from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.units.numbers import number_text
 
 

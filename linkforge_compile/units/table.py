@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import dataclass
 from typing import TypeAlias
 
-from linkforge_compile.frozen import dataclass
 from linkforge_compile.units.quantity import Dimension, Quantity
 
 _Ratio: TypeAlias = tuple[int, int]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from linkforge_compile.core.models.link import Collision, Visual
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlMap
 from linkforge_compile.writers.place import Place, place_of

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
 
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.frozen import dataclass
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import Change, Span
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar

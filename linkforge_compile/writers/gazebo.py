@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.link import PHYSICS_TAGS, LinkPhysics
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.frozen import replace
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.syntax import YamlMap, YamlNode, scalar_value
 from linkforge_compile.units import is_in_full, number_text
 from linkforge_compile.writers.pen import Pen

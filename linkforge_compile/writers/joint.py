@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import NamedTuple
 
 from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.core.models.joint import (
@@ -15,7 +16,6 @@ from linkforge_compile.core.models.joint import (
     JointSafetyController,
     JointType,
 )
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 from linkforge_compile.writers.geometry import written_origin

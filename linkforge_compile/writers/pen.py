@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.part import Element, Inside
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, word_value
 from linkforge_compile.units import Dimension, number_text

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from linkforge_compile.modules.default_places import is_default
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import Span
 
 

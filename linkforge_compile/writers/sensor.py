@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.constants import DEFAULT_UPDATE_RATE
 from linkforge_compile.core.models.sensor import LidarInfo, Sensor, SensorNoise
 from linkforge_compile.core.part import Element
-from linkforge_compile.frozen import fields
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 from linkforge_compile.writers.gazebo import written_plugin

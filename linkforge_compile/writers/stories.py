@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from linkforge_compile.modules.listing import as_written
 from linkforge_compile.modules.origins import NameOrigin, Setting, names_behind
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlNode
 

@@ -21,7 +21,6 @@ from linkforge_compile.core.models.link import (
     Link,
     LinkPhysics,
     Visual,
-    prefixed_links,
 )
 from linkforge_compile.core.models.material import Color, Material
 
@@ -197,17 +196,17 @@ def test_somebody_may_watch_a_link_that_he_does_not_keep():
 
 
 def test_a_link_that_is_made_otherwise_is_copied_and_not_made_anew():
-    copied, beside = prefixed_links([Tool(2), Link("base")], "left_")
-    assert (type(copied), copied.name, copied.length, beside.name) == (Tool, "left_tool_2", 2, "left_base")
+    copied = Tool(2).with_prefix("left_")
+    assert (type(copied), copied.name, copied.length) == (Tool, "left_tool_2", 2)
     assert copied.visuals == Tool(2).visuals
 
 
 def test_a_link_of_a_class_of_ones_own_is_copied_in_its_way():
     link = Watched("base", Inertial(2.0), visuals=[Visual(BALL, name="v")], collisions=[Collision(BALL)])
-    for copied in (link.with_prefix("left_"), *prefixed_links([link], "left_")):
-        assert (type(copied), copied.name, copied.mass) == (Watched, "left_base", 2.0)
-        assert [visual.name for visual in copied.visuals] == ["left_v"]
-        assert copied.seen == copied.visuals
+    copied = link.with_prefix("left_")
+    assert (type(copied), copied.name, copied.mass) == (Watched, "left_base", 2.0)
+    assert [visual.name for visual in copied.visuals] == ["left_v"]
+    assert copied.seen == copied.visuals
     assert (link.name, link.visuals[0].name) == ("base", "v")
 
 
@@ -217,8 +216,3 @@ def test_what_is_no_list_of_attributes_is_refused(nothing):
         Link("base", extra_attributes=nothing)
     with pytest.raises(TypeError):
         Visual(BALL, extra_attributes=nothing)
-
-
-def test_links_take_a_prefix_from_whatever_gives_them():
-    links = [Link("a"), Link("b")]
-    assert [link.name for link in prefixed_links(iter(links), "left_")] == ["left_a", "left_b"]

@@ -3,7 +3,7 @@
 import gc
 import sys
 from contextlib import suppress
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import wraps
 from subprocess import run
 from types import MappingProxyType
@@ -27,7 +27,6 @@ from linkforge_compile.core import (
     Link,
     Material,
     PassiveJoint,
-    PlanningGroup,
     Robot,
     RobotBuilder,
     RobotModelError,
@@ -42,7 +41,6 @@ from linkforge_compile.core import (
     Vector3,
     Visual,
 )
-from linkforge_compile.core.prefixing import inner_kind
 
 Code = ValidationErrorCode
 RED, BLUE = Color(1, 0, 0), Color(0, 0, 1)
@@ -382,19 +380,6 @@ def painted(name: str) -> Robot:
     )
 
 
-def test_a_material_that_visuals_share_stays_one():
-    arm = Robot("station", links=[Link("table")]).merge(painted("skin"), None, None, "left_")
-    copies = {id(visual.material) for link in arm.links for visual in link.visuals}
-    assert len(copies) == 1
-
-
-def test_a_robot_and_its_visuals_share_the_copy_of_a_material():
-    arm = painted("skin")
-    arm.materials["skin"] = arm.links[0].visuals[0].material
-    robot = Robot("station").merge(arm, None, None, "left_")
-    assert all(visual.material is robot.materials["left_skin"] for link in robot.links for visual in link.visuals)
-
-
 def test_shapes_without_a_name_are_those_of_the_component_and_lists_of_them_are_not():
     arm = Robot("arm", links=[Link("a"), Link("b")], joints=[Joint("j", "fixed", "a", "b")])
     shapes = [Collision(Box(Vector3(1, 1, 1))), Collision(Box(Vector3(2, 2, 2)))]
@@ -406,14 +391,6 @@ def test_shapes_without_a_name_are_those_of_the_component_and_lists_of_them_are_
         (*arm.link("b").collisions[:2], Collision(Box(Vector3(1, 1, 1)), name="left_c")),
     ]
     assert robot.link("left_b").collisions[0] is arm.link("b").collisions[0]
-
-
-def test_a_material_stays_one_for_the_links_beside_one_of_a_class_of_ones_own():
-    arm = painted("skin")
-    arm.links = (arm.links[0], Marked("m"), arm.links[1])
-    arm.prefix_all("left_")
-    assert arm.links.names == ("left_a", "left_marked_m", "left_b")
-    assert len({id(visual.material) for link in arm.links for visual in link.visuals}) == 1
 
 
 @pytest.mark.parametrize(
@@ -455,17 +432,3 @@ def test_a_prefix_that_no_name_may_have_is_refused():
         with pytest.raises(RobotModelError) as refused:
             joint.with_prefix("a b")
         assert refused.value.code is Code.INVALID_NAME
-
-
-INNER = {
-    Link: ["visuals", "collisions"],
-    Transmission: ["joints", "actuators"],
-    Ros2Control: ["joints", "sensors", "gpios"],
-    PlanningGroup: ["chains"],
-}
-
-
-@pytest.mark.parametrize("kind", INNER)
-def test_what_a_part_holds_several_of_is_copied_with_it(kind):
-    inner = [field.name for field in fields(kind) if field.name in kind.PREFIXED and inner_kind(kind, field.type)]
-    assert inner == INNER[kind]

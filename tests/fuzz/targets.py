@@ -19,7 +19,6 @@ from linkforge_compile.schema.registry import definitions
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import read
 from linkforge_compile.units import Dimension, Quantity
-from tests.syntax.both_readers import agree_on
 
 if TYPE_CHECKING:
     from linkforge_compile import Compilation
@@ -41,9 +40,8 @@ _NAMES = {
 
 
 def read_yaml(content: bytes) -> None:
-    """A text is a tree whose places lie in it, or is refused at one; both readers agree on what is simple."""
+    """A text is a tree whose places lie in it, or is refused at one."""
     text = _text(content)
-    agree_on(text)
     sink, source = Diagnostics(), SourceFile("a.robot.yaml", text)
     try:
         tree = read(source, sink, Budget())

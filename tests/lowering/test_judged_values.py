@@ -1,6 +1,7 @@
 """What lowering makes without asking constructors is what they would make: they refuse none of it, and change none."""
 
 import re
+from dataclasses import fields, replace
 from itertools import count
 
 import pytest
@@ -8,7 +9,6 @@ import pytest
 from linkforge_compile.core import Link
 from linkforge_compile.core.part import Part
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.frozen import fields, replace
 from linkforge_compile.lowering import lower
 from tests.lowering.specs import Spec
 

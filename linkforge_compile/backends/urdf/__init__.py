@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.backends.document import render
 from linkforge_compile.backends.element import attributes, elements
 from linkforge_compile.backends.markup import Xml
 from linkforge_compile.backends.urdf.joint import JointView, joint_views
 from linkforge_compile.backends.urdf.link import LinkView, MaterialView, link_views, material_view, says_physics
-from linkforge_compile.collector import resting
 from linkforge_compile.core.models.geometry import Capsule
-from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -57,7 +55,6 @@ def require_dialect(gazebo: str) -> None:
         raise ValueError(f"gazebo takes {' or '.join(map(repr, DIALECTS))}, found {gazebo!r}")
 
 
-@resting
 def render_urdf(robot: Robot, *, pretty: bool = True, banner: str | None = None, gazebo: Gazebo = "gz") -> str:
     """Return the robot as a URDF document: materials, links, joints, transmissions, ros2_control, Gazebo, in its order.
 

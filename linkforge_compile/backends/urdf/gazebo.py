@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from linkforge_compile.backends.element import attributes, attributes_at, elements
 from linkforge_compile.backends.marks import recorded
@@ -11,7 +12,6 @@ from linkforge_compile.backends.raw import parameter_elements, raw_elements
 from linkforge_compile.backends.urdf.link import says_physics
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.link import PHYSICS_TAGS, Link, LinkPhysics
-from linkforge_compile.named_tuple import NamedTuple
 
 
 class PluginView(NamedTuple):

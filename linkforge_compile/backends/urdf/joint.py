@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from linkforge_compile.backends.element import attributes, elements, leaf, leaf_at
 from linkforge_compile.backends.markup import NOTHING, Xml, placed
@@ -15,7 +16,6 @@ from linkforge_compile.core.models.joint import (
     JointMimic,
     JointSafetyController,
 )
-from linkforge_compile.named_tuple import NamedTuple
 
 
 class JointView(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends.element import attributes, elements
 from linkforge_compile.backends.markup import Xml, placed, spelled
@@ -14,7 +14,6 @@ from linkforge_compile.core.models.ros2_control import (
     Ros2ControlJoint,
     Ros2ControlSensor,
 )
-from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     from linkforge_compile.source import SourceRef

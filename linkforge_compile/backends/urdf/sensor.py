@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import fields
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 from linkforge_compile.backends.element import attributes, elements, whole
 from linkforge_compile.backends.markup import NOTHING, Xml, placed, spelled
@@ -12,8 +13,6 @@ from linkforge_compile.backends.urdf.gazebo import PluginView, plugin_view
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.sensor import Sensor, SensorNoise, SensorType
 from linkforge_compile.core.part import Element
-from linkforge_compile.frozen import fields
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.units import number_text
 
 if TYPE_CHECKING:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 from linkforge_compile.backends.element import attributes, elements
 from linkforge_compile.backends.markup import Xml, placed
 from linkforge_compile.backends.raw import parameter_elements
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.units import number_text
 
 

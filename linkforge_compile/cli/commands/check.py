@@ -5,13 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import check_spec
 from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, has_errors, selected, to_stderr, written
-from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
     import argparse

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,6 @@ from linkforge_compile.cli.targets import file_to_write, imported_spec
 from linkforge_compile.cli.telling import add_telling_options, say, say_failure, tell
 from linkforge_compile.cli.waiting import told_when_long
 from linkforge_compile.diagnostics import Diagnostic, Severity
-from linkforge_compile.frozen import replace
 
 if TYPE_CHECKING:
     import argparse

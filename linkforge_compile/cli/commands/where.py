@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.banner import BANNER
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.telling import add_telling_options, tell
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.source import SourceFile
 
 if TYPE_CHECKING:

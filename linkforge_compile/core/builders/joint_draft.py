@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Self
 
 from linkforge_compile.core.builders.draft import LinkDraft
@@ -26,7 +27,6 @@ from linkforge_compile.core.models.joint import (
 )
 from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlJoint
 from linkforge_compile.core.models.transmission import Transmission
-from linkforge_compile.frozen import replace
 
 if TYPE_CHECKING:
     from linkforge_compile.core.builders.composer import IComposer

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields, replace
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
@@ -14,7 +15,6 @@ from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Mesh, Tra
 from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.physics import calculate_inertia, inertial_of_shapes
-from linkforge_compile.frozen import fields, replace
 
 if TYPE_CHECKING:
     from linkforge_compile.core.builders.composer import IComposer

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Self
 
 from linkforge_compile.core import constants as default
@@ -17,7 +18,6 @@ from linkforge_compile.core.models.sensor import (
     Sensor,
     SensorType,
 )
-from linkforge_compile.frozen import replace
 
 if TYPE_CHECKING:
     from linkforge_compile.core.builders.composer import IComposer

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from linkforge_compile.core.exceptions import FieldPath, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import is_finite, not_finite, require_not_blank
-from linkforge_compile.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.frozen_map import FreePart, FrozenMap
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.prefixing import prefixed_copy
 from linkforge_compile.core.rules import require_finite, require_not_blank
-from linkforge_compile.frozen import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)

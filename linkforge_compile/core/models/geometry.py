@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from enum import StrEnum
 from math import isfinite
 from typing import TypeAlias
@@ -11,7 +12,6 @@ from linkforge_compile.core.constants import PI
 from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
 from linkforge_compile.core.part import Element, Part, freeze
 from linkforge_compile.core.rules import is_finite, not_finite, require_finite
-from linkforge_compile.frozen import dataclass, field
 
 
 class GeometryType(StrEnum):

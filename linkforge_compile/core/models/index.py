@@ -6,10 +6,9 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from enum import Enum, auto
 from itertools import islice
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, TypeAlias, TypeVar, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, NamedTuple, TypeAlias, TypeVar, overload
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.named_tuple import NamedTuple
 
 T = TypeVar("T")
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import KW_ONLY, dataclass, field
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.exceptions import RobotModelError, RobotValidationError, ValidationErrorCode
@@ -16,12 +17,8 @@ from linkforge_compile.core.models.robot_fields import SemanticField, VersionSta
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
-from linkforge_compile.frozen import dataclass, field
-from linkforge_compile.named_tuple import NamedTuple
 
 if TYPE_CHECKING:
-    from dataclasses import KW_ONLY
-
     from linkforge_compile.core.models.gazebo import GazeboElement
     from linkforge_compile.core.models.joint import Joint
     from linkforge_compile.core.models.link import Link

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 from linkforge_compile.core.constants import (
@@ -22,7 +23,6 @@ from linkforge_compile.core.rules import (
     require_not_negative,
     require_valid_characters,
 )
-from linkforge_compile.frozen import dataclass, field
 
 
 class JointType(StrEnum):

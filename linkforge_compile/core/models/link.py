@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass, field
 from itertools import islice
-from typing import ClassVar, Final
+from typing import ClassVar
 
 from linkforge_compile.core.constants import (
     DEFAULT_CONTACT_KD,
@@ -19,14 +21,12 @@ from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidation
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
 from linkforge_compile.core.models.index import Renamable
 from linkforge_compile.core.models.material import Material
-from linkforge_compile.core.naming import is_valid_name, prefixed
+from linkforge_compile.core.naming import prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
-from linkforge_compile.core.prefixing import Copies, is_harmless, prefixed_copies, written_copies
+from linkforge_compile.core.prefixing import prefixed_copies
 from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
-from linkforge_compile.frozen import dataclass, field
 from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
 from linkforge_compile.source import SourceRef
-from linkforge_compile.unjudged import unjudged
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,44 +184,14 @@ class Link(Renamable):
     extra_elements: Sequence[str] = field(default=(), repr=False, kw_only=True)
     source: SourceRef | None = field(default=None, compare=False, repr=False, kw_only=True)
 
-    def __init__(
-        self,
-        name: str,
-        inertial: Inertial | None = None,
-        physics: LinkPhysics = USUAL_PHYSICS,
-        visuals: Sequence[Visual] = (),
-        collisions: Sequence[Collision] = (),
-        *,
-        shape_order: Sequence[str] = (),
-        extra_attributes: Sequence[tuple[str, str]] = (),
-        extra_elements: Sequence[str] = (),
-        source: SourceRef | None = None,
-    ) -> None:
-        _set_fields(
-            self,
-            name=name,
-            inertial=inertial,
-            physics=physics,
-            visuals=visuals,
-            collisions=collisions,
-            shape_order=shape_order,
-            extra_attributes=extra_attributes,
-            extra_elements=extra_elements,
-            source=source,
-        )
-        self.__post_init__()
-
     def __post_init__(self) -> None:
         require_name(self.name, "link name", "LinkName")
         require_valid_characters(self.name, "link name", "LinkName")
-        _set_fields(
-            self,
-            visuals=tuple(self.visuals),
-            collisions=tuple(self.collisions),
-            shape_order=_kinds(self.shape_order),
-            extra_attributes=attribute_pairs(self.extra_attributes),
-            extra_elements=tuple(self.extra_elements),
-        )
+        self.visuals = tuple(self.visuals)
+        self.collisions = tuple(self.collisions)
+        self.shape_order = _kinds(self.shape_order)
+        self.extra_attributes = attribute_pairs(self.extra_attributes)
+        self.extra_elements = tuple(self.extra_elements)
 
     def add_visual(self, visual: Visual) -> None:
         """Put a visual behind those that are there."""
@@ -257,13 +227,21 @@ class Link(Renamable):
         return self.inertial.origin if self.inertial else IDENTITY
 
     def with_prefix(self, prefix: str) -> Link:
-        """Return a new link with its name and those of its visuals and collisions prefixed."""
+        """Return a new link with its name and those of its visuals and collisions prefixed.
+
+        A link of a derived class is copied, not constructed: its constructor may take anything.
+
+        Raises:
+            RobotValidationError: INVALID_NAME, where the prefix makes a name that no link may have.
+
+        """
         name = prefixed(prefix, self.name)
         require_valid_characters(name, "link name", "LinkName")
-        shared: Copies = {}
-        return self._copy(
-            name, prefixed_copies(self.visuals, prefix, shared), prefixed_copies(self.collisions, prefix, shared)
-        )
+        link = copy(self)
+        link.name = name
+        link.visuals = tuple(prefixed_copies(self.visuals, prefix))
+        link.collisions = tuple(prefixed_copies(self.collisions, prefix))
+        return link
 
     def __getstate__(self) -> object:
         return object.__getstate__(self)  # without it, the oldest protocols of pickle refuse what has slots
@@ -274,60 +252,6 @@ class Link(Renamable):
             object.__setattr__(self, name, value)  # somebody else's class may refuse changes
         if attributes:
             vars(self).update(attributes)
-
-    def _copy(self, name: str, visuals: Iterable[Visual], collisions: Iterable[Collision]) -> Link:
-        if type(self) is Link:
-            return _of_judged_values(
-                name,
-                self.inertial,
-                self.physics,
-                tuple(visuals),
-                tuple(collisions),
-                shape_order=self.shape_order,
-                extra_attributes=self.extra_attributes,
-                extra_elements=self.extra_elements,
-                source=self.source,
-            )
-        from copy import copy
-
-        link = copy(self)
-        _set_fields(link, name=name, visuals=tuple(visuals), collisions=tuple(collisions))
-        return link
-
-
-def _set_fields(link: Link, **values: object) -> None:
-    """Set fields of a link that is being made or copied."""
-    if type(link) is Link:
-        for name, value in values.items():
-            _SLOTS[name](link, value)  # a third of what it takes to set each as if it were a renaming
-        return
-    for name, value in values.items():  # somebody else's class may have a property or slot for one, or look at it
-        setattr(link, name, value)
-
-
-_of_judged_values = unjudged(Link)
-_SLOTS: Final = {name: vars(Link)[name].__set__ for name in Link.__slots__}
-
-
-def prefixed_links(links: Iterable[Link], prefix: str, shared: Copies | None = None) -> list[Link]:
-    """Return links as `with_prefix` of each gives them, asked only where its class is somebody else's.
-
-    What links share stays shared. `shared` has the copies of what others share with them, None for nothing, as
-    `prefixed_copies` takes it.
-    """
-    links = tuple(links)
-    if not is_harmless(prefix):
-        return [link.with_prefix(prefix) for link in links]
-    ours = [link for link in links if type(link) is Link]
-    names = [link.name for link in ours]
-    if not (all(names) and is_valid_name("".join(names))):  # a link that was renamed in place may have any name
-        for name in names:
-            require_valid_characters(prefixed(prefix, name), "link name", "LinkName")
-    copies = written_copies(ours, prefix, {} if shared is None else shared)
-    if len(ours) == len(links):
-        return copies
-    made = iter(copies)
-    return [next(made) if type(link) is Link else link.with_prefix(prefix) for link in links]
 
 
 def _kinds(words: Sequence[str]) -> tuple[str, ...]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 from linkforge_compile.core.constants import DEFAULT_MATERIAL_RGBA
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.frozen import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)

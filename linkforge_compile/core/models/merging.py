@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.models.link import prefixed_links
 from linkforge_compile.core.part import attribute_pairs
-from linkforge_compile.core.prefixing import Copies, prefixed_copies
-from linkforge_compile.frozen import replace
-from linkforge_compile.named_tuple import NamedTuple
+from linkforge_compile.core.prefixing import prefixed_copies
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement
@@ -46,18 +44,15 @@ class PrefixedParts(NamedTuple):
             RobotModelError: INVALID_NAME where the prefix makes a name that no part may have.
 
         """
-        materials = list(robot.materials.values())
-        prefixed_materials = prefixed_copies(materials, prefix)
-        shared: Copies = dict(zip(map(id, materials), prefixed_materials, strict=True))
         return cls(
-            materials={prefix + name: each for name, each in zip(robot.materials, prefixed_materials, strict=True)},
+            materials={prefix + name: each.with_prefix(prefix) for name, each in robot.materials.items()},
             # Links may be changed in place: two robots never share one, and `with_prefix` makes a new one always.
-            links=prefixed_links(robot.links.listed(), prefix, shared),
-            joints=prefixed_copies(robot.joints.listed(), prefix),
-            sensors=prefixed_copies(robot.sensors.listed(), prefix),
-            transmissions=prefixed_copies(robot.transmissions.listed(), prefix),
-            ros2_controls=prefixed_copies(robot.ros2_controls.listed(), prefix),
-            gazebo_elements=prefixed_copies(robot.gazebo_elements.listed(), prefix),
+            links=[link.with_prefix(prefix) for link in robot.links],
+            joints=prefixed_copies(robot.joints, prefix),
+            sensors=prefixed_copies(robot.sensors, prefix),
+            transmissions=prefixed_copies(robot.transmissions, prefix),
+            ros2_controls=prefixed_copies(robot.ros2_controls, prefix),
+            gazebo_elements=prefixed_copies(robot.gazebo_elements, prefix),
             semantic=robot.semantic.with_prefix(prefix) if robot.says_semantic else None,
             extra_elements=robot.extra_elements.listed(),
             extra_attributes=attribute_pairs(robot.extra_attributes),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from numbers import Real
 from typing import Any
 
@@ -11,7 +12,6 @@ from linkforge_compile.core.exceptions import RobotValidationError, ValidationEr
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.part import Element, freeze, set_field
 from linkforge_compile.core.rules import is_finite, not_finite, require_not_blank
-from linkforge_compile.frozen import dataclass
 
 _VIRTUAL_JOINT_TYPES = (SRDF_VJOIN_FIXED, SRDF_VJOIN_PLANAR, SRDF_VJOIN_FLOATING)
 

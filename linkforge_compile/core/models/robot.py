@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
-from linkforge_compile.collector import resting
 from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.geometry import IDENTITY
 from linkforge_compile.core.models.graph import refuse_no_graph, tree_root
@@ -14,7 +14,6 @@ from linkforge_compile.core.models.inventory import require_robot_name
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.semantic_parts import SemanticParts
 from linkforge_compile.core.models.semantic_robot import SemanticRobot
-from linkforge_compile.frozen import replace
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement
@@ -121,7 +120,6 @@ class Robot(SemanticRobot):
             _require(self.joints, reference, f"Gazebo reference '{reference}'", "GazeboReference", "reference")
         self.gazebo_elements = self.gazebo_elements.extended((element,))
 
-    @resting
     def merge(  # noqa: PLR0917 the contract's signature
         self,
         component: Robot,

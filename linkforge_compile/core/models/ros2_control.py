@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from typing import ClassVar, Self
 
@@ -12,7 +13,6 @@ from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import require_name, require_unique_names
-from linkforge_compile.frozen import dataclass, field, replace
 
 __all__ = ["Interface", "Ros2Control", "Ros2ControlGpio", "Ros2ControlJoint", "Ros2ControlSensor"]
 

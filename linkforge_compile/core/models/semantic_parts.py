@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.index import Filing, Index, Repeats, itself
-from linkforge_compile.frozen import replace
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import Chain, PlanningGroup, SemanticRobotDescription

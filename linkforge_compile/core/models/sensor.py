@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 from linkforge_compile.core import constants as default
@@ -14,7 +15,6 @@ from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.naming import prefixed_topic
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import require_finite, require_name, require_positive
-from linkforge_compile.frozen import dataclass, field, replace
 
 
 class SensorType(StrEnum):

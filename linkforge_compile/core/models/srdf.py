@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Any, TypeVar
 
@@ -17,7 +18,6 @@ from linkforge_compile.core.models.planning import (
     VirtualJoint,
 )
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.frozen import dataclass, replace
 
 __all__ = [
     "Chain",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from operator import attrgetter
 from typing import ClassVar, Self
@@ -17,7 +18,6 @@ from linkforge_compile.core.rules import (
     require_unique_names,
     require_valid_characters,
 )
-from linkforge_compile.frozen import dataclass, field, replace
 
 
 class TransmissionType(StrEnum):

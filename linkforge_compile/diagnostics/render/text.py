@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from unicodedata import combining, east_asian_width
 
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
-from linkforge_compile.frozen import replace
 from linkforge_compile.source import Span
 
 _COLOURS = {Severity.ERROR: "\033[1;31m", Severity.WARNING: "\033[1;33m", Severity.NOTE: "\033[1;36m"}

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics.codes.importing import ENDS_KEPT_RAW
 from linkforge_compile.importers.draft import DeclinedError, number_of
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.urdf.gazebo import Blocks
 from linkforge_compile.importers.urdf.geometry import read_origin
-from linkforge_compile.named_tuple import NamedTuple
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.importing import (
@@ -20,7 +21,6 @@ from linkforge_compile.diagnostics.codes.importing import (
 from linkforge_compile.importers.draft import number_of
 from linkforge_compile.importers.urdf.joint import TYPES_OF_JOINTS
 from linkforge_compile.importers.xml import XmlAttribute, XmlElement
-from linkforge_compile.named_tuple import NamedTuple
 
 _UNBOUNDED = re.compile(r"[+-]?(?:inf|infinity|nan)", re.IGNORECASE)
 """No finite numbers: older versions of urdfdom take them, and MuJoCo does; vendors write such limits."""

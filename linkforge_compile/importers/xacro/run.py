@@ -6,12 +6,10 @@ import json
 import subprocess
 import sys
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from threading import Timer
-from typing import IO, Protocol, TypedDict
-
-from linkforge_compile.frozen import dataclass
-from linkforge_compile.named_tuple import NamedTuple
+from typing import IO, NamedTuple, Protocol, TypedDict
 
 MOST_SECONDS = 60
 _MOST_CHARACTERS = 64 * 1024**2
