@@ -25,14 +25,14 @@ MAY_IMPORT = {
     "syntax": "source diagnostics bounds units",
     "expressions": "source diagnostics bounds units syntax",
     "schema": "bytecode source diagnostics syntax units resources expressions",
-    "importers": "banner source diagnostics bounds units syntax shape_order",
-    "modules": "source diagnostics bounds units syntax schema expressions importers manifest roots",
     "core": "manifest source units roots shape_order",
+    "importers": "banner source diagnostics bounds units syntax core shape_order",
+    "modules": "source diagnostics bounds units syntax schema expressions importers manifest roots",
     "lowering": "source diagnostics bounds units syntax modules core roots shape_order",
     "checks": "source diagnostics units core roots",
     "backends": "bytecode source diagnostics bounds units core resources shape_order",
     "writers": "source units syntax core modules shape_order",
-    "compare": "core backends shape_order",
+    "compare": "units core backends shape_order",
     "pipeline": (
         "source diagnostics bounds units syntax schema importers modules lowering checks backends core roots "
     ),

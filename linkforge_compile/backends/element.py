@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 from linkforge_compile.backends.marks import mark, mark_of_attribute, recorded
 from linkforge_compile.backends.markup import NOTHING, Spellable, Xml, escaped, is_xml_name, spelled
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.fields import written_numbers
 from linkforge_compile.core.part import Element, Inside, attribute_pairs
 from linkforge_compile.core.raw_xml import RawXml
 from linkforge_compile.source import SourceRef
@@ -190,6 +191,11 @@ def leaf(tag: str, part: Element, /, **stated: Spellable | None) -> Xml:
     if part.extra_attributes or part.extra_elements or part.extra_inside or recorded():
         return whole(tag, part, NOTHING, **stated)
     return Xml(f"<{tag}{_stated_alone(stated)}/>")  # nine of ten
+
+
+def numbers_leaf(part: Element, /, **stated: Spellable | None) -> Xml:
+    """Return an element whose attributes are `stated` and its numbers."""
+    return leaf(part.TAG, part, **stated, **dict(written_numbers(part)))
 
 
 def whole(tag: str, part: Element, text: Xml, /, **stated: Spellable | None) -> Xml:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.backends.element import inside_of
 from linkforge_compile.backends.markup import is_writable
+from linkforge_compile.core.fields import number_fields
 from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link, LinkPhysics
@@ -179,7 +180,9 @@ def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
     Half of the parts are of a class without such a field.
     """
     if issubclass(kind, Element | Link):
-        own = (field for field in fields(kind) if field.name not in _EVERYWHERE)
+        own = (
+            field for field in fields(kind) if field.name not in _EVERYWHERE and field.name not in number_fields(kind)
+        )
         names = tuple(field.name for field in own if not _holds_numbers(str(field.type), is_compared=field.compare))
     else:
         names = ("parameters",)

@@ -6,18 +6,14 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from linkforge_compile.core.fields import number_fields
 from linkforge_compile.core.models.collision_rules import SrdfSphere
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Sphere
-from linkforge_compile.core.models.joint import (
-    JointCalibration,
-    JointDynamics,
-    JointLimits,
-    JointMimic,
-    JointSafetyController,
-)
 from linkforge_compile.core.models.link import Inertial, LinkPhysics
 from linkforge_compile.core.models.sensor import CameraInfo, LidarInfo, Sensor
 from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
+from linkforge_compile.core.part import Part
+from linkforge_compile.units import Dimension, Motion
 
 
 class Measure(NamedTuple):
@@ -32,26 +28,16 @@ BARE = Measure()
 LENGTH = Measure("m", as_share=False)
 ANGLE = Measure("deg", 180 / math.pi, as_share=False)
 
+_BY_DIMENSION: Mapping[Dimension | None, Measure] = {Dimension.LENGTH: LENGTH, Dimension.ANGLE: ANGLE}
 _POSITION = (ANGLE, LENGTH)
 """Of a joint that turns, and of one that slides."""
 _TRAVEL = (
-    (JointLimits, "lower"),
-    (JointLimits, "upper"),
-    (JointMimic, "offset"),
-    (JointSafetyController, "soft_lower_limit"),
-    (JointSafetyController, "soft_upper_limit"),
-    (JointCalibration, "rising"),
-    (JointCalibration, "falling"),
     (TransmissionJoint, "offset"),
     (TransmissionActuator, "offset"),
 )
 
 _OF_JOINTS: Mapping[tuple[type, str], tuple[Measure, Measure]] = {
     **dict.fromkeys(_TRAVEL, _POSITION),
-    (JointLimits, "effort"): (Measure("N*m"), Measure("N")),
-    (JointLimits, "velocity"): (Measure("rad/s"), Measure("m/s")),
-    (JointDynamics, "damping"): (Measure("N*m*s/rad"), Measure("N*s/m")),
-    (JointDynamics, "friction"): (Measure("N*m"), Measure("N")),
 }
 
 _SHAPES = (
@@ -84,6 +70,9 @@ _MEASURES: Mapping[tuple[type, str], Measure] = {
 
 def measure_of(kind: type, field: str, *, slides: bool) -> Measure:
     """Return what a field measures; `slides` says that it is about a prismatic joint."""
+    if issubclass(kind, Part) and (spec := number_fields(kind).get(field)):
+        motion = Motion.SLIDING if slides else Motion.TURNING
+        return _BY_DIMENSION.get(spec.unit.dimension(motion)) or Measure(spec.unit.text(motion))
     of_joint = _OF_JOINTS.get((kind, field))
     return of_joint[slides] if of_joint else _MEASURES.get((kind, field), BARE)
 

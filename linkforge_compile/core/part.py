@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar, Final, Self
 
+from linkforge_compile.core.fields import check_numbers
 from linkforge_compile.core.frozen_map import FrozenMap, frozen
 from linkforge_compile.core.prefixing import prefixed_copy
 from linkforge_compile.source import Sourced
@@ -77,6 +78,8 @@ class Element(Part):
     inside that are no part of their own. They are compared, but not shown by `repr`.
     """
 
+    TAG: ClassVar[str] = ""
+    """The tag of the element; empty where it depends on what holds the part."""
     KEYS_ARE_TAGS: ClassVar[bool] = False
     """Whether the keys of a mapping in it become elements, and not attributes."""
 
@@ -86,6 +89,7 @@ class Element(Part):
 
     def __post_init__(self) -> None:
         freeze(self)
+        check_numbers(self)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple, TypeAlias
 
+from linkforge_compile.core.fields import number_fields
+from linkforge_compile.core.models.joint import JointDynamics, JointMimic, JointSafetyController
+from linkforge_compile.core.part import Element
 from linkforge_compile.importers.draft import number_of
 from linkforge_compile.importers.xml import XmlElement
 
@@ -24,6 +27,12 @@ _WITH_NUMBERS = tuple(
 )
 """Where numbers are those of the format. What plugins read is text: 007 may be a serial number."""
 
+
+def _implied(kind: type[Element]) -> Mapping[str, Value]:
+    """Return what the numbers of an element are where they are not there."""
+    return {name: (spec.implied,) for name, spec in number_fields(kind).items() if spec.implied is not None}
+
+
 _ZERO: Value = (0.0, 0.0, 0.0)
 _POSE: Mapping[str, Value] = {"xyz": _ZERO, "rpy": _ZERO}
 _MESH: Mapping[str, Value] = {"scale": (1.0, 1.0, 1.0)}
@@ -36,9 +45,7 @@ _UNSAID: Mapping[str, Mapping[str, Value]] = {
     "robot/link/collision/geometry/mesh": _MESH,
     "robot/link/inertial/inertia": {"ixy": (0.0,), "ixz": (0.0,), "iyz": (0.0,)},
     "robot/joint/axis": {"xyz": (1.0, 0.0, 0.0)},
-    "robot/joint/dynamics": {"damping": (0.0,), "friction": (0.0,)},
-    "robot/joint/mimic": {"multiplier": (1.0,), "offset": (0.0,)},
-    "robot/joint/safety_controller": {"k_velocity": (0.0,)},
+    **{f"robot/joint/{kind.TAG}": _implied(kind) for kind in (JointDynamics, JointMimic, JointSafetyController)},
 }
 """What an attribute says where it is not there, by where the element stands."""
 

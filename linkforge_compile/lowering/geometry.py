@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from linkforge_compile.core.fields import NOT_ZERO
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Vector3
 from linkforge_compile.diagnostics.codes.model import NO_GEOMETRY, NO_MESH_FILE, SEVERAL_GEOMETRIES
 from linkforge_compile.lowering.extra import Besides, besides, with_extras
 from linkforge_compile.lowering.fields import Fields
-from linkforge_compile.lowering.quantities import EXTENT, NOT_ZERO, Measure
+from linkforge_compile.lowering.quantities import EXTENT, Measure
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode

@@ -25,62 +25,29 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_AXIS,
     ZERO_AXIS,
 )
-from linkforge_compile.lowering.extra import besides, with_extras
+from linkforge_compile.lowering.elements import E, lower_element, lower_numbers, stated_numbers
+from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import (
-    AMOUNT,
-    ANGLE,
     ANGLE_OR_LENGTH,
     BARE,
-    LENGTH,
-    NOT_NEGATIVE,
     Measure,
     found,
+    measure_of,
 )
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
-from linkforge_compile.units import Dimension
+from linkforge_compile.units import POSITION, Motion
 
-
-class _Motion(NamedTuple):
-    """What a joint's position, effort and velocity are measured in, and what the latter look like where they lack."""
-
-    position: Measure = BARE
-    effort: Measure = AMOUNT
-    velocity: Measure = AMOUNT
-    some_effort: str = "1"
-    some_velocity: str = "1"
-    limits: str = ""
-    """What limits look like, to offer where they are required; empty where they are not."""
-
-
-def _amount(*dimensions: Dimension) -> Measure:
-    return Measure(dimensions, NOT_NEGATIVE)
-
-
-_TURNING = _Motion(ANGLE, _amount(Dimension.TORQUE), _amount(Dimension.ANGULAR_VELOCITY), "50 N*m", "90 deg/s")
-_SLIDING = _Motion(LENGTH, _amount(Dimension.FORCE), _amount(Dimension.VELOCITY), "50 N", "0.2 m/s")
-_MOTIONS = {
-    JointType.REVOLUTE: _TURNING._replace(limits="{lower: -90 deg, upper: 90 deg, effort: 50 N*m, velocity: 90 deg/s}"),
-    JointType.CONTINUOUS: _TURNING,
-    JointType.PRISMATIC: _SLIDING._replace(limits="{lower: 0, upper: 100 mm, effort: 50 N, velocity: 0.2 m/s}"),
-    JointType.FIXED: _Motion(),
-    JointType.FLOATING: _Motion(),
-    JointType.PLANAR: _Motion(),
+_LIMITS_EXAMPLE = {
+    JointType.REVOLUTE: "{lower: -90 deg, upper: 90 deg, effort: 50 N*m, velocity: 90 deg/s}",
+    JointType.PRISMATIC: "{lower: 0, upper: 100 mm, effort: 50 N, velocity: 0.2 m/s}",
 }
-_MOTIONS_BY_NAME = {str(kind): motion for kind, motion in _MOTIONS.items()}
-_ANY_MOTION = _TURNING._replace(
-    position=ANGLE_OR_LENGTH,
-    effort=_amount(Dimension.TORQUE, Dimension.FORCE),
-    velocity=_amount(Dimension.ANGULAR_VELOCITY, Dimension.VELOCITY),
-)
 # What stands in for what is faulty, which has been told: the joint stays, so that its ends and the tree are judged.
 # Nothing of it is ever written: a compile that told an error gives no robot.
 _STAND_IN_TYPE = JointType.REVOLUTE
 _STAND_IN_AXIS = Vector3(0.0, 0.0, 1.0)
 _STAND_IN_LIMITS = JointLimits(-UNKNOWN, UNKNOWN, 1.0, 1.0)
-
-# What their constructors ask of values, the measures and what reads the others have asked.
 
 _AXES = {
     "x": Vector3(1.0, 0.0, 0.0),
@@ -96,8 +63,12 @@ def position_measure(joint: Joint | None) -> Measure:
     """Return what a position of a joint is measured in: an angle, a length, or either where its type is not known."""
     if joint is None or joint.limits == _STAND_IN_LIMITS:
         return ANGLE_OR_LENGTH
-    position = _MOTIONS[joint.type].position
-    return position if position.dimensions else ANGLE_OR_LENGTH
+    return _position_measure(joint.type)
+
+
+def _position_measure(kind: JointType | None) -> Measure:
+    motion = kind.motion if kind else Motion.UNKNOWN
+    return measure_of(POSITION, None, Motion.UNKNOWN if motion is Motion.OTHER else motion)
 
 
 def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
@@ -108,10 +79,10 @@ def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
 
 
 def positions_of_type(joint: Located | None) -> Measure:
-    """Return what a joint that is written somewhere goes by: an angle, a length, or either where nobody knows."""
+    """Return what a position of a joint that is written somewhere is measured in; see `position_measure`."""
     kind = joint.child("type") if joint else None
-    motion = _MOTIONS_BY_NAME.get(kind.text) if isinstance(kind, YamlScalar) else None
-    return motion.position if motion and motion.position.dimensions else ANGLE_OR_LENGTH
+    known = {str(each): each for each in JointType}
+    return _position_measure(known.get(kind.text) if isinstance(kind, YamlScalar) else None)
 
 
 class Ends(NamedTuple):
@@ -132,12 +103,13 @@ def lower_joints(file: Fields) -> Iterator[tuple[str, Joint | None]]:
 def read_joint_of_any_type(fields: Fields, name: str) -> None:
     """Read what a joint may say of its motion, for what there is to tell of it where its type may not be known."""
     joint_type = fields.choice("type", JointType)
-    motion = _MOTIONS[joint_type] if joint_type else _ANY_MOTION
+    motion = joint_type.motion if joint_type else Motion.UNKNOWN
     fields.origin()
     _axis(fields, joint_type)
     _limits(fields, joint_type, motion)
-    for read in (_dynamics, _mimic, _safety_controller, _calibration):
-        read(fields, motion)
+    for part in (JointDynamics, JointSafetyController, JointCalibration):
+        _part(fields, part, motion)
+    _mimic(fields, motion)
 
 
 def _joint(fields: Fields, name: str, links: Sequence[str]) -> Joint | None:
@@ -163,11 +135,11 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
     """
     if joint_type is None:
         return _joint_of_no_type(fields, name, ends)
-    motion = _MOTIONS[joint_type]
+    motion = joint_type.motion
     axis, axis_as_written = _axis(fields, joint_type)
     limits = _limits(fields, joint_type, motion)
-    dynamics, mimic = _dynamics(fields, motion), _mimic(fields, motion)
-    safety, calibration = _safety_controller(fields, motion), _calibration(fields, motion)
+    dynamics, mimic = _part(fields, JointDynamics, motion), _mimic(fields, motion)
+    safety, calibration = _part(fields, JointSafetyController, motion), _part(fields, JointCalibration, motion)
     parent, child, origin = ends
     if name is None or parent is None or child is None:
         return None
@@ -227,36 +199,23 @@ def _axis(fields: Fields, joint_type: JointType | None) -> tuple[Vector3 | None,
     return Vector3(*(component / length for component in written)), written
 
 
-def _limits(fields: Fields, joint_type: JointType | None, motion: _Motion) -> JointLimits | None:
+def _limits(fields: Fields, joint_type: JointType | None, motion: Motion) -> JointLimits | None:
     if joint_type is JointType.FIXED:
         _refuse(fields, "limits", joint_type)
         return None
-    limits = fields.map("limits", required=motion.limits)
+    example = _LIMITS_EXAMPLE.get(joint_type, "") if joint_type else ""
+    limits = fields.map("limits", required=example)
     if limits is None:
-        return _STAND_IN_LIMITS if motion.limits else None
-    lower, upper, effort, velocity = limits.numbers(
-        ("lower", motion.position, ""),
-        ("upper", motion.position, ""),
-        ("effort", motion.effort, motion.some_effort),
-        ("velocity", motion.velocity, motion.some_velocity),
-    )
-    are_crossed = lower is not None and upper is not None and lower > upper
-    if are_crossed:
+        return _STAND_IN_LIMITS if example else None
+    values = lower_numbers(JointLimits, limits, motion)
+    lower, upper = values["lower"], values["upper"]
+    if lower is not None and upper is not None and lower > upper:
         _tell_crossed(limits)
-    # A continuous joint has none, and is told of those that it has.
-    has_range = joint_type is not JointType.CONTINUOUS
-    if are_crossed or (lower is None and _is_lost(limits, "lower")):
-        lower = _STAND_IN_LIMITS.lower if has_range else None
-    if are_crossed or (upper is None and _is_lost(limits, "upper")):
-        upper = _STAND_IN_LIMITS.upper if has_range else None
-    effort = _STAND_IN_LIMITS.effort if effort is None else effort
-    velocity = _STAND_IN_LIMITS.velocity if velocity is None else velocity
-    return with_extras(JointLimits(lower, upper, effort, velocity, source=limits.ref), limits)
-
-
-def _is_lost(fields: Fields, key: str) -> bool:
-    """Whether a field that gave nothing was said: faulty, or under another key that is none."""
-    return fields.said(key) is not None or fields.is_faulty
+        values |= {"lower": -UNKNOWN, "upper": UNKNOWN}
+    if joint_type is JointType.CONTINUOUS:
+        # It has no range, and one that is stated is reported; what stands in for a faulty one is not.
+        values |= {name: None for name in ("lower", "upper") if values[name] in (-UNKNOWN, UNKNOWN)}
+    return limits.build(lambda: JointLimits(**values, **besides(limits)))
 
 
 def _tell_crossed(limits: Fields) -> None:
@@ -265,50 +224,21 @@ def _tell_crossed(limits: Fields) -> None:
         limits.tell(LIMITS_CROSSED, lower, lower=found(lower), upper=found(upper))
 
 
-def _dynamics(fields: Fields, motion: _Motion) -> JointDynamics | None:
-    dynamics = fields.map("dynamics")
-    if dynamics is None:
-        return None
-    damping, friction = dynamics.numbers(("damping", AMOUNT, ""), ("friction", motion.effort, ""))
-    return with_extras(JointDynamics(damping or 0.0, friction or 0.0, source=dynamics.ref), dynamics)
+def _part(fields: Fields, kind: type[E], motion: Motion) -> E | None:
+    part = fields.map(kind.TAG)
+    return lower_element(kind, part, motion) if part else None
 
 
-def _mimic(fields: Fields, motion: _Motion) -> JointMimic | None:
+def _mimic(fields: Fields, motion: Motion) -> JointMimic | None:
     mimic = fields.map("mimic")
     if mimic is None:
         return None
     joint = mimic.text("joint", required="left_finger")
-    multiplier, offset = mimic.number("multiplier"), mimic.number("offset", motion.position)
+    numbers = lower_numbers(JointMimic, mimic, motion)
     if joint is None:
         return None
-    if multiplier is None:
-        multiplier = UNKNOWN if _is_lost(mimic, "multiplier") else 1.0
-    if offset is None:
-        offset = UNKNOWN if _is_lost(mimic, "offset") else 0.0
-    stated = [name for name in ("multiplier", "offset") if mimic.node.get(name) is not None]
-    return mimic.build(lambda: JointMimic(joint, multiplier, offset, stated=stated, **besides(mimic)))
-
-
-def _safety_controller(fields: Fields, motion: _Motion) -> JointSafetyController | None:
-    safety = fields.map("safety_controller")
-    if safety is None:
-        return None
-    lower = safety.number("soft_lower_limit", motion.position)
-    upper = safety.number("soft_upper_limit", motion.position)
-    if lower is None and _is_lost(safety, "soft_lower_limit"):
-        lower = -UNKNOWN
-    if upper is None and _is_lost(safety, "soft_upper_limit"):
-        upper = UNKNOWN
-    k_position, k_velocity = safety.number("k_position"), safety.number("k_velocity") or 0.0
-    return safety.build(lambda: JointSafetyController(lower, upper, k_position, k_velocity, **besides(safety)))
-
-
-def _calibration(fields: Fields, motion: _Motion) -> JointCalibration | None:
-    calibration = fields.map("calibration")
-    if calibration is None:
-        return None
-    rising, falling = calibration.number("rising", motion.position), calibration.number("falling", motion.position)
-    return calibration.build(lambda: JointCalibration(rising, falling, **besides(calibration)))
+    stated = stated_numbers(JointMimic, mimic)
+    return mimic.build(lambda: JointMimic(joint, **numbers, stated=stated, **besides(mimic)))
 
 
 def _refuse(fields: Fields, key: str, joint_type: JointType) -> None:

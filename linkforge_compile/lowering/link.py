@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from linkforge_compile.core.constants import DEFAULT_LINK_MASS
+from linkforge_compile.core.fields import ABOVE_ZERO, NOT_NEGATIVE
 from linkforge_compile.core.models.geometry import Geometry, Mesh, Transform
 from linkforge_compile.core.models.link import (
     PHYSICS_TAGS,
@@ -30,7 +31,7 @@ from linkforge_compile.lowering.extra import besides, outer_extras_of, with_extr
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.geometry import lower_geometry
 from linkforge_compile.lowering.material import lower_visual_material
-from linkforge_compile.lowering.quantities import ABOVE_ZERO, NOT_NEGATIVE, Measure, found
+from linkforge_compile.lowering.quantities import Measure, found
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar

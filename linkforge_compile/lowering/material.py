@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 
+from linkforge_compile.core.fields import ZERO_TO_ONE
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL, OUT_OF_RANGE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.lowering.extra import Besides, besides
 from linkforge_compile.lowering.fields import Fields
-from linkforge_compile.lowering.quantities import SHARE, ZERO_TO_ONE
+from linkforge_compile.lowering.quantities import SHARE
 from linkforge_compile.lowering.scope import FileScope
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar

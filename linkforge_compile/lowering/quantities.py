@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 
-from linkforge_compile.core.constants import EPSILON
+from linkforge_compile.core.fields import ABOVE_ZERO, NOT_NEGATIVE, ZERO_TO_ONE, Bound
 from linkforge_compile.diagnostics import Code
 from linkforge_compile.diagnostics.codes.model import (
     LONG_LENGTH,
@@ -24,6 +24,8 @@ from linkforge_compile.syntax.scalars import scalar_value
 from linkforge_compile.units import (
     WIDEST_ANGLE,
     Dimension,
+    FieldUnit,
+    Motion,
     Quantity,
     number_text,
     parse_quantity,
@@ -49,27 +51,8 @@ _WORDS = {
 
 _MOST_TURNED, _UNBOUNDED = 8 * math.pi, 1e4
 """A URDF has no unit to say that an angle is meant so [rad]: vendors write limits of 10, and of 1e16 for none."""
-_LARGEST, _SMALLEST = sys.float_info.max, math.ulp(0.0)
+_LARGEST = sys.float_info.max
 
-
-@dataclass(frozen=True, slots=True)
-class Bound:
-    """A range that a number must keep to, and its words in "must be …"; all from `least` to `most` keep to it."""
-
-    words: str
-    holds: Callable[[float], bool]
-    least: float = -_LARGEST
-    most: float = _LARGEST
-
-
-ABOVE_ZERO = Bound("above 0", lambda value: value > 0, least=_SMALLEST)
-NOT_NEGATIVE = Bound("0 or above", lambda value: value >= 0, least=0.0)
-NOT_ZERO = Bound("other than 0", lambda value: value != 0, least=_SMALLEST)
-BEYOND_EPSILON = Bound("further than 1e-9 from 0", lambda value: abs(value) >= EPSILON, least=EPSILON)
-UP_TO_HALF_A_TURN = Bound(
-    "above 0 and at most pi", lambda value: 0 < value <= math.pi * (1 + 1e-9), least=_SMALLEST, most=math.pi
-)
-ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1, least=0.0, most=1.0)
 
 _ANGLE, _LENGTH = (Dimension.ANGLE,), (Dimension.LENGTH,)
 _DOUBTED_BEYOND: dict[tuple[Dimension, ...], float] = {_ANGLE: WIDEST_ANGLE, _LENGTH: 100.0}
@@ -105,6 +88,12 @@ class Measure:
     def si_unit(self) -> str:
         """The unit of a bare number in brackets behind a space; nothing where it has none, or one of several."""
         return f" [{self.dimensions[0].si_unit}]" if len(self.dimensions) == 1 else ""
+
+
+@cache
+def measure_of(unit: FieldUnit, bound: Bound | None, motion: Motion) -> Measure:
+    """Return what a number field of a model class takes, on a joint that moves in a way."""
+    return Measure(unit.dimensions(motion), bound)
 
 
 BARE = Measure()

@@ -7,6 +7,7 @@ from enum import StrEnum
 from typing import NamedTuple, TypeVar
 
 from linkforge_compile.core import constants as default
+from linkforge_compile.core.fields import ABOVE_ZERO, UP_TO_HALF_A_TURN
 from linkforge_compile.core.models.sensor import (
     REQUIRED_INFO,
     CameraInfo,
@@ -22,16 +23,7 @@ from linkforge_compile.core.models.sensor import (
 from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields, or_default
 from linkforge_compile.lowering.gazebo import lower_plugin
-from linkforge_compile.lowering.quantities import (
-    ABOVE_ZERO,
-    ANGLE,
-    BARE,
-    COUNT,
-    EXTENT,
-    LENGTH,
-    UP_TO_HALF_A_TURN,
-    Measure,
-)
+from linkforge_compile.lowering.quantities import ANGLE, BARE, COUNT, EXTENT, LENGTH, Measure
 from linkforge_compile.units import Dimension
 
 T = TypeVar("T")

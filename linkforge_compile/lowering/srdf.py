@@ -7,6 +7,7 @@ from enum import StrEnum
 from functools import partial
 from typing import NamedTuple
 
+from linkforge_compile.core.fields import NOT_NEGATIVE
 from linkforge_compile.core.models.srdf import (
     Chain,
     CollisionPair,
@@ -24,7 +25,7 @@ from linkforge_compile.lowering.duplicates import tell_duplicate
 from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import is_unsaid
-from linkforge_compile.lowering.quantities import LENGTH, NOT_NEGATIVE, Measure
+from linkforge_compile.lowering.quantities import LENGTH, Measure
 from linkforge_compile.lowering.srdf_states import WrittenState, written_states
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode

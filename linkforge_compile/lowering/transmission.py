@@ -7,12 +7,13 @@ from functools import partial
 from typing import TypeVar
 
 from linkforge_compile.core.constants import HW_IF_POSITION
+from linkforge_compile.core.fields import BEYOND_EPSILON
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.free_part import free_elements
 from linkforge_compile.lowering.joint import joints_of, positions_of_type
-from linkforge_compile.lowering.quantities import BEYOND_EPSILON, Measure
+from linkforge_compile.lowering.quantities import Measure
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlList, YamlNode
 

@@ -1,13 +1,46 @@
 """Quantities: numbers that know their dimension, the units people write them in, and numbers as text."""
 
+from linkforge_compile.units.field_unit import (
+    ANGLE,
+    BARE,
+    CONTACT_DAMPING,
+    DAMPING,
+    EFFORT,
+    FREQUENCY,
+    INERTIA,
+    LENGTH,
+    MASS,
+    PIXELS,
+    POSITION,
+    SPEED,
+    STIFFNESS,
+    FieldUnit,
+    Motion,
+    unit_of,
+)
 from linkforge_compile.units.numbers import double_text, is_in_full, number_text
 from linkforge_compile.units.quantity import WIDEST_ANGLE, Dimension, Quantity
 from linkforge_compile.units.table import UNITS, Unit, parse_quantity, spellings_of, unit_meant, unit_text, units_of
 
 __all__ = [
+    "ANGLE",
+    "BARE",
+    "CONTACT_DAMPING",
+    "DAMPING",
+    "EFFORT",
+    "FREQUENCY",
+    "INERTIA",
+    "LENGTH",
+    "MASS",
+    "PIXELS",
+    "POSITION",
+    "SPEED",
+    "STIFFNESS",
     "UNITS",
     "WIDEST_ANGLE",
     "Dimension",
+    "FieldUnit",
+    "Motion",
     "Quantity",
     "Unit",
     "double_text",
@@ -16,6 +49,7 @@ __all__ = [
     "parse_quantity",
     "spellings_of",
     "unit_meant",
+    "unit_of",
     "unit_text",
     "units_of",
 ]

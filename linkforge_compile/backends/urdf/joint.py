@@ -5,17 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from linkforge_compile.backends.element import attributes, elements, leaf, leaf_at
+from linkforge_compile.backends.element import attributes, elements, leaf_at, numbers_leaf
 from linkforge_compile.backends.markup import NOTHING, Xml, placed
 from linkforge_compile.backends.urdf.link import origin
-from linkforge_compile.core.models.joint import (
-    Joint,
-    JointCalibration,
-    JointDynamics,
-    JointLimits,
-    JointMimic,
-    JointSafetyController,
-)
+from linkforge_compile.core.models.joint import Joint, JointMimic
+from linkforge_compile.core.part import Element
 
 
 class JointView(NamedTuple):
@@ -42,11 +36,11 @@ def joint_views(joints: Iterable[Joint], version: str | None) -> tuple[JointView
             placed(joint.parent, joint.source, "parent"),
             placed(joint.child, joint.source, "child"),
             _axis(joint),
-            _limit(joint.limits),
-            _dynamics(joint.dynamics),
+            _part(joint.limits),
+            _part(joint.dynamics),
             _mimic(joint.mimic),
-            _safety_controller(joint.safety_controller),
-            _calibration(joint.calibration),
+            _part(joint.safety_controller),
+            _part(joint.calibration),
             elements(joint),
         )
         for joint in joints
@@ -58,45 +52,10 @@ def _axis(joint: Joint) -> Xml:
     return leaf_at("axis", joint.source, "axis", xyz=axis) if axis else NOTHING
 
 
-def _limit(limits: JointLimits | None) -> Xml:
-    if limits is None:
-        return NOTHING
-    return leaf("limit", limits, lower=limits.lower, upper=limits.upper, effort=limits.effort, velocity=limits.velocity)
-
-
-def _dynamics(dynamics: JointDynamics | None) -> Xml:
-    # Both, always: urdfdom refuses a <dynamics> that states neither.
-    if dynamics is None:
-        return NOTHING
-    return leaf("dynamics", dynamics, damping=dynamics.damping, friction=dynamics.friction)
+def _part(part: Element | None) -> Xml:
+    """Return an element whose fields are attributes; urdfdom refuses a `<dynamics>` that states neither of its two."""
+    return numbers_leaf(part) if part else NOTHING
 
 
 def _mimic(mimic: JointMimic | None) -> Xml:
-    if mimic is None:
-        return NOTHING
-    return leaf(
-        "mimic",
-        mimic,
-        joint=mimic.joint,
-        multiplier=mimic.multiplier if mimic.is_written("multiplier") else None,
-        offset=mimic.offset if mimic.is_written("offset") else None,
-    )
-
-
-def _safety_controller(safety: JointSafetyController | None) -> Xml:
-    if safety is None:
-        return NOTHING
-    return leaf(
-        "safety_controller",
-        safety,
-        soft_lower_limit=safety.soft_lower_limit,
-        soft_upper_limit=safety.soft_upper_limit,
-        k_position=safety.k_position,
-        k_velocity=safety.k_velocity,
-    )
-
-
-def _calibration(calibration: JointCalibration | None) -> Xml:
-    if calibration is None:
-        return NOTHING
-    return leaf("calibration", calibration, rising=calibration.rising, falling=calibration.falling)
+    return numbers_leaf(mimic, joint=mimic.joint) if mimic else NOTHING

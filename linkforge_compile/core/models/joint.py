@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Annotated, ClassVar
 
 from linkforge_compile.core.constants import (
     DEFAULT_JOINT_DAMPING,
@@ -13,16 +14,14 @@ from linkforge_compile.core.constants import (
     DEFAULT_JOINT_FRICTION,
     DEFAULT_JOINT_VELOCITY,
     EPSILON,
+    UNKNOWN,
 )
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import NOT_NEGATIVE, Number, check_numbers
 from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import (
-    require_finite,
-    require_name,
-    require_not_negative,
-    require_valid_characters,
-)
+from linkforge_compile.core.rules import require_name, require_valid_characters
+from linkforge_compile.units import DAMPING, EFFORT, POSITION, SPEED, Motion
 
 
 class JointType(StrEnum):
@@ -35,7 +34,17 @@ class JointType(StrEnum):
     FLOATING = "floating"
     PLANAR = "planar"
 
+    @property
+    def motion(self) -> Motion:
+        """How the joint moves, as far as the units of its numbers go."""
+        return _MOTIONS.get(self, Motion.OTHER)
 
+
+_MOTIONS = {
+    JointType.REVOLUTE: Motion.TURNING,
+    JointType.CONTINUOUS: Motion.TURNING,
+    JointType.PRISMATIC: Motion.SLIDING,
+}
 _DEGREES_OF_FREEDOM = {
     JointType.FIXED: 0,
     JointType.REVOLUTE: 1,
@@ -46,7 +55,7 @@ _DEGREES_OF_FREEDOM = {
 }
 _MOVE_ALONG_AN_AXIS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC, JointType.PLANAR)
 HAVE_NO_AXIS = (JointType.FIXED, JointType.FLOATING)
-_NEED_LIMITS = (JointType.REVOLUTE, JointType.PRISMATIC)
+NEED_LIMITS = (JointType.REVOLUTE, JointType.PRISMATIC)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,10 +71,30 @@ class JointLimits(Element):
 
     """
 
-    lower: float | None = None
-    upper: float | None = None
-    effort: float = DEFAULT_JOINT_EFFORT
-    velocity: float = DEFAULT_JOINT_VELOCITY
+    TAG: ClassVar[str] = "limit"
+
+    lower: Annotated[float | None, Number(POSITION, stand_in=-UNKNOWN)] = None
+    upper: Annotated[float | None, Number(POSITION, stand_in=UNKNOWN)] = None
+    effort: Annotated[
+        float,
+        Number(
+            EFFORT,
+            NOT_NEGATIVE,
+            example={Motion.TURNING: "50 N*m", Motion.SLIDING: "50 N", Motion.OTHER: "1"},
+            stand_in=1.0,
+            is_required_in_urdf=True,
+        ),
+    ] = DEFAULT_JOINT_EFFORT
+    velocity: Annotated[
+        float,
+        Number(
+            SPEED,
+            NOT_NEGATIVE,
+            example={Motion.TURNING: "90 deg/s", Motion.SLIDING: "0.2 m/s", Motion.OTHER: "1"},
+            stand_in=1.0,
+            is_required_in_urdf=True,
+        ),
+    ] = DEFAULT_JOINT_VELOCITY
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -77,9 +106,7 @@ class JointLimits(Element):
                 value=(self.lower, self.upper),
                 field=("lower",),
             )
-        require_not_negative(self.effort, "effort limit", "JointEffort", "effort")
-        require_not_negative(self.velocity, "velocity limit", "JointVelocity", "velocity")
-        require_finite(self, "lower", "upper", "effort", "velocity")
+        check_numbers(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,14 +121,10 @@ class JointDynamics(Element):
 
     """
 
-    damping: float = DEFAULT_JOINT_DAMPING
-    friction: float = DEFAULT_JOINT_FRICTION
+    TAG: ClassVar[str] = "dynamics"
 
-    def __post_init__(self) -> None:
-        freeze(self)
-        require_not_negative(self.damping, "damping", "JointDamping", "damping")
-        require_not_negative(self.friction, "friction", "JointFriction", "friction")
-        require_finite(self, "damping", "friction")
+    damping: Annotated[float, Number(DAMPING, NOT_NEGATIVE, implied=0)] = DEFAULT_JOINT_DAMPING
+    friction: Annotated[float, Number(EFFORT, NOT_NEGATIVE, implied=0)] = DEFAULT_JOINT_FRICTION
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,18 +141,16 @@ class JointMimic(Element):
 
     PREFIXED = ("joint",)
 
+    TAG: ClassVar[str] = "mimic"
+
     joint: str
-    multiplier: float = 1.0
-    offset: float = 0.0
+    multiplier: Annotated[float, Number(implied=1, stand_in=UNKNOWN)] = 1.0
+    offset: Annotated[float, Number(POSITION, implied=0, stand_in=UNKNOWN)] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         freeze(self, "stated")
-        require_finite(self, "multiplier", "offset")
-
-    def is_written(self, name: str) -> bool:
-        """Whether `multiplier` or `offset` becomes an attribute: it is not 1 or 0, or is stated all the same."""
-        return name in self.stated or getattr(self, name) != {"multiplier": 1, "offset": 0}[name]
+        check_numbers(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,14 +165,12 @@ class JointSafetyController(Element):
 
     """
 
-    soft_lower_limit: float | None = None
-    soft_upper_limit: float | None = None
-    k_position: float | None = None
-    k_velocity: float = 0.0
+    TAG: ClassVar[str] = "safety_controller"
 
-    def __post_init__(self) -> None:
-        freeze(self)
-        require_finite(self, "soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
+    soft_lower_limit: Annotated[float | None, Number(POSITION, stand_in=-UNKNOWN)] = None
+    soft_upper_limit: Annotated[float | None, Number(POSITION, stand_in=UNKNOWN)] = None
+    k_position: Annotated[float | None, Number()] = None
+    k_velocity: Annotated[float, Number(implied=0, is_required_in_urdf=True)] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,12 +182,10 @@ class JointCalibration(Element):
 
     """
 
-    rising: float | None = None
-    falling: float | None = None
+    TAG: ClassVar[str] = "calibration"
 
-    def __post_init__(self) -> None:
-        freeze(self)
-        require_finite(self, "rising", "falling")
+    rising: Annotated[float | None, Number(POSITION)] = None
+    falling: Annotated[float | None, Number(POSITION)] = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,7 +240,7 @@ class Joint(Element):
             raise self._invalid(f"axis required for joint type '{kind}'", "JointAxis", kind, "axis")
         if self.type in HAVE_NO_AXIS and self.axis is not None:
             raise self._invalid(f"axis not allowed for joint type '{kind}'", "JointAxis", kind, "axis")
-        if self.type in _NEED_LIMITS and self.limits is None:
+        if self.type in NEED_LIMITS and self.limits is None:
             raise self._invalid(f"limits required for joint type '{kind}'", "JointLimits", kind, "limits")
         if self.type == JointType.FIXED and self.limits is not None:
             raise self._invalid(f"limits not allowed for joint type '{kind}'", "JointLimits", kind, "limits")

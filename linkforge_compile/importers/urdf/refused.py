@@ -11,6 +11,17 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
+from linkforge_compile.core.fields import number_fields
+from linkforge_compile.core.models.joint import (
+    HAVE_NO_AXIS,
+    NEED_LIMITS,
+    JointCalibration,
+    JointDynamics,
+    JointLimits,
+    JointMimic,
+    JointSafetyController,
+)
+from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.importing import (
     LACKS_PART,
@@ -40,6 +51,13 @@ class _Part(NamedTuple):
     needed: tuple[str, ...] = ()
 
 
+def _part_of(kind: type[Element], *needed: str) -> _Part:
+    """Return what readers take of an element whose fields are numbers, and `needed` besides."""
+    specs = number_fields(kind)
+    required = [name for name, spec in specs.items() if spec.is_required_in_urdf]
+    return _Part(dict.fromkeys(specs, 1), (*needed, *required))
+
+
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _ORIGIN = _Part({"xyz": 3, "rpy": 3})
 _INERTIAL = {
@@ -59,16 +77,12 @@ _JOINT = {
     "child": _Part(needed=("link",)),
     "origin": _ORIGIN,
     "axis": _Part({"xyz": 3}),
-    "limit": _Part(dict.fromkeys(("lower", "upper", "effort", "velocity"), 1), ("effort", "velocity")),
-    "safety_controller": _Part(
-        dict.fromkeys(("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"), 1), ("k_velocity",)
-    ),
-    "calibration": _Part({"rising": 1, "falling": 1}),
-    "mimic": _Part({"multiplier": 1, "offset": 1}, ("joint",)),
-    "dynamics": _Part({"damping": 1, "friction": 1}),
+    "limit": _part_of(JointLimits),
+    "safety_controller": _part_of(JointSafetyController),
+    "calibration": _part_of(JointCalibration),
+    "mimic": _part_of(JointMimic, "joint"),
+    "dynamics": _part_of(JointDynamics),
 }
-_HAVE_NO_AXIS = ("fixed", "floating")
-_MUST_HAVE_LIMITS = ("revolute", "prismatic")
 
 
 def refused_by_readers(robot: XmlElement) -> Iterator[Refused]:
@@ -134,9 +148,9 @@ def _in_joint(joint: XmlElement) -> Iterator[Refused]:
         if _first(joint, tag) is None:
             yield _lacks(joint, f"<{tag} link='...'>")
     parts = dict(_JOINT)
-    if kind in _HAVE_NO_AXIS:
+    if kind in HAVE_NO_AXIS:
         del parts["axis"]
-    if kind in _MUST_HAVE_LIMITS:
+    if kind in NEED_LIMITS:
         # What the limits of such a joint lack is told of the robot.
         parts["limit"] = _JOINT["limit"]._replace(needed=())
     yield from _in_parts(joint, parts)

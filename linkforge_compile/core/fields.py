@@ -1,0 +1,109 @@
+"""What a field of a model class says about itself, for the walkers that read, write and compare its values.
+
+A field is annotated with a spec: `effort: Annotated[float, Number(EFFORT, NOT_NEGATIVE)]`. Type checkers, constructors
+and `typing.get_type_hints` see the plain type; a walker asks `number_fields` for the specs.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from types import MappingProxyType
+from typing import NamedTuple, get_type_hints
+
+from linkforge_compile.core.constants import EPSILON
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.rules import require_finite
+from linkforge_compile.units import BARE, FieldUnit, Motion
+
+_LARGEST, _SMALLEST = sys.float_info.max, math.ulp(0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """A range that a number must keep to, and its words in "must be …"; all from `least` to `most` keep to it."""
+
+    words: str
+    holds: Callable[[float], bool]
+    least: float = -_LARGEST
+    most: float = _LARGEST
+
+
+ABOVE_ZERO = Bound("above 0", lambda value: value > 0, least=_SMALLEST)
+NOT_NEGATIVE = Bound("0 or above", lambda value: value >= 0, least=0.0)
+NOT_ZERO = Bound("other than 0", lambda value: value != 0, least=_SMALLEST)
+BEYOND_EPSILON = Bound("further than 1e-9 from 0", lambda value: abs(value) >= EPSILON, least=EPSILON)
+UP_TO_HALF_A_TURN = Bound(
+    "above 0 and at most pi", lambda value: 0 < value <= math.pi * (1 + 1e-9), least=_SMALLEST, most=math.pi
+)
+ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1, least=0.0, most=1.0)
+
+
+class Number(NamedTuple):
+    """A number: its unit and range, and what its absence means.
+
+    `implied` is the value that a spec or a URDF without the number has, None for no value. `example` is what to write
+    where the language requires the number, by motion; empty where it does not. `stand_in` takes the place of a faulty
+    one, so that its element stays for the checks; None for the implied value.
+    """
+
+    unit: FieldUnit = BARE
+    bound: Bound | None = None
+    implied: float | None = None
+    example: Mapping[Motion, str] = MappingProxyType({})
+    stand_in: float | None = None
+    is_required_in_urdf: bool = False
+
+
+def number_fields(kind: type) -> Mapping[str, Number]:
+    """Return the specs of the numbers of a model class, in the order of its fields."""
+    return _number_fields(kind)
+
+
+@cache
+def _number_fields(kind: type) -> Mapping[str, Number]:
+    hints = get_type_hints(kind, include_extras=True)
+    return {
+        name: spec
+        for name, hint in hints.items()
+        for spec in getattr(hint, "__metadata__", ())
+        if isinstance(spec, Number)
+    }
+
+
+def written_numbers(part: object) -> Iterator[tuple[str, float]]:
+    """Yield the numbers of a part that become attributes, by name.
+
+    A class with a field `stated` leaves out an implied value, unless `stated` names it: the author wrote it.
+    """
+    stated: tuple[str, ...] | None = getattr(part, "stated", None)
+    for name, spec in number_fields(type(part)).items():
+        value: float | None = getattr(part, name)
+        if value is not None and (stated is None or value != spec.implied or name in stated):
+            yield name, value
+
+
+def check_numbers(part: object) -> None:
+    """Refuse a number of a part outside of its bound, NaN and infinity; None passes.
+
+    Raises:
+        RobotValidationError: OUT_OF_RANGE.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
+    kind = type(part)
+    specs = number_fields(kind)
+    for name, spec in specs.items():
+        value: float | None = getattr(part, name)
+        if value is not None and spec.bound and not (spec.bound.holds(value) or math.isnan(value)):
+            raise RobotValidationError(
+                ValidationErrorCode.OUT_OF_RANGE,
+                f"{name} must be {spec.bound.words}, found {value}",
+                target=f"{kind.__name__}.{name}",
+                value=value,
+                field=(name,),
+            )
+    require_finite(part, *specs)

@@ -1,0 +1,107 @@
+"""What the fields of model classes say about themselves, and what walkers make of it."""
+
+import json
+from typing import Annotated
+
+import pytest
+
+from linkforge_compile import compile_text, render_urdf
+from linkforge_compile.core import (
+    JointCalibration,
+    JointDynamics,
+    JointLimits,
+    JointMimic,
+    JointSafetyController,
+    RobotModelError,
+)
+from linkforge_compile.core.fields import NOT_NEGATIVE, Number, check_numbers, number_fields, written_numbers
+from linkforge_compile.resources import schemas_folder
+from linkforge_compile.units import DAMPING, EFFORT, POSITION, SPEED, Dimension, Motion
+
+SCHEMA = json.loads((schemas_folder() / "joint.schema.json").read_text("utf-8"))["definitions"]
+TURN_RATE = Dimension.ANGULAR_VELOCITY
+ALWAYS = {"extra", "extra_attributes", "extra_inside"}
+CLASSES = {
+    "limits": (JointLimits, set()),
+    "dynamics": (JointDynamics, set()),
+    "mimic": (JointMimic, {"joint"}),
+    "safety_controller": (JointSafetyController, set()),
+    "calibration": (JointCalibration, set()),
+}
+"""The class of each definition, and the keys that are no numbers."""
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_a_class_and_its_schema_have_the_same_fields(name: str):
+    kind, others = CLASSES[name]
+    assert SCHEMA[name]["properties"].keys() - ALWAYS == number_fields(kind).keys() | others
+
+
+@pytest.mark.parametrize(
+    ("unit", "turning", "sliding", "other", "unknown"),
+    [
+        (POSITION, (Dimension.ANGLE,), (Dimension.LENGTH,), (), (Dimension.ANGLE, Dimension.LENGTH)),
+        (EFFORT, (Dimension.TORQUE,), (Dimension.FORCE,), (), (Dimension.TORQUE, Dimension.FORCE)),
+        (
+            SPEED,
+            (Dimension.ANGULAR_VELOCITY,),
+            (Dimension.VELOCITY,),
+            (),
+            (Dimension.ANGULAR_VELOCITY, Dimension.VELOCITY),
+        ),
+        (DAMPING, (), (), (), ()),
+    ],
+)
+def test_a_unit_depends_on_how_the_joint_moves(unit, turning, sliding, other, unknown):
+    motions = (Motion.TURNING, Motion.SLIDING, Motion.OTHER, Motion.UNKNOWN)
+    assert tuple(map(unit.dimensions, motions)) == (turning, sliding, other, unknown)
+
+
+def test_a_unit_has_a_name_for_people():
+    assert [EFFORT.text(Motion.TURNING), EFFORT.text(Motion.SLIDING)] == ["N*m", "N"]
+    assert [DAMPING.text(Motion.TURNING), DAMPING.text(Motion.SLIDING)] == ["N*m*s/rad", "N*s/m"]
+
+
+def test_an_implied_number_is_written_where_the_author_wrote_it():
+    assert dict(written_numbers(JointMimic("a"))) == {}
+    assert dict(written_numbers(JointMimic("a", 2, stated=("offset",)))) == {"multiplier": 2, "offset": 0}
+    assert dict(written_numbers(JointDynamics())) == {"damping": 0, "friction": 0}
+
+
+class Spring:
+    """A class of somebody else with a number of its own."""
+
+    stiffness: Annotated[float | None, Number(bound=NOT_NEGATIVE)]
+
+    def __init__(self, stiffness: float | None) -> None:
+        self.stiffness = stiffness
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        (-1.0, "stiffness must be 0 or above, found -1.0"),
+        (float("nan"), "stiffness must be a finite number, found nan"),
+        (float("inf"), "stiffness must be a finite number, found inf"),
+    ],
+)
+def test_a_number_outside_of_its_bound_is_refused(value: float, message: str):
+    check_numbers(Spring(None))
+    check_numbers(Spring(0.0))
+    with pytest.raises(RobotModelError, match=message):
+        check_numbers(Spring(value))
+
+
+def test_the_numbers_of_a_joint_are_lowered_in_the_units_of_its_motion():
+    spec = """
+linkforge: 1
+name: slide
+links: {base: , cart: }
+joints:
+  rail:
+    {type: prismatic, parent: base, child: cart, axis: x,
+     limits: {lower: 0, upper: 40 mm, effort: 2 kN, velocity: 20 cm/s}, dynamics: {friction: 3 N}}
+"""
+    urdf = render_urdf(compile_text(spec).result())
+    assert '<limit lower="0" upper="0.04" effort="2000" velocity="0.2"/>' in urdf
+    assert '<dynamics damping="0" friction="3"/>' in urdf
