@@ -8,9 +8,7 @@ from typing import NamedTuple
 
 from linkforge_compile.core.fields import number_fields
 from linkforge_compile.core.models.collision_rules import SrdfSphere
-from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Sphere
-from linkforge_compile.core.models.link import Inertial, LinkPhysics
-from linkforge_compile.core.models.sensor import CameraInfo, LidarInfo, Sensor
+from linkforge_compile.core.models.geometry import Box
 from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
 from linkforge_compile.core.part import Part
 from linkforge_compile.units import Dimension, Motion
@@ -40,32 +38,8 @@ _OF_JOINTS: Mapping[tuple[type, str], tuple[Measure, Measure]] = {
     **dict.fromkeys(_TRAVEL, _POSITION),
 }
 
-_SHAPES = (
-    (Box, "size"),
-    (Cylinder, "radius"),
-    (Cylinder, "length"),
-    (Sphere, "radius"),
-    (Capsule, "radius"),
-    (Capsule, "length"),
-    *((SrdfSphere, name) for name in ("center_x", "center_y", "center_z", "radius")),
-    *((CameraInfo, name) for name in ("near_clip", "far_clip")),
-    *((LidarInfo, name) for name in ("range_min", "range_max", "range_resolution")),
-)
-_ANGLES = (
-    (CameraInfo, "horizontal_fov"),
-    *((LidarInfo, f"{way}_{end}_angle") for way in ("horizontal", "vertical") for end in ("min", "max")),
-)
-
-_MEASURES: Mapping[tuple[type, str], Measure] = {
-    **dict.fromkeys(_SHAPES, LENGTH),
-    **dict.fromkeys(_ANGLES, ANGLE),
-    (Inertial, "mass"): Measure("kg"),
-    (LinkPhysics, "kp"): Measure("N/m"),
-    (LinkPhysics, "kd"): Measure("N*s/m"),
-    (Sensor, "update_rate"): Measure("Hz"),
-    (CameraInfo, "width"): Measure("px"),
-    (CameraInfo, "height"): Measure("px"),
-}
+_LENGTHS = ((Box, "size"), *((SrdfSphere, name) for name in ("center_x", "center_y", "center_z", "radius")))
+_MEASURES: Mapping[tuple[type, str], Measure] = dict.fromkeys(_LENGTHS, LENGTH)
 
 
 def measure_of(kind: type, field: str, *, slides: bool) -> Measure:

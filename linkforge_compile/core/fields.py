@@ -1,7 +1,7 @@
 """What a field of a model class says about itself, for the walkers that read, write and compare its values.
 
 A field is annotated with a spec: `effort: Annotated[float, Number(EFFORT, NOT_NEGATIVE)]`. Type checkers, constructors
-and `typing.get_type_hints` see the plain type; a walker asks `number_fields` for the specs.
+and `typing.get_type_hints` see the plain type; a walker asks `field_specs` for the specs.
 """
 
 from __future__ import annotations
@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import MISSING, dataclass, fields
+from enum import StrEnum
 from functools import cache
-from types import MappingProxyType
-from typing import NamedTuple, get_type_hints
+from typing import Any, NamedTuple, TypeAlias, get_type_hints
 
 from linkforge_compile.core.constants import EPSILON
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
@@ -43,35 +43,86 @@ ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1, least=0.0, mos
 
 
 class Number(NamedTuple):
-    """A number: its unit and range, and what its absence means.
+    """A number: its unit and range, and what takes its place.
 
-    `implied` is the value that a spec or a URDF without the number has, None for no value. `example` is what to write
-    where the language requires the number, by motion; empty where it does not. `stand_in` takes the place of a faulty
-    one, so that its element stays for the checks; None for the implied value.
+    `example` is what to write where the language requires the number, by motion if that matters; empty where it does
+    not. `stand_in` takes the place of a faulty one, so that its element stays for the checks; None for `implied`.
+    `implied` is what the absence of the number means: the default of its class, which `field_specs` fills in, unless
+    it is required, or `has_no_default` in the language. A length that `may_be_far` is not taken for millimetres.
     """
 
     unit: FieldUnit = BARE
     bound: Bound | None = None
-    implied: float | None = None
-    example: Mapping[Motion, str] = MappingProxyType({})
+    example: str | Mapping[Motion, str] = ""
     stand_in: float | None = None
+    implied: float | None = None
+    is_whole: bool = False
+    may_be_far: bool = False
+    has_no_default: bool = False
     is_required_in_urdf: bool = False
+
+    def example_for(self, motion: Motion) -> str:
+        """Return what to write where the number is required; empty where it is not."""
+        return self.example if isinstance(self.example, str) else self.example.get(motion, "")
+
+
+class Text(NamedTuple):
+    """A text; `example` and `implied` are as for Number."""
+
+    example: str = ""
+    implied: str | None = None
+
+
+class Flag(NamedTuple):
+    """True or false; `implied` is as for Number."""
+
+    implied: bool | None = None
+
+
+class Choice(NamedTuple):
+    """One word of an enumeration; `implied` is as for Number."""
+
+    words: type[StrEnum]
+    implied: str | None = None
+
+
+class Noise(NamedTuple):
+    """The noise on a value of a unit."""
+
+    unit: FieldUnit = BARE
+
+
+Spec: TypeAlias = Number | Text | Flag | Choice | Noise
+
+
+def field_specs(kind: type) -> Mapping[str, Spec]:
+    """Return what the fields of a model class say about themselves, in their order, those that say something."""
+    return _field_specs(kind)
+
+
+@cache
+def _field_specs(kind: type) -> Mapping[str, Spec]:
+    hints = get_type_hints(kind, include_extras=True)
+    specs = {name: _spec_in(hint) for name, hint in hints.items()}
+    return {name: _with_default(spec, kind, name) for name, spec in specs.items() if spec is not None}
+
+
+def _spec_in(hint: object) -> Spec | None:
+    metadata: tuple[object, ...] = getattr(hint, "__metadata__", ())
+    return next((spec for spec in metadata if isinstance(spec, Spec)), None)
+
+
+def _with_default(spec: Spec, kind: type[Any], name: str) -> Spec:
+    default = next((one.default for one in fields(kind) if one.name == name), MISSING)
+    match spec:
+        case Number(example="", has_no_default=False) | Text(example="") | Flag() | Choice() if default is not MISSING:
+            return spec._replace(implied=default)
+    return spec
 
 
 def number_fields(kind: type) -> Mapping[str, Number]:
     """Return the specs of the numbers of a model class, in the order of its fields."""
-    return _number_fields(kind)
-
-
-@cache
-def _number_fields(kind: type) -> Mapping[str, Number]:
-    hints = get_type_hints(kind, include_extras=True)
-    return {
-        name: spec
-        for name, hint in hints.items()
-        for spec in getattr(hint, "__metadata__", ())
-        if isinstance(spec, Number)
-    }
+    return {name: spec for name, spec in field_specs(kind).items() if isinstance(spec, Number)}
 
 
 def written_numbers(part: object) -> Iterator[tuple[str, float]]:

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from linkforge_compile.core.fields import NOT_ZERO
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Vector3
 from linkforge_compile.diagnostics.codes.model import NO_GEOMETRY, NO_MESH_FILE, SEVERAL_GEOMETRIES
-from linkforge_compile.lowering.extra import Besides, besides, with_extras
+from linkforge_compile.lowering.elements import lower_element
+from linkforge_compile.lowering.extra import Besides, besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import EXTENT, Measure
 from linkforge_compile.lowering.scope import FileScope
@@ -15,8 +16,6 @@ from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode
 
 _FACTOR = Measure(bound=NOT_ZERO)
-
-# What their constructors ask of numbers, EXTENT and _FACTOR have asked.
 
 
 def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
@@ -44,23 +43,20 @@ def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
 
 def _cylinder(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "cylinder")
-    extents = body and _radius_and_length(body)
-    return with_extras(Cylinder(*extents, source=body.ref), body) if body and extents else None
+    return lower_element(Cylinder, body) if body else None
 
 
 def _capsule(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "capsule")
-    extents = body and _radius_and_length(body)
-    return with_extras(Capsule(*extents, source=body.ref), body) if body and extents else None
+    return lower_element(Capsule, body) if body else None
 
 
 def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "sphere") if isinstance(node, YamlMap) else None
     if body:
-        radius, rest = body.number("radius", EXTENT, required="0.1"), besides(body)
-    else:
-        radius, rest = shape.number_at(node, "sphere", EXTENT), _short(shape, node)
-    return None if radius is None else Sphere(radius, **rest)
+        return lower_element(Sphere, body)
+    radius = shape.number_at(node, "sphere", EXTENT)
+    return None if radius is None else Sphere(radius, **_short(shape, node))
 
 
 def _mesh(shape: Fields, node: YamlNode, scope: FileScope) -> Geometry | None:
@@ -95,11 +91,6 @@ def _scale(mesh: Fields) -> Vector3 | None:
         return mesh.vector3_at(node, "scale", _FACTOR)
     number = mesh.number_at(node, "scale", _FACTOR)
     return None if number is None else Vector3(number, number, number)
-
-
-def _radius_and_length(body: Fields) -> tuple[float, float] | None:
-    radius, length = body.numbers(("radius", EXTENT, "0.1"), ("length", EXTENT, "0.5"))
-    return None if radius is None or length is None else (radius, length)
 
 
 def _short(shape: Fields, node: YamlNode) -> Besides:

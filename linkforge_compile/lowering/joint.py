@@ -25,7 +25,7 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_AXIS,
     ZERO_AXIS,
 )
-from linkforge_compile.lowering.elements import E, lower_element, lower_numbers, stated_numbers
+from linkforge_compile.lowering.elements import E, lower_element, lower_fields, stated_numbers
 from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import (
@@ -207,7 +207,7 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: Motion) -> Joi
     limits = fields.map("limits", required=example)
     if limits is None:
         return _STAND_IN_LIMITS if example else None
-    values = lower_numbers(JointLimits, limits, motion)
+    values = lower_fields(JointLimits, limits, motion)
     lower, upper = values["lower"], values["upper"]
     if lower is not None and upper is not None and lower > upper:
         _tell_crossed(limits)
@@ -234,7 +234,7 @@ def _mimic(fields: Fields, motion: Motion) -> JointMimic | None:
     if mimic is None:
         return None
     joint = mimic.text("joint", required="left_finger")
-    numbers = lower_numbers(JointMimic, mimic, motion)
+    numbers = lower_fields(JointMimic, mimic, motion)
     if joint is None:
         return None
     stated = stated_numbers(JointMimic, mimic)

@@ -27,8 +27,9 @@ from linkforge_compile.diagnostics.codes.model import (
     ORIGIN_WITHOUT_INERTIA,
     WRONG_KIND,
 )
+from linkforge_compile.lowering.elements import lower_element, lower_fields
 from linkforge_compile.lowering.extra import besides, outer_extras_of, with_extras
-from linkforge_compile.lowering.fields import Fields, or_default
+from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.geometry import lower_geometry
 from linkforge_compile.lowering.material import lower_visual_material
 from linkforge_compile.lowering.quantities import Measure, found
@@ -38,14 +39,9 @@ from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
 
 _MASS, _MASS_TO_SPREAD = Measure((Dimension.MASS,), NOT_NEGATIVE), Measure((Dimension.MASS,), ABOVE_ZERO)
-_DENSITY, _INERTIA = Measure((Dimension.DENSITY,), ABOVE_ZERO), Measure((Dimension.INERTIA,))
-
-_MOMENTS = [(key, _INERTIA, "0.01") for key in ("ixx", "iyy", "izz")]
-_PRODUCTS = [(key, _INERTIA, "") for key in ("ixy", "ixz", "iyz")]
+_DENSITY = Measure((Dimension.DENSITY,), ABOVE_ZERO)
 
 _UNSAID_PHYSICS = LinkPhysics()
-
-# What their constructors ask of values, the measures and what reads the others have asked.
 
 Shapes = Sequence[Visual | None] | Sequence[Collision | None]
 
@@ -102,17 +98,7 @@ def _physics(link: Fields) -> LinkPhysics:
     unsaid, physics = _UNSAID_PHYSICS, link.map("physics")
     if physics is None:
         return unsaid
-    lowered = physics.build(
-        lambda: LinkPhysics(
-            or_default(physics.flag("self_collide"), unsaid.self_collide),
-            or_default(physics.flag("gravity"), unsaid.gravity),
-            or_default(physics.number("mu"), unsaid.mu),
-            or_default(physics.number("mu2"), unsaid.mu2),
-            or_default(physics.number("kp"), unsaid.kp),
-            or_default(physics.number("kd"), unsaid.kd),
-            source=physics.ref,
-        )
-    )
+    lowered = physics.build(lambda: LinkPhysics(**lower_fields(LinkPhysics, physics), source=physics.ref))
     if lowered is None:
         return unsaid
     said = [name for name in PHYSICS_TAGS if physics.node.get(name) is not None]
@@ -187,13 +173,7 @@ def _written(inertial: Fields, mass: float | None, origin: Transform) -> Inertia
 
 def _tensor(inertial: Fields) -> InertiaTensor | None:
     inertia = inertial.map("inertia")
-    if inertia is None:
-        return None
-    ixx, iyy, izz, ixy, ixz, iyz = inertia.numbers(*_MOMENTS, *_PRODUCTS)
-    if ixx is None or iyy is None or izz is None:
-        return None
-    made = InertiaTensor(ixx, iyy, izz, ixy or 0.0, ixz or 0.0, iyz or 0.0, source=inertia.ref)
-    return with_extras(made, inertia)
+    return lower_element(InertiaTensor, inertia) if inertia else None
 
 
 def _one_of_mass_and_density(inertial: Fields) -> bool:

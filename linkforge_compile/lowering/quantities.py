@@ -91,9 +91,9 @@ class Measure:
 
 
 @cache
-def measure_of(unit: FieldUnit, bound: Bound | None, motion: Motion) -> Measure:
+def measure_of(unit: FieldUnit, bound: Bound | None, motion: Motion, may_be_far: bool = False) -> Measure:
     """Return what a number field of a model class takes, on a joint that moves in a way."""
-    return Measure(unit.dimensions(motion), bound)
+    return Measure(unit.dimensions(motion), bound, may_be_far=may_be_far)
 
 
 BARE = Measure()

@@ -6,8 +6,6 @@ from collections.abc import Callable, Mapping
 
 from linkforge_compile.core.models.geometry import (
     Box,
-    Capsule,
-    Cylinder,
     Geometry,
     GeometryType,
     Mesh,
@@ -17,6 +15,7 @@ from linkforge_compile.core.models.geometry import (
 )
 from linkforge_compile.syntax import YamlNode
 from linkforge_compile.units import Dimension
+from linkforge_compile.writers.elements import written_element
 from linkforge_compile.writers.pen import Pen
 
 _ZERO = Vector3(0.0, 0.0, 0.0)
@@ -44,13 +43,7 @@ def _box(pen: Pen, box: Box) -> YamlNode:
 
 
 def _sphere(pen: Pen, sphere: Sphere) -> YamlNode:
-    radius = pen.number(sphere.radius, Dimension.LENGTH)
-    return pen.alone(pen.element(sphere, radius=radius), "radius")
-
-
-def _round(pen: Pen, body: Cylinder | Capsule) -> YamlNode:
-    radius, length = pen.number(body.radius, Dimension.LENGTH), pen.number(body.length, Dimension.LENGTH)
-    return pen.element(body, radius=radius, length=length)
+    return pen.alone(written_element(pen, sphere), "radius")
 
 
 def _mesh(pen: Pen, mesh: Mesh) -> YamlNode:
@@ -68,8 +61,8 @@ def _scale(pen: Pen, mesh: Mesh) -> YamlNode | None:
 
 _WRITE: Mapping[GeometryType, Callable[..., YamlNode]] = {
     GeometryType.BOX: _box,
-    GeometryType.CYLINDER: _round,
+    GeometryType.CYLINDER: written_element,
     GeometryType.SPHERE: _sphere,
-    GeometryType.CAPSULE: _round,
+    GeometryType.CAPSULE: written_element,
     GeometryType.MESH: _mesh,
 }

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
+from linkforge_compile.core.models.link import Collision, Inertial, Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.shape_order import COLLISION, VISUAL, as_said
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import Dimension
+from linkforge_compile.writers.elements import written_element, written_fields
 from linkforge_compile.writers.geometry import written_geometry, written_origin
 from linkforge_compile.writers.material import written_visual_material
 from linkforge_compile.writers.pen import Pen
@@ -72,22 +73,10 @@ def _inertial(pen: Pen, inertial: Inertial) -> YamlMap:
         inertial,
         mass=pen.number(inertial.mass, Dimension.MASS),
         origin=written_origin(pen, inertial.origin),
-        inertia=_tensor(pen, inertial.inertia),
+        inertia=written_element(pen, inertial.inertia),
     )
 
 
-def _tensor(pen: Pen, tensor: InertiaTensor) -> YamlMap:
-    moments = {key: pen.number(getattr(tensor, key), Dimension.INERTIA) for key in ("ixx", "iyy", "izz")}
-    products = {key: pen.number(getattr(tensor, key), Dimension.INERTIA, default=0) for key in ("ixy", "ixz", "iyz")}
-    return pen.element(tensor, **moments, **products)
-
-
 def _physics(pen: Pen, physics: LinkPhysics) -> YamlNode | None:
-    said = [field for field in ("self_collide", "gravity", *_COEFFICIENTS) if pen.full or physics.is_written(field)]
-    flags = {key: pen.flag(getattr(physics, key)) for key in said if key not in _COEFFICIENTS}
-    numbers = {key: pen.number(getattr(physics, key)) for key in said if key in _COEFFICIENTS}
-    node = pen.map_of({**flags, **numbers})
+    node = pen.map_of(written_fields(pen, physics, stated=tuple(physics.stated)))
     return pen.located(node, physics.source) if len(node) else None
-
-
-_COEFFICIENTS = ("mu", "mu2", "kp", "kd")

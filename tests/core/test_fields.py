@@ -1,40 +1,58 @@
 """What the fields of model classes say about themselves, and what walkers make of it."""
 
 import json
+from dataclasses import dataclass
 from typing import Annotated
 
 import pytest
 
 from linkforge_compile import compile_text, render_urdf
 from linkforge_compile.core import (
+    CameraInfo,
+    ContactInfo,
+    ForceTorqueInfo,
+    GPSInfo,
+    IMUInfo,
+    InertiaTensor,
     JointCalibration,
     JointDynamics,
     JointLimits,
     JointMimic,
     JointSafetyController,
+    LidarInfo,
+    LinkPhysics,
     RobotModelError,
 )
-from linkforge_compile.core.fields import NOT_NEGATIVE, Number, check_numbers, number_fields, written_numbers
+from linkforge_compile.core.fields import NOT_NEGATIVE, Number, check_numbers, field_specs, written_numbers
 from linkforge_compile.resources import schemas_folder
 from linkforge_compile.units import DAMPING, EFFORT, POSITION, SPEED, Dimension, Motion
 
-SCHEMA = json.loads((schemas_folder() / "joint.schema.json").read_text("utf-8"))["definitions"]
 TURN_RATE = Dimension.ANGULAR_VELOCITY
 ALWAYS = {"extra", "extra_attributes", "extra_inside"}
 CLASSES = {
-    "limits": (JointLimits, set()),
-    "dynamics": (JointDynamics, set()),
-    "mimic": (JointMimic, {"joint"}),
-    "safety_controller": (JointSafetyController, set()),
-    "calibration": (JointCalibration, set()),
+    "joint#limits": (JointLimits, set()),
+    "joint#dynamics": (JointDynamics, set()),
+    "joint#mimic": (JointMimic, {"joint"}),
+    "joint#safety_controller": (JointSafetyController, set()),
+    "joint#calibration": (JointCalibration, set()),
+    "link#inertia": (InertiaTensor, set()),
+    "link#physics": (LinkPhysics, set()),
+    "sensor#camera": (CameraInfo, set()),
+    "sensor#lidar": (LidarInfo, set()),
+    "sensor#imu": (IMUInfo, set()),
+    "sensor#gps": (GPSInfo, set()),
+    "sensor#contact": (ContactInfo, set()),
+    "sensor#force_torque": (ForceTorqueInfo, set()),
 }
-"""The class of each definition, and the keys that are no numbers."""
+"""The class of each definition, and the keys that it does not describe yet."""
 
 
-@pytest.mark.parametrize("name", CLASSES)
-def test_a_class_and_its_schema_have_the_same_fields(name: str):
-    kind, others = CLASSES[name]
-    assert SCHEMA[name]["properties"].keys() - ALWAYS == number_fields(kind).keys() | others
+@pytest.mark.parametrize("place", CLASSES)
+def test_a_class_and_its_schema_have_the_same_fields(place: str):
+    file, _, name = place.partition("#")
+    schema = json.loads((schemas_folder() / f"{file}.schema.json").read_text("utf-8"))["definitions"][name]
+    kind, others = CLASSES[place]
+    assert schema["properties"].keys() - ALWAYS == field_specs(kind).keys() | others
 
 
 @pytest.mark.parametrize(
@@ -68,13 +86,11 @@ def test_an_implied_number_is_written_where_the_author_wrote_it():
     assert dict(written_numbers(JointDynamics())) == {"damping": 0, "friction": 0}
 
 
+@dataclass
 class Spring:
     """A class of somebody else with a number of its own."""
 
     stiffness: Annotated[float | None, Number(bound=NOT_NEGATIVE)]
-
-    def __init__(self, stiffness: float | None) -> None:
-        self.stiffness = stiffness
 
 
 @pytest.mark.parametrize(

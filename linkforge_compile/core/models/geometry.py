@@ -6,12 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import isfinite
-from typing import TypeAlias
+from typing import Annotated, TypeAlias
 
 from linkforge_compile.core.constants import PI
 from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
+from linkforge_compile.core.fields import ABOVE_ZERO, Number
 from linkforge_compile.core.part import Element, Part, freeze
 from linkforge_compile.core.rules import is_finite, not_finite, require_finite
+from linkforge_compile.units import LENGTH
 
 
 class GeometryType(StrEnum):
@@ -124,6 +126,10 @@ class Box(Element):
         return self.size.x * self.size.y * self.size.z
 
 
+_RADIUS = Number(LENGTH, ABOVE_ZERO, example="0.1", is_required_in_urdf=True)
+_LENGTH = Number(LENGTH, ABOVE_ZERO, example="0.5", is_required_in_urdf=True)
+
+
 @dataclass(frozen=True, slots=True)
 class Cylinder(Element):
     """A cylinder about its z axis, centred on its origin: `<cylinder radius length>`, both [m].
@@ -134,8 +140,8 @@ class Cylinder(Element):
 
     """
 
-    radius: float
-    length: float
+    radius: Annotated[float, _RADIUS]
+    length: Annotated[float, _LENGTH]
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -161,7 +167,7 @@ class Sphere(Element):
 
     """
 
-    radius: float
+    radius: Annotated[float, _RADIUS]
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -189,8 +195,8 @@ class Capsule(Element):
 
     """
 
-    radius: float
-    length: float
+    radius: Annotated[float, _RADIUS]
+    length: Annotated[float, _LENGTH]
 
     def __post_init__(self) -> None:
         freeze(self)

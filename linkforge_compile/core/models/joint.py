@@ -123,8 +123,8 @@ class JointDynamics(Element):
 
     TAG: ClassVar[str] = "dynamics"
 
-    damping: Annotated[float, Number(DAMPING, NOT_NEGATIVE, implied=0)] = DEFAULT_JOINT_DAMPING
-    friction: Annotated[float, Number(EFFORT, NOT_NEGATIVE, implied=0)] = DEFAULT_JOINT_FRICTION
+    damping: Annotated[float, Number(DAMPING, NOT_NEGATIVE)] = DEFAULT_JOINT_DAMPING
+    friction: Annotated[float, Number(EFFORT, NOT_NEGATIVE)] = DEFAULT_JOINT_FRICTION
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,8 +144,8 @@ class JointMimic(Element):
     TAG: ClassVar[str] = "mimic"
 
     joint: str
-    multiplier: Annotated[float, Number(implied=1, stand_in=UNKNOWN)] = 1.0
-    offset: Annotated[float, Number(POSITION, implied=0, stand_in=UNKNOWN)] = 0.0
+    multiplier: Annotated[float, Number(stand_in=UNKNOWN)] = 1.0
+    offset: Annotated[float, Number(POSITION, stand_in=UNKNOWN)] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, compare=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -170,7 +170,7 @@ class JointSafetyController(Element):
     soft_lower_limit: Annotated[float | None, Number(POSITION, stand_in=-UNKNOWN)] = None
     soft_upper_limit: Annotated[float | None, Number(POSITION, stand_in=UNKNOWN)] = None
     k_position: Annotated[float | None, Number()] = None
-    k_velocity: Annotated[float, Number(implied=0, is_required_in_urdf=True)] = 0.0
+    k_velocity: Annotated[float, Number(is_required_in_urdf=True)] = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 from linkforge_compile.core.constants import (
     DEFAULT_CONTACT_KD,
@@ -18,15 +18,20 @@ from linkforge_compile.core.constants import (
     MIN_REASONABLE_INERTIA,
 )
 from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import Flag, Number, check_numbers
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
 from linkforge_compile.core.models.index import Renamable
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.naming import prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
 from linkforge_compile.core.prefixing import prefixed_copies
-from linkforge_compile.core.rules import require_finite, require_name, require_valid_characters
+from linkforge_compile.core.rules import require_name, require_valid_characters
 from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
 from linkforge_compile.source import SourceRef
+from linkforge_compile.units import CONTACT_DAMPING, INERTIA, MASS, STIFFNESS
+
+_MOMENT = Number(INERTIA, example="0.01", is_required_in_urdf=True)
+_PRODUCT = Number(INERTIA, is_required_in_urdf=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,16 +45,14 @@ class InertiaTensor(Element):
 
     """
 
-    ixx: float
-    iyy: float
-    izz: float
-    ixy: float = 0.0
-    ixz: float = 0.0
-    iyz: float = 0.0
+    TAG = "inertia"
 
-    def __post_init__(self) -> None:
-        freeze(self)
-        require_finite(self, "ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+    ixx: Annotated[float, _MOMENT]
+    iyy: Annotated[float, _MOMENT]
+    izz: Annotated[float, _MOMENT]
+    ixy: Annotated[float, _PRODUCT] = 0.0
+    ixz: Annotated[float, _PRODUCT] = 0.0
+    iyz: Annotated[float, _PRODUCT] = 0.0
 
     @classmethod
     def stability_floor(cls) -> InertiaTensor:
@@ -73,7 +76,7 @@ class Inertial(Element):
 
     """
 
-    mass: float
+    mass: Annotated[float, Number(MASS)]
     origin: Transform = IDENTITY
     inertia: InertiaTensor = _STABILITY_FLOOR
 
@@ -87,7 +90,7 @@ class Inertial(Element):
                 value=self.mass,
                 field=("mass",),
             )
-        require_finite(self, "mass")
+        check_numbers(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,17 +106,17 @@ class LinkPhysics(Part):
 
     """
 
-    self_collide: bool = DEFAULT_SELF_COLLIDE
-    gravity: bool = GRAVITY_ENABLED
-    mu: float = DEFAULT_FRICTION_MU
-    mu2: float = DEFAULT_FRICTION_MU2
-    kp: float = DEFAULT_CONTACT_KP
-    kd: float = DEFAULT_CONTACT_KD
+    self_collide: Annotated[bool, Flag()] = DEFAULT_SELF_COLLIDE
+    gravity: Annotated[bool, Flag()] = GRAVITY_ENABLED
+    mu: Annotated[float, Number()] = DEFAULT_FRICTION_MU
+    mu2: Annotated[float, Number()] = DEFAULT_FRICTION_MU2
+    kp: Annotated[float, Number(STIFFNESS)] = DEFAULT_CONTACT_KP
+    kd: Annotated[float, Number(CONTACT_DAMPING)] = DEFAULT_CONTACT_KD
     stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
 
     def __post_init__(self) -> None:
         set_field(self, "stated", tuple(self.stated))
-        require_finite(self, "mu", "mu2", "kp", "kd")
+        check_numbers(self)
 
     def is_written(self, name: str) -> bool:
         """Whether a field becomes a tag: it differs from its default, or is stated all the same."""

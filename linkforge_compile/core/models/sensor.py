@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from typing import Annotated
 
 from linkforge_compile.core import constants as default
-from linkforge_compile.core.constants import EPSILON
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import ABOVE_ZERO, UP_TO_HALF_A_TURN, Choice, Noise, Number, Text, check_numbers
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.naming import prefixed_topic
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_finite, require_name, require_positive
+from linkforge_compile.core.rules import require_name
+from linkforge_compile.units import ANGLE, FREQUENCY, LENGTH, LOAD, PIXELS, TURN_RATE, VELOCITY
 
 
 class SensorType(StrEnum):
@@ -44,8 +45,26 @@ REQUIRED_INFO = {
 }
 """The field that a sensor of each type must have; a `ray` or `gpu_lidar` may do without its `lidar_info`."""
 
-_FORCE_TORQUE_FRAMES = (default.FT_FRAME_CHILD, default.FT_FRAME_PARENT, default.FT_FRAME_SENSOR)
-_FORCE_TORQUE_DIRECTIONS = (default.FT_DIR_CHILD_TO_PARENT, default.FT_DIR_PARENT_TO_CHILD)
+
+class ForceTorqueFrame(StrEnum):
+    """In whose axes forces and torques are measured."""
+
+    CHILD = default.FT_FRAME_CHILD
+    PARENT = default.FT_FRAME_PARENT
+    SENSOR = default.FT_FRAME_SENSOR
+
+
+class ForceTorqueDirection(StrEnum):
+    """Who acts on whom."""
+
+    CHILD_TO_PARENT = default.FT_DIR_CHILD_TO_PARENT
+    PARENT_TO_CHILD = default.FT_DIR_PARENT_TO_CHILD
+
+
+_EXTENT = Number(LENGTH, ABOVE_ZERO)
+_SIGHT = Number(LENGTH, may_be_far=True)
+_COUNT = Number(bound=ABOVE_ZERO, is_whole=True)
+_PIXELS = Number(PIXELS, ABOVE_ZERO, is_whole=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,16 +80,16 @@ class SensorNoise(Element):
 
     """
 
-    type: str = default.NOISE_GAUSSIAN
-    mean: float = 0.0
-    stddev: float = 0.0
-    bias_mean: float = 0.0
-    bias_stddev: float = 0.0
+    type: Annotated[str, Text()] = default.NOISE_GAUSSIAN
+    mean: Annotated[float, Number()] = 0.0
+    stddev: Annotated[float, Number()] = 0.0
+    bias_mean: Annotated[float, Number()] = 0.0
+    bias_stddev: Annotated[float, Number()] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
 
     def __post_init__(self) -> None:
         freeze(self, "stated")
-        require_finite(self, "mean", "stddev", "bias_mean", "bias_stddev")
+        check_numbers(self)
 
     def is_written(self, name: str) -> bool:
         """Whether a bias becomes a tag: it is not 0, or is stated all the same."""
@@ -91,32 +110,17 @@ class CameraInfo(Element):
 
     """
 
-    horizontal_fov: float = default.DEFAULT_CAMERA_FOV
-    width: int = default.DEFAULT_CAMERA_WIDTH
-    height: int = default.DEFAULT_CAMERA_HEIGHT
-    format: str = default.DEFAULT_CAMERA_FORMAT
-    near_clip: float = default.DEFAULT_CAMERA_NEAR
-    far_clip: float = default.DEFAULT_CAMERA_FAR
-    noise: SensorNoise | None = None
+    horizontal_fov: Annotated[float, Number(ANGLE, UP_TO_HALF_A_TURN)] = default.DEFAULT_CAMERA_FOV
+    width: Annotated[int, _PIXELS] = default.DEFAULT_CAMERA_WIDTH
+    height: Annotated[int, _PIXELS] = default.DEFAULT_CAMERA_HEIGHT
+    format: Annotated[str, Text()] = default.DEFAULT_CAMERA_FORMAT
+    near_clip: Annotated[float, _EXTENT] = default.DEFAULT_CAMERA_NEAR
+    far_clip: Annotated[float, _SIGHT] = default.DEFAULT_CAMERA_FAR
+    noise: Annotated[SensorNoise | None, Noise()] = None
 
     def __post_init__(self) -> None:
         freeze(self)
-        if self.horizontal_fov <= 0 or self.horizontal_fov > math.pi + EPSILON:
-            raise _out_of_range(
-                f"horizontal_fov must be above 0 and at most pi [rad], found {self.horizontal_fov}",
-                "CameraFOV",
-                self.horizontal_fov,
-                "horizontal_fov",
-            )
-        for side in ("width", "height"):
-            if getattr(self, side) <= 0:
-                raise _out_of_range(
-                    f"image dimensions must be positive [px], found {self.width} x {self.height}",
-                    "ImageDimensions",
-                    (self.width, self.height),
-                    side,
-                )
-        require_positive(self.near_clip, "near_clip", "NearClip", "near_clip")
+        check_numbers(self)
         if self.far_clip <= self.near_clip:
             raise _out_of_range(
                 f"far_clip must be greater than near_clip {self.near_clip} [m], found {self.far_clip}",
@@ -124,7 +128,6 @@ class CameraInfo(Element):
                 self.far_clip,
                 "far_clip",
             )
-        require_finite(self, "horizontal_fov", "width", "height", "near_clip", "far_clip")
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,23 +145,22 @@ class LidarInfo(Element):
 
     """
 
-    horizontal_samples: int = default.DEFAULT_LIDAR_SAMPLES
-    horizontal_resolution: float = default.DEFAULT_LIDAR_RESOLUTION
-    horizontal_min_angle: float = default.DEFAULT_LIDAR_MIN_ANGLE
-    horizontal_max_angle: float = default.DEFAULT_LIDAR_MAX_ANGLE
-    vertical_samples: int = default.DEFAULT_LIDAR_VERTICAL_SAMPLES
-    vertical_resolution: float = default.DEFAULT_LIDAR_VERTICAL_RESOLUTION
-    vertical_min_angle: float = default.DEFAULT_LIDAR_VERTICAL_MIN_ANGLE
-    vertical_max_angle: float = default.DEFAULT_LIDAR_VERTICAL_MAX_ANGLE
-    range_min: float = default.DEFAULT_LIDAR_RANGE_MIN
-    range_max: float = default.DEFAULT_LIDAR_RANGE_MAX
-    range_resolution: float = default.DEFAULT_LIDAR_RANGE_RESOLUTION
-    noise: SensorNoise | None = None
+    horizontal_samples: Annotated[int, _COUNT] = default.DEFAULT_LIDAR_SAMPLES
+    horizontal_resolution: Annotated[float, Number()] = default.DEFAULT_LIDAR_RESOLUTION
+    horizontal_min_angle: Annotated[float, Number(ANGLE)] = default.DEFAULT_LIDAR_MIN_ANGLE
+    horizontal_max_angle: Annotated[float, Number(ANGLE)] = default.DEFAULT_LIDAR_MAX_ANGLE
+    vertical_samples: Annotated[int, Number(is_whole=True)] = default.DEFAULT_LIDAR_VERTICAL_SAMPLES
+    vertical_resolution: Annotated[float, Number()] = default.DEFAULT_LIDAR_VERTICAL_RESOLUTION
+    vertical_min_angle: Annotated[float, Number(ANGLE)] = default.DEFAULT_LIDAR_VERTICAL_MIN_ANGLE
+    vertical_max_angle: Annotated[float, Number(ANGLE)] = default.DEFAULT_LIDAR_VERTICAL_MAX_ANGLE
+    range_min: Annotated[float, _EXTENT] = default.DEFAULT_LIDAR_RANGE_MIN
+    range_max: Annotated[float, _SIGHT] = default.DEFAULT_LIDAR_RANGE_MAX
+    range_resolution: Annotated[float, _EXTENT] = default.DEFAULT_LIDAR_RANGE_RESOLUTION
+    noise: Annotated[SensorNoise | None, Noise(LENGTH)] = None
 
     def __post_init__(self) -> None:
         freeze(self)
-        require_positive(self.horizontal_samples, "horizontal_samples", "LidarSamples", "horizontal_samples")
-        require_positive(self.range_min, "range_min", "LidarRangeMin", "range_min")
+        check_numbers(self)
         if self.range_max <= self.range_min:
             raise _out_of_range(
                 f"range_max must be greater than range_min {self.range_min} [m], found {self.range_max}",
@@ -166,12 +168,9 @@ class LidarInfo(Element):
                 self.range_max,
                 "range_max",
             )
-        require_positive(self.range_resolution, "range_resolution", "LidarRangeResolution", "range_resolution")
         self._check_angles("horizontal", "LidarAngleRange")
         if self.vertical_samples > 1:
             self._check_angles("vertical", "LidarVerticalAngleRange")
-        numbers = (name for name in LidarInfo.__match_args__ if name != "noise")
-        require_finite(self, *numbers)
 
     def _check_angles(self, direction: str, target: str) -> None:
         smallest: float = getattr(self, f"{direction}_min_angle")
@@ -189,18 +188,18 @@ class LidarInfo(Element):
 class IMUInfo(Element):
     """An inertial unit: `<imu>`; noise on each axis of [rad/s] and [m/s²], None for none."""
 
-    angular_velocity_noise: SensorNoise | None = None
-    linear_acceleration_noise: SensorNoise | None = None
+    angular_velocity_noise: Annotated[SensorNoise | None, Noise(TURN_RATE)] = None
+    linear_acceleration_noise: Annotated[SensorNoise | None, Noise()] = None
 
 
 @dataclass(frozen=True, slots=True)
 class GPSInfo(Element):
     """A satellite receiver: `<navsat>`, in Gazebo Classic `<gps>`; noise on [m] and [m/s], None for none."""
 
-    position_sensing_horizontal_noise: SensorNoise | None = None
-    position_sensing_vertical_noise: SensorNoise | None = None
-    velocity_sensing_horizontal_noise: SensorNoise | None = None
-    velocity_sensing_vertical_noise: SensorNoise | None = None
+    position_sensing_horizontal_noise: Annotated[SensorNoise | None, Noise(LENGTH)] = None
+    position_sensing_vertical_noise: Annotated[SensorNoise | None, Noise(LENGTH)] = None
+    velocity_sensing_horizontal_noise: Annotated[SensorNoise | None, Noise(VELOCITY)] = None
+    velocity_sensing_vertical_noise: Annotated[SensorNoise | None, Noise(VELOCITY)] = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,8 +208,8 @@ class ContactInfo(Element):
 
     PREFIXED = ("collision",)
 
-    collision: str
-    noise: SensorNoise | None = None
+    collision: Annotated[str, Text(example="fingertip_collision")]
+    noise: Annotated[SensorNoise | None, Noise()] = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,14 +224,14 @@ class ForceTorqueInfo(Element):
 
     """
 
-    frame: str = default.FT_FRAME_CHILD
-    measure_direction: str = default.FT_DIR_CHILD_TO_PARENT
-    noise: SensorNoise | None = None
+    frame: Annotated[str, Choice(ForceTorqueFrame)] = default.FT_FRAME_CHILD
+    measure_direction: Annotated[str, Choice(ForceTorqueDirection)] = default.FT_DIR_CHILD_TO_PARENT
+    noise: Annotated[SensorNoise | None, Noise(LOAD)] = None
 
     def __post_init__(self) -> None:
         freeze(self)
-        self._check_word("frame", _FORCE_TORQUE_FRAMES, "ForceTorqueFrame")
-        self._check_word("measure_direction", _FORCE_TORQUE_DIRECTIONS, "ForceTorqueDirection")
+        self._check_word("frame", tuple(ForceTorqueFrame), "ForceTorqueFrame")
+        self._check_word("measure_direction", tuple(ForceTorqueDirection), "ForceTorqueDirection")
 
     def _check_word(self, name: str, words: tuple[str, ...], target: str) -> None:
         found: str = getattr(self, name)
@@ -267,7 +266,7 @@ class Sensor(Element):
     name: str
     type: SensorType
     link_name: str
-    update_rate: float = default.DEFAULT_UPDATE_RATE
+    update_rate: Annotated[float, Number(FREQUENCY, ABOVE_ZERO)] = default.DEFAULT_UPDATE_RATE
     always_on: bool = True
     visualize: bool = False
     camera_info: CameraInfo | None = None
@@ -285,7 +284,7 @@ class Sensor(Element):
         freeze(self)
         require_name(self.name, "sensor name", "SensorName")
         require_name(self.link_name, "link of a sensor", "LinkName", ("link",))
-        require_positive(self.update_rate, "update_rate", "UpdateRate", "update_rate")
+        check_numbers(self)
         info = REQUIRED_INFO.get(self.type)
         if info and getattr(self, info) is None:
             raise RobotValidationError(
@@ -295,7 +294,6 @@ class Sensor(Element):
                 value=self.name,
                 field=(info.removesuffix("_info"),),
             )
-        require_finite(self, "update_rate")
 
     def with_prefix(self, prefix: str) -> Sensor:
         """Return the sensor with its names and its relative topic prefixed; an absolute topic is kept."""
