@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 _LINK = """
   link{0}:
     visual: {{cylinder: {{radius: 0.05, length: 0.3}}, origin: {{xyz: [0, 0, 0.15]}}, material: steel}}
@@ -21,7 +19,7 @@ _JOINT = """
     dynamics: {{damping: 0.1, friction: 0.05}}"""
 
 
-def chain(links: int) -> str:
+def make_chain(links: int) -> str:
     """Return the spec of so many links, each with what a real one has, and the joints between them."""
     return "".join(
         (
@@ -34,19 +32,13 @@ def chain(links: int) -> str:
     )
 
 
-def repeated_chain(links: int) -> str:
+def make_repeated_chain(links: int) -> str:
     """Return a spec of the same robot, of more than one link, as a person would write it."""
     link, joint = _LINK.format("$(i)"), _JOINT.format("$(i)", "$(i + 1)")
     return "".join(
         (
-            chain(1).partition("links:")[0],
+            make_chain(1).partition("links:")[0],
             f"links:{link}\n    for: {{i: {links}}}",
             f"\njoints:{joint}\n    for: {{i: {links - 1}}}\n",
         )
     )
-
-
-def write_chain(folder: Path, links: int) -> Path:
-    path = folder / f"chain_{links}.robot.yaml"
-    path.write_text(chain(links), "utf-8")
-    return path

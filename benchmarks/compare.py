@@ -1,198 +1,90 @@
-"""Our speed as ratios: beside xacro and LinkForge (PyPI's linkforge-core) where they are installed, and to ourselves.
+"""Measure linkforge as users run it, from an installed wheel, beside xacro and linkforge-core.
 
-    python benchmarks/compare.py [--rounds 9] [--only cold,warm,chain,growth,merge,version] [--robots FILE.xacro ...]
+    python benchmarks/compare.py
+    python benchmarks/compare.py --environment /tmp/measured --only cold,warm --robots vendors/ my.urdf.xacro
 
-The robots are those of `benchmarks/robots` unless said. README.md beside this file says what stands against what.
+README.md beside this file explains the rows and budgets. The exit code is 0 even if a budget is missed.
 """
 
 from __future__ import annotations
 
 import argparse
-import subprocess
+import json
+import os
+import platform
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
-from functools import partial
-from importlib import import_module
-from importlib.util import find_spec
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from statistics import geometric_mean, median
-from typing import NamedTuple
 
-from chain import chain, repeated_chain, write_chain
-from merge import merges
-from timing import medians, process, python, seconds_of, turns
+from comparisons import COMPARISONS, OF_ROBOTS, Bench, Robot
+from environment import Environment, make_environment
+from table import HEADER, format_row, make_record
 
-ROBOTS = tuple(sorted((Path(__file__).parent / "robots").glob("*/*.urdf.xacro")))
-XACRO = "import sys, xacro; sys.argv[0] = 'xacro'; xacro.main()"
-
-
-class Setting(NamedTuple):
-    """What all comparisons are given: how many rounds, the xacro robots, and a folder to write into."""
-
-    rounds: int
-    robots: tuple[Path, ...]
-    folder: Path
-
-
-class Row(NamedTuple):
-    """A line of the table: ours against another, and the ratio to reach; None for a part of a mean."""
-
-    what: str
-    ours: float
-    other: float
-    other_is: str
-    unit: str = "ms"
-    reach: float | None = None
-
-    @property
-    def ratio(self) -> float:
-        return self.ours / self.other
-
-
-def cold(setting: Setting) -> Iterator[Row]:
-    """Compile as a whole process, cold, against xacro as one."""
-    rows = []
-    for robot in setting.robots:
-        spec, out = imported(robot, setting.folder), str(setting.folder / f"{robot.stem}.out")
-        ours, other = ("-m", "linkforge_compile", "compile", str(spec), "-o", f"{out}/"), ("-c", XACRO)
-        runs = {"ours": process(*ours), "xacro": process(*other, str(robot), "-o", f"{out}.urdf")}
-        rows.append(against(f"cold process, {robot.parent.name}", setting, runs))
-    yield from mean("cold process", rows, 1.5)
-
-
-def warm(setting: Setting) -> Iterator[Row]:
-    """Compile again in the same process, against xacro in this process."""
-    import xacro
-
-    from linkforge_compile import compile_file, render_urdf
-
-    rows = []
-    for robot in setting.robots:
-        spec = imported(robot, setting.folder)
-        runs = {
-            "ours": partial(seconds_of, lambda spec=spec: render_urdf(compile_file(spec).result())),
-            "xacro": partial(seconds_of, partial(xacro.process, str(robot))),
-        }
-        rows.append(against(f"second time, {robot.parent.name}", setting, runs))
-    yield from mean("second time", rows, 0.25)
-
-
-def long_chain(setting: Setting) -> Iterator[Row]:
-    """Compile 1,000 links from YAML to URDF, against LinkForge reading, validating and writing the same URDF."""
-    from linkforge_compile import compile_text, render_urdf
-
-    core = import_module("linkforge.core")
-    text, repeated = chain(1000), repeated_chain(1000)
-    urdf = render_urdf(compile_text(text).result())
-    assert render_urdf(compile_text(repeated).result()) == urdf
-    turns = iter(range(10**6))
-
-    def ours(text: str) -> None:
-        # Another text each time, so that nothing of the last one can be remembered.
-        render_urdf(compile_text(f"# {next(turns)}\n{text}").result())
-
-    def other() -> None:
-        robot = core.read_urdf(urdf)
-        core.validate_robot(robot)
-        core.URDFGenerator().generate(robot)
-
-    for what, spec in (("each written", text), ("by a `for`", repeated)):
-        runs = {"ours": partial(seconds_of, partial(ours, spec)), "linkforge-core": partial(seconds_of, other)}
-        yield against(f"1,000 links, {what}", setting, runs, reach=1.0)
-
-
-def growth(setting: Setting) -> Iterator[Row]:
-    """Compile 10,000 links against 1,000: time and memory, without what a robot of one link takes."""
-    specs = {links: str(write_chain(setting.folder, links)) for links in (1, 1000, 10000)}
-    # Each beside its spec, and unchanged from the second turn on: what writing a file imports is the same for all.
-    runs = {
-        links: partial(python, "-m", "linkforge_compile", "compile", "-o", f"{spec}.urdf", spec)
-        for links, spec in specs.items()
-    }
-    usages = turns(min(setting.rounds, 3), runs)
-    for what, unit, scale in (("seconds", "ms", 1), ("megabytes", "MB", 1e-3)):
-        one, small, large = (median(getattr(usage, what) * scale for usage in usages[links]) for links in specs)
-        yield Row(f"10,000 links, {what}", large - one, small - one, "1,000 links", unit, 11.0)
-
-
-def merge(setting: Setting) -> Iterator[Row]:
-    """Merge 200 modules of 10 links into one robot."""
-    yield against("200 modules merged", setting, merges(200, 10), reach=0.02)
-
-
-def version(setting: Setting) -> Iterator[Row]:
-    """Ask for the version, against a bare Python."""
-    runs = {"ours": process("-m", "linkforge_compile", "--version"), "python": process("-c", "pass")}
-    yield against("linkforge --version", setting, runs, reach=2.5)
-
-
-class Comparison(NamedTuple):
-    """What yields rows, and the module of the package that it takes besides ours; None for none."""
-
-    rows: Callable[[Setting], Iterator[Row]]
-    other: str | None = None
-
-
-COMPARISONS = {
-    "cold": Comparison(cold, "xacro"),
-    "warm": Comparison(warm, "xacro"),
-    "chain": Comparison(long_chain, "linkforge"),
-    "growth": Comparison(growth),
-    "merge": Comparison(merge, "linkforge"),
-    "version": Comparison(version),
-}
-
-
-PACKAGES = {"xacro": "xacro", "linkforge": "linkforge-core"}
-"""The package of each module that we compare with, as pip names it."""
-
-
-def imported(robot: Path, folder: Path) -> Path:
-    """Return the spec of a xacro robot, imported from xacro's own output."""
-    urdf, spec = folder / f"{robot.stem}.urdf", folder / f"{robot.stem}.robot.yaml"
-    if not spec.exists():
-        subprocess.run([sys.executable, "-c", XACRO, str(robot), "-o", str(urdf)], check=True)
-        command = [sys.executable, "-m", "linkforge_compile", "import", str(urdf), "-o", str(spec)]
-        subprocess.run(command, check=True, capture_output=True)
-    return spec
-
-
-def against(what: str, setting: Setting, runs: dict[str, Callable[[], float]], reach: float | None = None) -> Row:
-    ours, other = medians(setting.rounds, runs).values()
-    return Row(what, ours, other, [*runs][1], reach=reach)
-
-
-def mean(what: str, rows: list[Row], reach: float) -> Iterator[Row]:
-    yield from rows
-    ours, other = (geometric_mean(getattr(row, side) for row in rows) for side in ("ours", "other"))
-    yield Row(f"{what}, geometric mean", ours, other, rows[0].other_is, reach=reach)
+ROBOTS = Path(__file__).resolve().parent / "robots"
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=9, help="how many runs of each the median is of, 9 unless told")
-    some = "some of the comparisons, with commas between"
-    parser.add_argument("--only", type=comparisons_in, default=list(COMPARISONS), metavar="NAMES", help=some)
-    parser.add_argument("--robots", type=Path, nargs="+", default=ROBOTS, help="other robots, as .urdf.xacro")
-    options = parser.parse_args()
-    print("medians of the processor's time, in turns; of the ratios, less is better\n")
-    print(f"{'what':<32} {'ours':>12} {'the other':>12} {'which is':<14} {'ratio':>8} {'to reach':>9}")
-    left_out = False
-    with tempfile.TemporaryDirectory() as folder:
-        setting = Setting(options.rounds, tuple(options.robots), Path(folder))
+    options = parse_arguments()
+    groups = find_robots(options.robots)
+    with open_bench(options) as bench:
+        machine = describe(bench)
+        print("\n".join(f"{name}: {value}" for name, value in machine.items()))
+        left_out = []
+        if OF_ROBOTS & set(options.only):
+            left_out += [line for group, files in groups.items() for line in import_robots(bench, group, files)]
+        print("\n".join(["", *left_out, HEADER]), flush=True)
+        records = []
         for name in options.only:
-            rows, other = COMPARISONS[name]
-            if other and find_spec(other) is None:
-                left_out = True
-                print(f"{name}: not compared, since {PACKAGES[other]} is not installed: pip install '.[dev]' does that")
-                continue
-            for row in rows(setting):
-                show(row)
-    sys.exit(left_out)
+            for row in COMPARISONS[name](bench):
+                print(format_row(row), flush=True)
+                records.append({"comparison": name, **make_record(row)})
+        robots = {group: {robot.name: str(robot.xacro) for robot in found} for group, found in bench.robots.items()}
+    if options.json:
+        report = {"machine": machine, "robots": robots, "left_out": left_out, "rows": records}
+        options.json.write_text(json.dumps(report, indent=1) + "\n", "utf-8")
 
 
-def comparisons_in(text: str) -> list[str]:
+def parse_arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rounds", type=parse_count, default=9, help="runs of each side that count (9)")
+    parser.add_argument(
+        "--only",
+        type=parse_comparisons,
+        default=list(COMPARISONS),
+        metavar="NAME,...",
+        help=f"some of {', '.join(COMPARISONS)} (all)",
+    )
+    parser.add_argument(
+        "--robots",
+        type=Path,
+        nargs="+",
+        default=[],
+        metavar="PATH",
+        help="xacro files, or folders with *.urdf.xacro, besides benchmarks/robots; arguments take their defaults",
+    )
+    parser.add_argument(
+        "--wheel", type=Path, metavar="FILE", help="the wheel to install (one built from this checkout)"
+    )
+    parser.add_argument(
+        "--environment",
+        type=Path,
+        metavar="FOLDER",
+        help="a virtual environment to use as it is, or to make and keep if there is none (a temporary one)",
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures of each round")
+    return parser.parse_args()
+
+
+def parse_count(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError("takes 1 or more")
+    return number
+
+
+def parse_comparisons(text: str) -> list[str]:
     """Read names of comparisons with commas between them."""
     names = text.split(",")
     for name in names:
@@ -201,10 +93,76 @@ def comparisons_in(text: str) -> list[str]:
     return names
 
 
-def show(row: Row) -> None:
-    sides = [f"{side * 1000:9.1f} {row.unit}" for side in (row.ours, row.other)]
-    reach = "" if row.reach is None else f"{row.reach:9.2f} {'reached' if row.ratio <= row.reach else 'missed'}"
-    print(f"{row.what:<32} {' '.join(sides)} {row.other_is:<14} {row.ratio:8.3f} {reach}", flush=True)
+def find_robots(paths: list[Path]) -> dict[str, list[Path]]:
+    """Return the xacro files of benchmarks/robots and of the paths given, by the name of their group in the table."""
+    groups = {"benchmarks/robots": find_xacro_files(ROBOTS)}
+    for path in paths:
+        group = path.resolve().name if path.is_dir() else "files"
+        groups[group] = groups.get(group, []) + find_xacro_files(path)
+    return groups
+
+
+def find_xacro_files(path: Path) -> list[Path]:
+    files = [path] if path.is_file() else sorted(path.rglob("*.urdf.xacro"))
+    if not files:
+        sys.exit(f"no *.urdf.xacro in {path}")
+    return [file.resolve() for file in files]
+
+
+@contextmanager
+def open_bench(options: argparse.Namespace) -> Iterator[Bench]:
+    """Make what the options want measured ready: the environment, and a folder to write into."""
+    with tempfile.TemporaryDirectory() as text:
+        folder = Path(text)
+        place = (options.environment or folder / "environment").absolute()
+        if not (place / "bin" / "python").exists():
+            make_environment(place, options.wheel)
+        elif options.wheel:
+            sys.exit(f"{place} exists and is used as it is; give --wheel with a new folder")
+        environment = Environment(place)
+        with environment.worker("process") as spawner:
+            yield Bench(environment, spawner, folder, options.rounds)
+
+
+def describe(bench: Bench) -> dict[str, str]:
+    """Return what the figures depend on: the machine, the versions, and how it is measured."""
+    installed = bench.environment.describe()
+    load = ", ".join(f"{load:.1f}" for load in os.getloadavg())
+    return {
+        "machine": f"{os.cpu_count()} cores, {platform.platform()}; load of the last 1, 5 and 15 minutes: {load}",
+        "python": installed.python,
+        "packages": ", ".join(f"{name} {version}" for name, version in installed.packages.items()),
+        "modules with bytecode": ", ".join(
+            f"{package} {compiled} of {modules}" for package, (compiled, modules) in installed.compiled.items()
+        ),
+        "environment": f"PYTHONDONTWRITEBYTECODE=1; {bench.environment.protection}",
+        "rounds": f"{bench.rounds}, in turns, after one that does not count; times are medians",
+    }
+
+
+def import_robots(bench: Bench, group: str, files: list[Path]) -> Iterator[str]:
+    """Import robots from what xacro makes of them; yield a line for each that one side cannot read."""
+    robots: list[Robot] = []
+    for file in files:
+        print(f"importing {file}", file=sys.stderr)
+        folder = tempfile.mkdtemp(dir=bench.folder)
+        name = file.name.removesuffix(".xacro").removesuffix(".urdf")
+        urdf, spec = f"{folder}/{name}.urdf", f"{folder}/{name}.robot.yaml"
+        for program, *words in (
+            ("xacro", str(file), "-o", urdf),
+            ("linkforge", "import", urdf, "-o", spec),
+            ("linkforge", "compile", spec, "-o", f"{folder}/out/"),
+        ):
+            run = bench.environment.run(bench.environment.program(program), *words)
+            if run.returncode:
+                message = (run.stderr.strip() or "no message").splitlines()[0]
+                step = program if program == "xacro" else f"{program} {words[0]}"
+                yield f"left out: {file}; {step}: {message}"
+                break
+        else:
+            robots.append(Robot(name, file, Path(spec)))
+    if robots:
+        bench.robots[group] = robots
 
 
 if __name__ == "__main__":
