@@ -122,7 +122,12 @@ def _with_default(spec: Spec, kind: type[Any], name: str) -> Spec:
 
 def number_fields(kind: type) -> Mapping[str, Number]:
     """Return the specs of the numbers of a model class, in the order of its fields."""
-    return {name: spec for name, spec in field_specs(kind).items() if isinstance(spec, Number)}
+    return _number_fields(kind)
+
+
+@cache
+def _number_fields(kind: type) -> Mapping[str, Number]:
+    return {name: spec for name, spec in _field_specs(kind).items() if isinstance(spec, Number)}
 
 
 def written_numbers(part: object) -> Iterator[tuple[str, float]]:

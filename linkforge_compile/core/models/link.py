@@ -241,7 +241,7 @@ class Link(Renamable):
         name = prefixed(prefix, self.name)
         require_valid_characters(name, "link name", "LinkName")
         link = copy(self)
-        link.name = name
+        object.__setattr__(link, "name", name)  # no index holds the copy yet, so that none has to look again
         link.visuals = tuple(prefixed_copies(self.visuals, prefix))
         link.collisions = tuple(prefixed_copies(self.collisions, prefix))
         return link
