@@ -10,7 +10,7 @@ import pytest
 from linkforge_compile import __version__
 from tests.conftest import ROOT
 
-HEAVY = {"jinja2", "jsonschema", "networkx", "lxml", "yaml", "difflib", "numpy"}
+HEAVY = {"jinja2", "jsonschema", "networkx", "lxml", "yaml", "difflib", "numpy", "re2"}
 
 
 PLAIN = """
@@ -55,7 +55,7 @@ semantic:
 """
 """A robot whose chains, groups, states, mimics and massless links are all looked at."""
 
-NEEDLESS = {"networkx", "jsonschema", "difflib", "numpy", "trimesh"}
+NEEDLESS = {"networkx", "jsonschema", "difflib", "numpy", "trimesh", "re2"}
 """Packages that no robot without faults needs."""
 
 
