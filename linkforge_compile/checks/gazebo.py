@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence, Set
+from itertools import takewhile
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.checks.references import SHOWN, Use, listed
-from linkforge_compile.checks.tree import hanging, parent_joints
+from linkforge_compile.checks.tree import hanging
 from linkforge_compile.core.constants import WORLD
+from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps, Note
@@ -46,19 +47,22 @@ def check_massless_bodies(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """
     if gaps:
         return
-    above = parent_joints(robot)
+    above = parent_joints(robot.joints)
     weights = _merged_weights(robot, above)
     if all(weights.values()):
         return
-    below, loaded = _joints_below(robot), _links_that_carry_mass(robot, above)
+    below, loaded = child_joints(robot.joints), _links_that_carry_mass(robot, above)
     is_for_gazebo = bool(robot.gazebo_elements or robot.sensors)
-    pending = [link.name for link in reversed(robot.links) if link.name not in above]
-    while pending:
-        name = pending.pop()
-        if name in loaded and weights.get(name, 1.0) == 0 and (name in above or is_for_gazebo) and name != WORLD:
-            yield _lost(robot.links[name], above.get(name), _moving_joints(name, below))
-        else:
-            pending += [joint.child for joint in reversed(below[name]) if above[joint.child] is joint]
+    roots = [link.name for link in robot.links if link.name not in above]
+    lost: set[str] = set()
+    for name in (*roots, *(joint.child for joint in walk_down(roots, child_joints(above.values())))):
+        joint = above.get(name)
+        if joint and joint.parent in lost:
+            lost.add(name)
+        elif name in loaded and weights.get(name, 1.0) == 0 and (joint or is_for_gazebo) and name != WORLD:
+            lost.add(name)
+            moving = [one for one in walk_down([name], below) if one.type != JointType.FIXED]
+            yield _lost(robot.links[name], joint, moving)
 
 
 def _lost(link: Link, joint: Joint | None, moving: Sequence[Joint]) -> Diagnostic:
@@ -78,7 +82,7 @@ def check_tiny_masses(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """
     if gaps:
         return
-    above = parent_joints(robot)
+    above = parent_joints(robot.joints)
     for name, weight in _merged_weights(robot, above).items():
         if 0 < weight <= NEGLIGIBLE_MASS and name in above:
             link = robot.links[name]
@@ -220,55 +224,27 @@ def _merged_weights(robot: Robot, above: Mapping[str, Joint]) -> Mapping[str, fl
     into = {joint.child: joint.parent for joint in _merged_joints(robot) if above[joint.child] is joint}
     weights = {link.name: 0.0 for link in robot.links if link.name not in into}
     for link in robot.links:
-        name = _end_of_way(link.name, into) if link.name in into else link.name
+        name = _end_of_way(link.name, into)
         if name in weights:
             weights[name] += link.mass
     return weights
 
 
 def _end_of_way(link: str, into: dict[str, str]) -> str:
-    """Return what a link is merged into in the end, and let all on the way lead there at once.
-
-    So no way is gone twice, nor round a circle.
-    """
-    way = dict[str, None]()
-    while link in into and link not in way:
-        way[link] = None
-        link = into[link]
-    into.update(dict.fromkeys(way, link))
-    return link
+    """Return what a link is merged into in the end, and record it for all on the way, so that none is walked twice."""
+    *way, end = walk_up(link, into)
+    into.update(dict.fromkeys(way, end))
+    return end
 
 
 def _links_that_carry_mass(robot: Robot, above: Mapping[str, Joint]) -> set[str]:
     """Return the links that have mass and all those above them."""
+    parents = {name: joint.parent for name, joint in above.items()}
     carriers: set[str] = set()
     for link in robot.links:
-        name = link.name if link.mass else None
-        while name is not None and name not in carriers:
-            carriers.add(name)
-            joint = above.get(name)
-            name = joint.parent if joint else None
+        if link.mass:
+            carriers.update(takewhile(lambda name: name not in carriers, walk_up(link.name, parents)))
     return carriers
-
-
-def _joints_below(robot: Robot) -> Mapping[str, Sequence[Joint]]:
-    below: dict[str, list[Joint]] = defaultdict(list)
-    for joint in robot.joints:
-        below[joint.parent].append(joint)
-    return below
-
-
-def _moving_joints(link: str, below: Mapping[str, Sequence[Joint]]) -> Sequence[Joint]:
-    """Return the joints that move what hangs below a link, level by level."""
-    reached, seen = [link], {link}
-    moving = []
-    for name in reached:
-        for joint in below[name]:
-            if joint.child not in seen:
-                seen.add(joint.child)
-                reached.append(joint.child)
-                moving += [joint] if joint.type != JointType.FIXED else []
-    return moving
 
 
 def _says_something(block: GazeboElement) -> bool:

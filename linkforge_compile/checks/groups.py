@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkforge_compile.checks.circles import told_circles
+from linkforge_compile.checks.cycles import report_cycles
 from linkforge_compile.checks.link_sets import LinkSets, group_links
 from linkforge_compile.checks.references import Use
 from linkforge_compile.core.models.robot import Robot
@@ -33,7 +33,7 @@ def check_group_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         for group in robot.semantic.groups
         if group.subgroups
     }
-    yield from told_circles(subgroups, GROUP_CIRCLE)
+    yield from report_cycles(subgroups, GROUP_CIRCLE)
 
 
 def check_chains(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

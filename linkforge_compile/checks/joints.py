@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from linkforge_compile.checks.circles import told_circles
+from linkforge_compile.checks.cycles import report_cycles
 from linkforge_compile.checks.ranges import is_known, measured, passed_range, says_unit, unit_at
 from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointMimic, JointSafetyController, JointType
@@ -56,7 +56,7 @@ def check_mimic_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     In a circle none leads: MoveIt drops every mimic of the robot, other readers never end. Let one joint of
     the circle lead, without `mimic`, and the others mimic that.
     """
-    yield from told_circles({name: (use,) for name, use in _mimics(robot).items()}, MIMIC_CIRCLE)
+    yield from report_cycles({name: (use,) for name, use in _mimics(robot).items()}, MIMIC_CIRCLE)
 
 
 def check_mimic_freedom(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:

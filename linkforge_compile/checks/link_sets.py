@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from functools import reduce
+from itertools import takewhile
 from operator import or_
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.tree import parent_joints
+from linkforge_compile.core.models.graph import parent_joints, walk_up
 from linkforge_compile.core.models.robot import Robot
 
 if TYPE_CHECKING:
@@ -19,8 +20,8 @@ class LinkSets:
 
     def __init__(self, robot: Robot) -> None:
         self._known = frozenset(robot.links.names)
-        self._above = parent_joints(robot)
-        self._names = [*dict.fromkeys((*self._above, *robot.links.names))]
+        self._parents = {name: joint.parent for name, joint in parent_joints(robot.joints).items()}
+        self._names = [*dict.fromkeys((*self._parents, *robot.links.names))]
         self._places = {name: place for place, name in enumerate(self._names)}
         self._ways_up: dict[str, int] = {}
         self._lowest: dict[bytes, str] = {}
@@ -60,14 +61,10 @@ class LinkSets:
         return below if meeting == chain.base_link else below | self.bit(meeting)
 
     def _way_up(self, link: str) -> int:
-        """Return the set of a link and all those that it hangs on, of a circle once; empty for one that is unknown."""
-        way: list[str] = []
-        end = link
-        while end in self._known and end not in self._ways_up:
-            way.append(end)
-            self._ways_up[end] = 0  # where the way leads back to here, it ends
-            end = self._above[end].parent if end in self._above else ""
-        links = self._ways_up.get(end, 0)
+        """Return the set of a link and all those above it, of a cycle once; empty for one that is unknown."""
+        new = takewhile(lambda each: each in self._known and each not in self._ways_up, walk_up(link, self._parents))
+        way = list(new)
+        links = self._ways_up.get(self._parents.get(way[-1], ""), 0) if way else 0
         for each in reversed(way):
             links |= self.bit(each)
             self._ways_up[each] = links

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.circles import Graph, circles, told_circles
+from linkforge_compile.checks.cycles import Graph, cycles, report_cycles
 from linkforge_compile.checks.references import SHOWN, Use, listed, unknown
 from linkforge_compile.core.constants import WORLD
+from linkforge_compile.core.models.graph import find_tree_root
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Gaps, Note, Where
 from linkforge_compile.diagnostics.codes.model import LINK_CIRCLE, NO_LINKS, SECOND_PARENT, SEVERAL_ROOTS
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
+
+if TYPE_CHECKING:
+    from networkx import DiGraph
 
 
 def check_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
@@ -54,7 +59,7 @@ def check_second_parents(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     for joint in robot.joints:
         joints_above.setdefault(joint.child, []).append(joint)
     shared = [joints for child, joints in joints_above.items() if len(joints) > 1 and robot.has_link(child)]
-    closing = {circle[-1].user for circle in circles(joint_graph(robot))} if shared else set()
+    closing = {cycle[-1].user for cycle in cycles(joint_graph(robot))} if shared else set()
     for joints in shared:
         first, *others = [joint for joint in joints if hanging(joint).user not in closing] or joints[:1]
         note = hanging(first).note(f"joint '{first.name}' hangs '{first.child}' on '{first.parent}'")
@@ -77,7 +82,8 @@ def check_link_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     Such links have no place in the world, and readers that walk the tree never end. One joint of the circle
     has the wrong parent or child, or the two were swapped.
     """
-    yield from told_circles(joint_graph(robot), LINK_CIRCLE)
+    if find_tree_root(robot.links, robot.joints) is None:
+        yield from report_cycles(joint_graph(robot), LINK_CIRCLE)
 
 
 def check_single_root(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
@@ -93,15 +99,17 @@ def check_single_root(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     astray = len(robot.joints) - len(children) + raw
     if gaps or len(roots) - 1 <= astray:
         return
-    graph = joint_graph(robot)
+    from networkx import descendants
+
+    graph = _links_and_joints(robot)
     # A link on which nothing hangs has lost its joint, wherever it stands; else the base is what people write first.
-    root = min(roots, key=lambda link: (link.name != WORLD, not any(use.name in graph for use in graph[link.name])))
+    root = min(roots, key=lambda link: (link.name != WORLD, not graph[link.name]))
     strays = [link for link in roots if link is not root]
     yield SEVERAL_ROOTS.at(
         _missing_joint(strays[0], root),
         notes=[
             *_base_by_omission(strays[0], root),
-            *(_beginning(link, _links_below(link.name, graph)) for link in (root, *strays)[:SHOWN]),
+            *(_beginning(link, len(descendants(graph, link.name))) for link in (root, *strays)[:SHOWN]),
         ],
         count=len(roots),
         roots=listed([link.name for link in roots]),
@@ -126,15 +134,15 @@ def _base_by_omission(stray: Link, root: Link) -> Iterator[Note]:
         yield Note(f"or hang this module, which has no 'parent' and so is the base: 'parent: {stray.name}'", uses[-1])
 
 
-def _links_below(root: str, graph: Graph) -> int:
-    reached = {root}
-    pending = [root]
-    while pending:
-        for use in graph.get(pending.pop(), ()):
-            if use.name in graph and use.name not in reached:
-                reached.add(use.name)
-                pending.append(use.name)
-    return len(reached) - 1
+def _links_and_joints(robot: Robot) -> DiGraph[str]:
+    """Return the graph of the joints whose links are both there."""
+    from networkx import DiGraph
+
+    graph: DiGraph[str] = DiGraph()
+    graph.add_nodes_from(robot.links.names)
+    graph.add_edges_from((joint.parent, joint.child) for joint in robot.joints)
+    graph.remove_nodes_from([name for name in graph if not robot.has_link(name)])
+    return graph
 
 
 def _beginning(link: Link, links_below: int) -> Note:
@@ -156,11 +164,3 @@ def joint_graph(robot: Robot) -> Graph:
         if joint.parent in graph:
             graph[joint.parent].append(hanging(joint))
     return graph
-
-
-def parent_joints(robot: Robot) -> Mapping[str, Joint]:
-    """Return the joint on which each link hangs, the first one where several are written."""
-    above: dict[str, Joint] = {}
-    for joint in robot.joints:
-        above.setdefault(joint.child, joint)
-    return above

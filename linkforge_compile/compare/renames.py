@@ -10,6 +10,7 @@ from typing import NamedTuple, TypeAlias
 from linkforge_compile.compare.likeness import likeness
 from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
 from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import Joint, JointMimic
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.planning import (
@@ -109,14 +110,11 @@ def _hanging(robot: Robot, root: Link) -> Sequence[Joint]:
 
 
 def _parents_first(robot: Robot) -> Iterator[str]:
-    """Yield the links from the roots on; those of a circle, which no root leads to, are left out."""
-    level = [link.name for link in robot.links if robot.get_parent_joint(link.name) is None]
-    seen = set(level)
-    while level:
-        yield from level
-        children = [joint.child for name in level for joint in robot.get_child_joints(name)]
-        level = [child for child in dict.fromkeys(children) if child not in seen]
-        seen.update(level)
+    """Yield the links from the roots down, without those of a cycle that no root leads to."""
+    above = parent_joints(robot.joints)
+    roots = [link.name for link in robot.links if link.name not in above]
+    yield from roots
+    yield from (joint.child for joint in walk_down(roots, child_joints(robot.joints)))
 
 
 _NAMES: Mapping[type, Collection[str]] = {

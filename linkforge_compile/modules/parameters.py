@@ -32,8 +32,8 @@ from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_te
 if TYPE_CHECKING:
     from linkforge_compile.modules.patterns import Pattern
 
-_STEPS_A_STATE = 4
-"""What it takes to make one place of a pattern, in steps of expressions."""
+_STEPS_AN_INSTRUCTION = 4
+"""What it takes to compile one instruction of a pattern, in steps of expressions."""
 
 _CONSTRAINTS = ("minimum", "maximum", "enum", "pattern")
 
@@ -177,14 +177,14 @@ def _choices(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) -> tu
 def _pattern(node: YamlNode | None, tree: TreeEvaluator) -> Pattern | None:
     if not isinstance(node, YamlScalar):
         return None
-    from linkforge_compile.modules.patterns import MAX_STATES, Pattern, PatternError
+    from linkforge_compile.modules.patterns import REFUSED_STEPS, Pattern, PatternError
 
     try:
         pattern = Pattern(node.text)
-        tree.expressions.budget.spend(Limit.STEPS, pattern.steps("") * _STEPS_A_STATE, node.span)
+        tree.expressions.budget.spend(Limit.STEPS, pattern.steps("") * _STEPS_AN_INSTRUCTION, node.span)
         return pattern
     except PatternError as error:
-        tree.expressions.budget.spend(Limit.STEPS, MAX_STATES * _STEPS_A_STATE, node.span)
+        tree.expressions.budget.spend(Limit.STEPS, REFUSED_STEPS, node.span)
         tree.sink.report(BAD_PATTERN.at(node.span, pattern=node.text, reason=error))
         return None
 

@@ -10,7 +10,7 @@ import pytest
 from linkforge_compile import __version__
 from tests.conftest import ROOT
 
-HEAVY = {"jinja2", "jsonschema", "networkx", "lxml", "yaml", "difflib", "numpy"}
+HEAVY = {"jinja2", "jsonschema", "networkx", "lxml", "yaml", "difflib", "numpy", "re2"}
 
 
 PLAIN = """
@@ -31,7 +31,31 @@ modules:
   right: {use: plain.robot.yaml, parent: stand, origin: [0, $(-gap), 0]}
 """
 
-NEEDLESS = {"networkx", "jsonschema", "difflib", "numpy", "trimesh"}
+SEMANTIC = """
+linkforge: 1
+name: semantic
+links: {base: , arm: , hand: {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}, left: , right: }
+joints:
+  turn: {type: revolute, parent: base, child: arm, axis: z, limits: {lower: -1, upper: 1, effort: 1, velocity: 1}}
+  wrist: {type: fixed, parent: arm, child: hand}
+  pinch: {type: prismatic, parent: hand, child: left, axis: y, limits: {lower: 0, upper: 1, effort: 1, velocity: 1}}
+  follow:
+    {type: prismatic, parent: hand, child: right, axis: -y, limits: {lower: 0, upper: 1, effort: 1, velocity: 1},
+     mimic: {joint: pinch}}
+gazebo: [{static: false}]
+semantic:
+  groups:
+    all: {subgroups: [arm, fingers]}
+    arm: {chain: {base_link: base, tip_link: hand}}
+    fingers: {joints: [pinch]}
+  group_states:
+    fingers: {open: {pinch: 1 m}}
+    all: {ready: {turn: 1, fingers: open}}
+  end_effectors: {gripper: {group: fingers, parent_link: hand, parent_group: arm}}
+"""
+"""A robot whose chains, groups, states, mimics and massless links are all looked at."""
+
+NEEDLESS = {"networkx", "jsonschema", "difflib", "numpy", "trimesh", "re2"}
 """Packages that no robot without faults needs."""
 
 
@@ -59,7 +83,7 @@ def test_the_version_is_answered_before_argparse():
     assert not modules_after("--version") & {"argparse", "importlib.metadata"}
 
 
-@pytest.mark.parametrize("spec", [PLAIN, TWO], ids=["plain", "modules"])
+@pytest.mark.parametrize("spec", [PLAIN, TWO, SEMANTIC], ids=["plain", "modules", "semantic"])
 def test_a_robot_without_faults_imports_nothing_needless(spec: str, tmp_path: Path):
     (tmp_path / "plain.robot.yaml").write_text(PLAIN, "utf-8")
     (tmp_path / "robot.robot.yaml").write_text(spec, "utf-8")

@@ -2,10 +2,13 @@
 
 from itertools import pairwise
 
+import networkx
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from linkforge_compile.core import Joint, KinematicGraph, Link, Robot, RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.models.graph import refuse_cycles
+from linkforge_compile.core.models.graph import find_cycles, find_tree_root
 
 
 def graph(*edges: str, alone: str = "") -> KinematicGraph:
@@ -67,14 +70,44 @@ def test_a_graph_is_drawn_anew_only_after_a_change():
         _ = robot.graph
 
 
-def test_merging_finds_the_cycles_that_networkx_finds():
-    for edges in (("ab", "bc"), ("ab", "ac", "bd", "cd"), ("ab", "bc", "ca"), ("xy", "ab", "bc", "cb")):
-        drawn = graph(*edges)
-        if drawn.has_cycle():
-            with pytest.raises(RobotValidationError, match="cycles"):
-                refuse_cycles(drawn.joints)
-        else:
-            refuse_cycles(drawn.joints)
+@given(
+    st.lists(st.tuples(st.sampled_from("abcdef"), st.sampled_from("abcdef")).filter(lambda ends: ends[0] != ends[1]))
+)
+def test_the_plain_walk_recognizes_a_tree_as_networkx_does(ends: list[tuple[str, str]]):
+    drawn = networkx.MultiDiGraph(ends)
+    drawn.add_nodes_from("abcdef")
+    links, joints = [Link(name) for name in "abcdef"], [Joint(f"j{i}", "fixed", *two) for i, two in enumerate(ends)]
+    root = find_tree_root(links, joints)
+    assert (root is not None) == networkx.is_arborescence(drawn)
+    assert root is None or drawn.in_degree(root) == 0
+
+
+@pytest.mark.parametrize(
+    "edges", [("ab", "bc"), ("ab", "ac", "bd", "cd"), ("ab", "bc", "ca"), ("xy", "ab", "bc", "cb")]
+)
+def test_merging_refuses_cycles_and_no_other_graph(edges: tuple[str, ...]):
+    drawn = graph(*edges)
+    component = Robot("component", links=[Link(name) for name in sorted(drawn.link_names)], joints=drawn.joints)
+    whole = Robot("whole", links=[Link("base")])
+    if drawn.has_cycle():
+        with pytest.raises(RobotValidationError, match="cycles"):
+            whole.merge(component, None, None)
+    else:
+        assert len(whole.merge(component, None, None).joints) == len(edges)
+
+
+def test_each_edge_that_closes_a_cycle_is_found_once():
+    assert [*find_cycles({"a": ["b", "b"], "b": ["a", "c", "a"], "c": ["c", "nowhere"]})] == [
+        [("a", 0), ("b", 0)],
+        [("c", 0)],
+        [("a", 0), ("b", 2)],
+    ]
+    assert [*find_cycles({"a": ["b", "c"], "b": ["d"], "c": ["d"], "d": []})] == []
+
+
+def test_a_ring_of_ten_thousand_is_found_without_recursion():
+    (ring,) = find_cycles({f"n{number}": [f"n{(number + 1) % 10_000}"] for number in range(10_000)})
+    assert ring == [(f"n{number}", 0) for number in range(10_000)]
 
 
 def test_a_chain_of_ten_thousand_links_is_not_too_deep():

@@ -224,7 +224,7 @@ class Inventory:
             RobotValidationError: NO_ROOT, MULTIPLE_ROOTS, or NOT_FOUND for a joint without its links.
 
         """
-        return single_root(self.links, self.joints)
+        return self.link(single_root(self.graph))
 
     @property
     def root_link(self) -> Link:

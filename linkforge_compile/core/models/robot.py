@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.geometry import IDENTITY
-from linkforge_compile.core.models.graph import refuse_no_graph, tree_root
+from linkforge_compile.core.models.graph import refuse_cycles, tree_root
 from linkforge_compile.core.models.index import NAME, Index
 from linkforge_compile.core.models.inventory import require_robot_name
 from linkforge_compile.core.models.joint import Joint, JointType
@@ -153,7 +153,7 @@ class Robot(SemanticRobot):
         links = own_links.extended(parts.links)  # of two links of one name, nobody could say which one a joint means
         joints = parts.joints
         if at_link is None:
-            refuse_no_graph(parts.links, parts.joints)
+            refuse_cycles(parts.links, parts.joints)
         else:
             # The connecting joint comes from a link that is none of theirs, so it makes no cycle.
             root = tree_root(parts.links, parts.joints)

@@ -15,25 +15,23 @@ _NO_JOINTS = frozenset(("extra", "extra_attributes", "extra_inside", "for", "whe
 
 
 def subgroups_first(groups: Iterable[XmlElement]) -> list[XmlElement]:
-    """Return groups so that each comes after those in it, as far as they are no circle; of one name, as in the file.
+    """Return groups so that each comes after those in it, as far as they are no cycle; of one name, as in the file."""
+    from graphlib import CycleError, TopologicalSorter
 
-    Without recursion, since a chain of groups may be 10,000 long.
-    """
     named: dict[str, list[XmlElement]] = {}
     for group in groups:
         named.setdefault(group.get("name") or "", []).append(group)
-    reached: set[str] = set()
-    ordered: dict[str, None] = {}
-    waiting = list(reversed(named))
-    while waiting:
-        name = waiting[-1]
-        if name in reached:
-            ordered.setdefault(waiting.pop())
-            continue
-        reached.add(name)
-        inner = (part.get("name") for group in named[name] for part in group.children if part.tag == "group")
-        waiting += [part for part in inner if part in named and part not in reached]
-    return [group for name in ordered for group in named[name]]
+    inner: dict[str, Iterable[str]] = {}
+    for name, same in named.items():
+        parts = (part.get("name") for group in same for part in group.children if part.tag == "group")
+        inner[name] = [part for part in parts if part in named][::-1]
+    try:
+        order: Iterable[str] = tuple(TopologicalSorter(inner).static_order())
+    except CycleError:
+        from networkx import DiGraph, dfs_postorder_nodes
+
+        order = dfs_postorder_nodes(DiGraph(inner))
+    return [group for name in order for group in named[name]]
 
 
 def read_group(group: Reading, known: Known) -> YamlMap:
