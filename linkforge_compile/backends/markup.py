@@ -47,6 +47,10 @@ class Xml(str):
 
     __slots__ = ()
 
+    def __html__(self) -> Xml:
+        """Return the text itself: what MarkupSafe, and so Jinja2, asks of what is escaped already."""
+        return self
+
 
 NOTHING = Xml()
 """Where a part of the robot is not stated."""
@@ -165,63 +169,41 @@ INDENT = "  "
 """What a line of a document stands further in than the one around it."""
 
 
-def ready(value: object) -> str:
-    """Return a string escaped, unless it is XML already; that is all that templates place."""
-    if value.__class__ is Xml:  # nine of ten
-        return value
-    if isinstance(value, str):
-        return escaped(value)
-    raise TypeError(f"templates place strings that are ready, found {value!r}")
-
-
-def lay(lines: list[str], indent: str, value: object) -> None:
-    """Append a value that stands on a line of its own, or is several: what it begins, it ends. Nothing is no line."""
-    text = value if value.__class__ is Xml else ready(value)
-    if "\n" in text:
-        lines += laid_out(text, indent)
-    elif text:
-        lines.append(indent + text)
-
-
-def end(lines: list[str], begun: int, closing: str) -> None:
-    """Append the closing tag of an element whose first tag was the last of so many lines; an empty one ends there."""
-    if len(lines) == begun:
-        lines[-1] = f"{lines[-1][:-1]}/>"
-    else:
-        lines.append(closing)
-
-
-def document_text(lines: list[str], *, pretty: bool) -> str:
-    """Return a document of indented lines, or put it on one line.
+def document_text(text: str, *, pretty: bool) -> str:
+    """Return what a template rendered, a tag or an element a line, as an indented document, or on one line.
 
     Comments and texts of raw XML keep their lines either way; while a map is recorded, whoever takes its marks out
     breaks them.
     """
-    text = "\n".join(lines)
+    lines = laid_out(text)
     if MARK in text:
         from linkforge_compile.backends.inside import with_insides
 
-        lines = laid_out(with_insides(text))
-        text = "\n".join(lines)
-    if "></" in text:
-        lines = [_EMPTY.sub(r"<\1/>", line) if "></" in line else line for line in lines]
+        lines = laid_out(with_insides("\n".join(lines)))
+    lines = [_EMPTY.sub(r"<\1/>", line) if "></" in line else line for line in lines]
     if not pretty:
-        lines = [line.lstrip(INDENT) for line in lines]
+        # Text on several lines would run together.
+        lines = [line.lstrip(INDENT) + ("" if line.endswith(">") else "\n") for line in lines]
     text = ("\n" if pretty else "").join(lines)
     return text if recorded() else restored(text)
 
 
-def laid_out(text: str, indent: str = "") -> list[str]:
-    """Return the lines of a text, each an opening tag, a closing tag, or something whole, indented."""
+def laid_out(text: str) -> list[str]:
+    """Return the lines of a text indented, each an opening tag, a closing tag, or something whole.
+
+    An element without content closes itself.
+    """
     lines: list[str] = []
     begun: list[int] = []
     for line in filter(None, map(str.strip, text.split("\n"))):
-        if is_closing(line):
-            end(lines, begun.pop(), indent + INDENT * len(begun) + line)
-            continue
-        lines.append(indent + INDENT * len(begun) + line)
-        if is_opening(line):
-            begun.append(len(lines))
+        if not is_closing(line) or not begun:
+            lines.append(INDENT * len(begun) + line)
+            if is_opening(line):
+                begun.append(len(lines))
+        elif begun.pop() == len(lines):
+            lines[-1] = f"{lines[-1][:-1]}/>"
+        else:
+            lines.append(INDENT * len(begun) + line)
     return lines
 
 
@@ -232,4 +214,4 @@ def is_closing(line: str) -> bool:
 
 def is_opening(line: str) -> bool:
     """Whether a line begins an element that a later one ends."""
-    return line[0] == "<" and line[1] not in "!?" and line[-2] != "/" and "</" not in line
+    return line[0] == "<" and line[1:2] not in "!?" and line[-2] != "/" and "</" not in line

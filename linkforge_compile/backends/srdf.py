@@ -25,4 +25,5 @@ def render_srdf(robot: Robot, *, pretty: bool = True, banner: str | None = None)
     # Most robots have none, and its views take their time to define.
     from linkforge_compile.backends.srdf_view import semantic_view
 
-    return render("srdf/robot.xml.j2", semantic_view(robot), pretty=pretty, banner=banner)
+    views = {"robot": robot, "srdf": semantic_view(robot)}
+    return render("srdf/robot.xml.j2", views, pretty=pretty, banner=banner)

@@ -68,7 +68,8 @@ def render_urdf(robot: Robot, *, pretty: bool = True, banner: str | None = None,
 
     """
     require_dialect(gazebo)
-    return render("urdf/robot.xml.j2", _robot_view(robot, gazebo), pretty=pretty, banner=banner)
+    views = {"robot": robot, "urdf": robot_view(robot, gazebo)}
+    return render("urdf/robot.xml.j2", views, pretty=pretty, banner=banner)
 
 
 def stated_version(robot: Robot) -> str | None:
@@ -86,7 +87,13 @@ def capsules(robot: Robot) -> Iterator[Capsule]:
                 yield shape.geometry
 
 
-def _robot_view(robot: Robot, gazebo: Gazebo) -> RobotView:
+def robot_view(robot: Robot, gazebo: Gazebo) -> RobotView:
+    """Return what templates see of a robot in URDF.
+
+    Raises:
+        RobotGeneratorError: as `render_urdf`.
+
+    """
     materials = {material.name: material for material in robot.materials.values() if material.name}
     version = stated_version(robot)
     return RobotView(
