@@ -20,6 +20,11 @@ def templates_folder() -> Path:
     return data_folder() / "templates"
 
 
+def compiled_templates_folder() -> Path:
+    """Return the folder of the templates that were compiled when the wheel was built; a checkout has none."""
+    return _packed() / "compiled_templates"
+
+
 def compiler_files() -> tuple[Path, ...]:
     """Return what of linkforge itself its output depends on: the templates, and the version, which an update renews."""
     templates = (path for format_ in ("srdf", "urdf") for path in sorted((templates_folder() / format_).rglob("*.j2")))

@@ -10,7 +10,6 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "linkforge_compile"
 
 MAY_IMPORT = {
-    "bytecode": "",
     "banner": "",
     "source": "",
     "units": "",
@@ -24,13 +23,14 @@ MAY_IMPORT = {
     "bounds": "source diagnostics",
     "syntax": "source diagnostics bounds units",
     "expressions": "source diagnostics bounds units syntax",
-    "schema": "bytecode source diagnostics syntax units resources expressions",
+    "schema": "source diagnostics syntax units resources expressions",
     "core": "manifest source units roots shape_order",
     "importers": "banner source diagnostics bounds units syntax core shape_order",
     "modules": "source diagnostics bounds units syntax schema expressions importers manifest roots",
     "lowering": "source diagnostics bounds units syntax modules core roots shape_order",
     "checks": "source diagnostics units core roots",
-    "backends": "bytecode source diagnostics bounds units core resources shape_order",
+    "backends": "source diagnostics bounds units core resources roots shape_order",
+    "_build_hook": "backends",
     "writers": "source units syntax core modules shape_order",
     "compare": "units core backends shape_order",
     "pipeline": (
@@ -38,7 +38,7 @@ MAY_IMPORT = {
     ),
     "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline",
     "launch": "diagnostics backends core modules pipeline stamps",
-    "editor": "diagnostics syntax schema modules lowering core roots resources",
+    "editor": "diagnostics syntax schema modules lowering core roots resources backends",
     "cli": (
         "banner source diagnostics bounds roots core checks schema modules pipeline importing backends writers compare "
         "editor resources stamps _version"

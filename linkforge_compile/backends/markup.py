@@ -18,7 +18,10 @@ from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import double_text, number_text
 
-_EMPTY = re.compile(r"<(([^\s<>/]+)[^<>]*)(?<!/)></\2>")
+_EMPTY = re.compile(r"<(([^\s<>/]++)[^<>]*+)(?<!/)></\2>")
+
+_SPLIT_TAG = re.compile(r"<(?![!?])[^<>\n]*\n[^<>]*>")
+_LINE_BREAK = re.compile(r"\s*\n\s*")
 
 # No XML 1.0 document may hold these, not even as a reference.
 _CONTROLS, _BEYOND_ASCII = "\x00-\x08\x0b\x0c\x0e-\x1f", "\ud800-\udfff\ufffe\uffff"
@@ -42,10 +45,17 @@ MARK = "\x00"
 """Begins a line that is no XML, and that none can be taken for: what `extra_inside` says of the element around it."""
 
 
+_MARK_LINE = re.compile(f"^{MARK}.*$", re.MULTILINE)
+
+
 class Xml(str):
     """Text that is XML already; templates write it as it stands."""
 
     __slots__ = ()
+
+    def __html__(self) -> Xml:
+        """Return the text itself: what MarkupSafe, and so Jinja2, asks of what is escaped already."""
+        return self
 
 
 NOTHING = Xml()
@@ -165,64 +175,57 @@ INDENT = "  "
 """What a line of a document stands further in than the one around it."""
 
 
-def ready(value: object) -> str:
-    """Return a string escaped, unless it is XML already; that is all that templates place."""
-    if value.__class__ is Xml:  # nine of ten
-        return value
-    if isinstance(value, str):
-        return escaped(value)
-    raise TypeError(f"templates place strings that are ready, found {value!r}")
-
-
-def lay(lines: list[str], indent: str, value: object) -> None:
-    """Append a value that stands on a line of its own, or is several: what it begins, it ends. Nothing is no line."""
-    text = value if value.__class__ is Xml else ready(value)
-    if "\n" in text:
-        lines += laid_out(text, indent)
-    elif text:
-        lines.append(indent + text)
-
-
-def end(lines: list[str], begun: int, closing: str) -> None:
-    """Append the closing tag of an element whose first tag was the last of so many lines; an empty one ends there."""
-    if len(lines) == begun:
-        lines[-1] = f"{lines[-1][:-1]}/>"
-    else:
-        lines.append(closing)
-
-
-def document_text(lines: list[str], *, pretty: bool) -> str:
-    """Return a document of indented lines, or put it on one line.
+def document_text(text: str, *, pretty: bool) -> str:
+    """Return what a template rendered, a tag or an element a line, as an indented document, or on one line.
 
     Comments and texts of raw XML keep their lines either way; while a map is recorded, whoever takes its marks out
     breaks them.
     """
-    text = "\n".join(lines)
+    lines = laid_out(text)
     if MARK in text:
         from linkforge_compile.backends.inside import with_insides
 
-        lines = laid_out(with_insides(text))
-        text = "\n".join(lines)
-    if "></" in text:
-        lines = [_EMPTY.sub(r"<\1/>", line) if "></" in line else line for line in lines]
+        lines = laid_out(with_insides("\n".join(lines)))
+    lines = [_EMPTY.sub(r"<\1/>", line) if "></" in line else line for line in lines]
     if not pretty:
-        lines = [line.lstrip(INDENT) for line in lines]
+        # Text on several lines would run together.
+        lines = [line.lstrip(INDENT) + ("" if line.endswith(">") else "\n") for line in lines]
     text = ("\n" if pretty else "").join(lines)
     return text if recorded() else restored(text)
 
 
-def laid_out(text: str, indent: str = "") -> list[str]:
-    """Return the lines of a text, each an opening tag, a closing tag, or something whole, indented."""
+def whole_tags(text: str) -> str:
+    """Return XML with each tag on one line."""
+    return _SPLIT_TAG.sub(lambda tag: _LINE_BREAK.sub(" ", tag[0]), text)
+
+
+def laid_out(text: str) -> list[str]:
+    """Return the lines of a text indented, each an opening tag, a closing tag, or something whole.
+
+    An element without content closes itself.
+    """
     lines: list[str] = []
     begun: list[int] = []
     for line in filter(None, map(str.strip, text.split("\n"))):
-        if is_closing(line):
-            end(lines, begun.pop(), indent + INDENT * len(begun) + line)
-            continue
-        lines.append(indent + INDENT * len(begun) + line)
-        if is_opening(line):
-            begun.append(len(lines))
+        if not is_closing(line) or not begun:
+            lines.append(INDENT * len(begun) + line)
+            if is_opening(line):
+                begun.append(len(lines))
+        elif begun.pop() == len(lines) and _is_one_tag(lines[-1]) and _is_one_tag(line):
+            lines[-1] = f"{lines[-1][:-1]}/>"
+        else:
+            lines.append(INDENT * len(begun) + line)
     return lines
+
+
+def _is_one_tag(line: str) -> bool:
+    """Whether a line is a tag and nothing else; one with a `>` in an attribute may be taken for more."""
+    return line[-1] == ">" and line.count("<") == 1 and line.count(">") == 1
+
+
+def without_marks(text: str) -> str:
+    """Return what a template rendered as XML: without the lines that are none, and with the signs of raw XML."""
+    return restored(_MARK_LINE.sub("", text))
 
 
 def is_closing(line: str) -> bool:
@@ -232,4 +235,4 @@ def is_closing(line: str) -> bool:
 
 def is_opening(line: str) -> bool:
     """Whether a line begins an element that a later one ends."""
-    return line[0] == "<" and line[1] not in "!?" and line[-2] != "/" and "</" not in line
+    return line[0] == "<" and line[1:2] not in "!?" and line[-2] != "/" and "</" not in line

@@ -10,8 +10,6 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 
-from linkforge_compile.resources import templates_folder
-
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 """What a robot may be called whose name is that of files and of a CMake project as well."""
 
@@ -71,12 +69,8 @@ class RobotFolder:
         }
 
     def _texts(self, name: str) -> dict[str, str]:
-        from jinja2 import Environment, FileSystemLoader, StrictUndefined
+        from linkforge_compile.backends.own_templates import render_own
 
-        # Nothing is escaped: the name is letters, digits, `_` and `-`, and no file is XML.
-        environment = Environment(
-            loader=FileSystemLoader(templates_folder() / "init"), undefined=StrictUndefined, keep_trailing_newline=True
-        )
         words = {
             "name": name,
             "schema": _way(self.folder, self.workspace / SCHEMA),
@@ -85,9 +79,7 @@ class RobotFolder:
             "folder": _prefix(self.repository, self.folder),
             "yaml_schemas": self._yaml_schemas(),
         }
-        texts = {
-            path: environment.get_template(f"{template}.j2").render(words) for path, template in _TEMPLATES.items()
-        }
+        texts = {path: render_own(f"init/{template}.j2", words) for path, template in _TEMPLATES.items()}
         ignored = self._ignored_above()
         lines = [line for line in texts[_GITIGNORE].splitlines(keepends=True) if line.strip().strip("/") not in ignored]
         return {**texts, _GITIGNORE: "".join(lines)}

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 
-from linkforge_compile.bytecode import kept
 from linkforge_compile.resources import schemas_folder
 from linkforge_compile.schema.json_types import Json, Schema, mapping, reference
 from linkforge_compile.schema.repetition import add_repetition
@@ -59,8 +57,7 @@ def linked() -> Schema:
     A validator then looks nothing up, which is half of its time; a schema that contains itself is a cycle.
     To put it together takes as long as a twelfth of a whole compile, so what an earlier process made is taken.
     """
-    files = sorted((*schemas_folder().glob(f"*{_SUFFIX}"), *Path(__file__).parent.glob("*.py")))
-    return kept(__file__, "linked_schema", files, _linked)
+    return _linked()
 
 
 def _linked() -> Schema:

@@ -1,83 +1,33 @@
-"""Templates: the Python that they become writes what Jinja itself makes of them, and is kept between processes."""
+"""Templates are those of Jinja2; what they render is laid out, escaped, and a fault in one of ours has a place."""
 
-import sys
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from hypothesis import given, settings
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
+from jinja2 import DictLoader, TemplateRuntimeError, UndefinedError
 
-from linkforge_compile.backends import document, render_srdf, render_urdf, template_python
-from linkforge_compile.backends.markup import Xml, end, laid_out, lay, ready
-from linkforge_compile.backends.source_map import Mapped, render_srdf_with_map, render_urdf_with_map
-from linkforge_compile.backends.template_python import UnknownInTemplateError, python_of
+from linkforge_compile.backends import environment, own_templates, render_urdf
+from linkforge_compile.backends.environment import make_environment
+from linkforge_compile.backends.markup import Xml, document_text
 from linkforge_compile.cli.main import main
 from linkforge_compile.core import Robot
-from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.resources import templates_folder
-from tests.backends.everything import everything
-from tests.backends.test_laws import robots
-from tests.writers.test_every_field import full
+from linkforge_compile.core.models.geometry import Vector3
 
-JINJA = Environment(
-    loader=FileSystemLoader(templates_folder()),
-    finalize=lambda value: value if isinstance(value, Markup) else Markup(ready(value)),
-    autoescape=True,
-    undefined=StrictUndefined,
-    trim_blocks=True,
-    lstrip_blocks=True,
-    keep_trailing_newline=True,  # an included template ends its last line
+ROBOT = SimpleNamespace(
+    name="a&b", own=Xml("<own>\n<inner/>\n</own>"), none=Xml(), speed=0.1 + 0.2, axis=Vector3(0, 1, 0), missing=None
 )
 
 
-def by_jinja(template: str) -> Callable[[list[str], object], None]:
-    def append(lines: list[str], view: object) -> None:
-        lines += laid_out(JINJA.get_template(template).render(robot=view))
-
-    return append
-
-
-def documents(robot: Robot) -> list[str | Mapped]:
-    return [
-        render_urdf(robot),
-        render_urdf(robot, pretty=False, gazebo="classic"),
-        render_urdf_with_map(robot),
-        render_srdf(robot),
-        render_srdf(robot, pretty=False),
-        render_srdf_with_map(robot),
-    ]
+def rendered(text: str, name: str = "robot.xml.j2", **others: str) -> str:
+    """Return what a template makes of a small robot, not laid out."""
+    loader = DictLoader({name: text} | {f"{other}.xml.j2": text for other, text in others.items()})
+    return make_environment(loader).get_template(name).render(robot=ROBOT)
 
 
-def documents_by_jinja(robot: Robot) -> list[str | Mapped]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(document, "_template", by_jinja)
-        return documents(robot)
-
-
-@pytest.mark.parametrize("robot", [everything, full], ids=lambda robot: robot.__name__)
-def test_templates_say_what_jinja_makes_of_them(robot: Callable[[], Robot]):
-    assert documents(robot()) == documents_by_jinja(robot())
-
-
-@settings(deadline=None, max_examples=10)
-@given(robots())
-def test_templates_say_of_any_robot_what_jinja_makes_of_them(robot: Robot):
-    with suppress(RobotGeneratorError):
-        assert documents(robot) == documents_by_jinja(robot)
-
-
-def written(text: str, **others: str) -> list[str]:
-    """Return the lines that a template makes of a robot with a name, an element of its own and none of another."""
-    robot = SimpleNamespace(name="a&b", own=Xml("<own>\n<inner/>\n</own>"), none=Xml(), parts=[("x", None), ("y", "1")])
-    names: dict[str, Callable[..., object]] = {"ready": ready, "lay": lay, "end": end}
-    exec(python_of("robot", {"robot": text} | {f"of/{name}": other for name, other in others.items()}, "robot"), names)
-    lines: list[str] = []
-    names["document"](lines, robot)
-    return lines
+def written(text: str, *, pretty: bool = True, **others: str) -> list[str]:
+    """Return the lines of the document that a template makes of it."""
+    return document_text(rendered(text, **others), pretty=pretty).split("\n")
 
 
 def test_lines_stand_as_deep_as_their_elements():
@@ -96,75 +46,69 @@ def test_an_element_without_content_ends_itself():
     assert written("<a>\n<b>\n{{ robot.none }}\n</b>\n</a>") == ["<a>", "  <b/>", "</a>"]
 
 
-def test_a_name_of_a_block_hides_that_around_it_as_long_as_the_block():
+def test_templates_have_all_of_jinja2():
     text = (
-        "{% set n = 'out' %}{% for n, v in robot.parts %}{% if v is not none %}\n<{{ n }}/>\n{% endif %}{% endfor %}\n"
+        "{% extends 'base.xml.j2' %}{% from 'tags.xml.j2' import tag %}{% block inside %}\n"
+        "{% if robot.missing %}\n<no/>\n{% else %}\n{{ tag('it', size=3) }}\n{% endif %}\n"
+        "{% for n in 'ab' if n != 'a' %}{{ n | upper }} is text\n{% endfor %}"
+        "{% endblock %}"
     )
-    assert written(f"{text}<{{{{ n }}}}/>") == ["<y/>", "<out/>"]
+    others = {
+        "base": "<a>\n{% block inside %}{% endblock %}\n</a>\n",
+        "tags": "{% macro tag(name, size=1) %}\n<{{ name }} size='{{ size }}'/>\n{% endmacro %}",
+    }
+    assert written(text, **others) == ["<a>", "  <it size='3'/>", "  B is text", "</a>"]
 
 
-def test_what_is_included_sees_the_names_where_it_is_and_a_macro_what_it_is_given():
-    text = (
-        "{% from 'of/m' import tag %}\n{% for kind, n in robot.parts %}\n<p>\n{% include 'of/' ~ kind ~ '' %}\n</p>\n"
-        "{% endfor %}\n{{ tag(robot.none or 'z') }}"
+def test_lines_of_text_stay_apart_on_one_line():
+    assert written("<a>\n  one\n  two\n</a>\n<b/>", pretty=False) == ["<a>one", "two", "</a><b/>"]
+
+
+def test_an_end_too_many_is_left_for_who_reads_it():
+    assert written("<a>\n</a>\n</b>\n<\n</c>") == ["<a/>", "</b>", "<", "</c>"]
+
+
+def test_values_in_xml_are_spelled_as_urdf_spells_them():
+    text = "<a n='{{ robot.name }}' x='{{ robot.speed }}' y='{{ 4.0 }}' v='{{ robot.axis }}' is='{{ true }}'/>"
+    assert rendered(text) == "<a n='a&amp;b' x='0.30000000000000004' y='4' v='0 1 0' is='true'/>"
+    assert rendered("{{ robot.name }} {{ 4.0 }} {{ robot.missing }}", "robot.md.j2") == "a&b 4.0 None"
+
+
+def test_filters_spell_numbers_as_urdf_does():
+    text = "{{ 4.0 | number }} {{ robot.axis | vector }} {{ (robot.speed * 10) | degrees | round(3) }}"
+    assert rendered(text, "robot.md.j2") == "4 0 1 0 171.887"
+    assert rendered("{{ [1e-05, 2.0, 'a: b', none, true] | to_yaml }}", "a.yaml.j2") == (
+        "[1.0e-05, 2.0, 'a: b', null, true]"
     )
-    others = {"x": "<x{{ kind }}/>", "y": "<y n={{ n }}/>", "m": "{% macro tag(n) %}\n<{{ n }}/>\n{% endmacro %}"}
-    assert written(text, **others) == ["<p>", "  <xx/>", "</p>", "<p>", "  <y n=1/>", "</p>", "<z/>"]
-
-
-SHARED = "a statement shares its line with statements alone, not with text or a value"
+    assert rendered("{{ 'no' | to_yaml }} {{ 1 | to_yaml }}", "a.yaml.j2") == "'no' 1"
 
 
 @pytest.mark.parametrize(
-    ("text", "line", "reason"),
-    [
-        ("<a/>\n<a\nb>", 2, "a line is one value, or begins and ends as a tag does, found '<a'"),
-        ("<a/>\n<a{% if robot %} b{% endif %}>", 2, SHARED),
-        ("<a>\n{% if robot %}\n</a>\n{% endif %}", 3, "an element ends in the block that begins it"),
-        ("{% if robot %}\n<a>\n{% endif %}\n</a>", 2, "an element ends in the block that begins it"),
-        ("<a/>\n{{ link.name }}", 2, "no 'link' is in sight, only 'robot'"),
-        ("{{ robot.name | upper }}", 1, "'or' and 'is not none' are known, found 'Filter'"),
-        ("{% if robot %}\n{% else %}\n<a/>\n{% endif %}", 1, "'macro' without defaults are known, found 'If'"),
-        ("{% include 'other' %}", 1, "a template is included by its path, or by 'start' ~ value ~ 'end'"),
-        ("{% include 'robot' ignore missing %}", 1, "'macro' without defaults are known, found 'Include'"),
-        ("{{ tag(robot) }}", 1, "a call names a macro of this template or an imported one, and all it takes"),
-        (
-            "{% set x = 'a' %}\n{% if robot %}\n{% set x = 'b' %}\n{% endif %}\n<{{ x }}/>",
-            3,
-            "a name that is set in an 'if' stays set behind it in Jinja, and would not here; set it outside",
-        ),
-        ("<a>\n{% if robot %}<b/>\n{% endif %}\n</a>", 2, SHARED),
-        ("<a>\n{% if robot %}\n{{ robot.name }}{% endif %}\n</a>", 3, SHARED),
-        ("<a>\n<b>{% for n, v in robot.parts %}\n<c/>\n{% endfor %}\n</b>\n</a>", 2, SHARED),
-    ],
+    ("value", "reason"),
+    [("robot.missing", "this is None, which has no text in XML"), ("robot", "a SimpleNamespace has no text in XML")],
 )
-def test_what_is_not_known_is_refused_at_its_place(text: str, line: int, reason: str):
-    with pytest.raises(UnknownInTemplateError) as refused:
-        written(text)
-    assert str(refused.value).startswith(f"robot:{line}: ")
-    assert str(refused.value).endswith(reason)
+def test_what_has_no_text_in_xml_is_refused(value: str, reason: str):
+    with pytest.raises(TemplateRuntimeError, match=reason):
+        rendered(f"<a>{{{{ {value} }}}}</a>")
+
+
+def test_what_a_view_does_not_have_is_no_empty_text():
+    with pytest.raises(UndefinedError):
+        rendered("<a>{{ robot.nosuch }}</a>")
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a folder of templates whose Python is kept below the same one; nothing of this process is taken."""
-    monkeypatch.setattr(sys, "pycache_prefix", str(tmp_path / "cache"))
-    monkeypatch.setattr(sys, "dont_write_bytecode", False)
-    monkeypatch.setattr(document, "templates_folder", lambda: tmp_path)
-    monkeypatch.setattr(document, "_template", document._template.__wrapped__)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """Yield a folder that stands for that of our own templates."""
+    for module in (environment, own_templates):
+        monkeypatch.setattr(module, "templates_folder", lambda: tmp_path)
     (tmp_path / "urdf").mkdir()
-    (tmp_path / "urdf" / "robot.xml.j2").write_text("<robot/>")
-    return tmp_path
+    environment.own_environment.cache_clear()
+    yield tmp_path
+    environment.own_environment.cache_clear()
 
 
-def test_a_template_is_made_python_once_for_all_processes(folder: Path, monkeypatch: pytest.MonkeyPatch):
-    assert render_urdf(Robot("r")).endswith("\n<robot/>\n")
-    monkeypatch.delattr(template_python, "python_of")
-    assert render_urdf(Robot("r")).endswith("\n<robot/>\n")
-
-
-def test_a_template_that_says_something_else_is_made_python_again(folder: Path):
-    render_urdf(Robot("r"))
+def test_a_template_is_read_from_its_folder(folder: Path):
     (folder / "urdf" / "robot.xml.j2").write_text("<robot>\n{% include 'urdf/link.xml.j2' %}\n</robot>")
     (folder / "urdf" / "link.xml.j2").write_text("<link/>")
     assert render_urdf(Robot("r"), pretty=False).endswith("<robot><link/></robot>\n")
@@ -173,11 +117,14 @@ def test_a_template_that_says_something_else_is_made_python_again(folder: Path):
 @pytest.mark.parametrize(
     ("text", "line", "reason"),
     [
-        ("<robot>\n{{ robot.name | upper }}\n</robot>", 2, "are known, found 'Filter'"),
         ("<robot>\n{% if %}\n</robot>", 2, "Expected an expression, got 'end of statement block'"),
+        ("<robot>\n{{ robot.name | nosuch }}\n</robot>", 2, "No filter named 'nosuch'."),
+        ("<robot>\n\n{{ link.name }}\n</robot>", 3, "'link' is undefined"),
+        ("<robot>\n{{ none }}\n</robot>", 2, "this is None, which has no text in XML; test it with"),
+        ("<robot>\n{% include 'urdf/link.xml.j2' %}\n</robot>", 2, "'urdf/link.xml.j2' not found in search path"),
     ],
 )
-def test_a_template_that_somebody_made_unreadable_is_told_at_its_place(
+def test_a_template_of_ours_that_somebody_has_broken_is_told_at_its_place(
     text: str, line: int, reason: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ):
     template = folder / "urdf" / "robot.xml.j2"
@@ -186,5 +133,12 @@ def test_a_template_that_somebody_made_unreadable_is_told_at_its_place(
     spec.write_text("linkforge: 1\nname: a\nlinks: {base: }\n")
     assert main(["compile", str(spec)]) == 2
     said = capsys.readouterr().err
-    assert said.startswith(f"linkforge: {template}:{line}: ")
-    assert said.endswith(f"{reason}; this template is a part of linkforge: mend it, or install linkforge again\n")
+    assert said.startswith(f"linkforge: {template}:{line}: {reason}")
+    assert said.endswith("; this template is a part of linkforge: mend it, or install linkforge again\n")
+
+
+def test_a_template_of_ours_that_is_gone_is_told(folder: Path, capsys: pytest.CaptureFixture[str]):
+    spec = folder / "a.robot.yaml"
+    spec.write_text("linkforge: 1\nname: a\nlinks: {base: }\n")
+    assert main(["compile", str(spec)]) == 2
+    assert capsys.readouterr().err.startswith(f"linkforge: {folder / 'urdf' / 'robot.xml.j2'}:1: ")
