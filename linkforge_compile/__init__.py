@@ -19,6 +19,7 @@ from linkforge_compile._version import __version__
 if TYPE_CHECKING:
     from linkforge_compile.backends import render_srdf, render_urdf
     from linkforge_compile.backends.source_map import SourceMap, render_srdf_with_map, render_urdf_with_map
+    from linkforge_compile.backends.user_templates import TemplateError, render_templates
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
     from linkforge_compile.importing import Import, import_urdf
@@ -43,6 +44,7 @@ __all__ = [
     "Severity",
     "SourceMap",
     "Span",
+    "TemplateError",
     "__version__",
     "check_file",
     "check_text",
@@ -51,6 +53,7 @@ __all__ = [
     "import_urdf",
     "render_srdf",
     "render_srdf_with_map",
+    "render_templates",
     "render_urdf",
     "render_urdf_with_map",
     "write_spec",
@@ -66,6 +69,7 @@ _HOMES = {
     "Severity": "diagnostics",
     "SourceMap": "backends.source_map",
     "Span": "source",
+    "TemplateError": "backends.user_templates",
     "check_file": "pipeline",
     "check_text": "pipeline",
     "compile_file": "pipeline",
@@ -73,6 +77,7 @@ _HOMES = {
     "import_urdf": "importing",
     "render_srdf": "backends",
     "render_srdf_with_map": "backends.source_map",
+    "render_templates": "backends.user_templates",
     "render_urdf": "backends",
     "render_urdf_with_map": "backends.source_map",
     "write_spec": "writers",

@@ -72,6 +72,14 @@ class Limit(Enum):
         256 * 1024**2,
         "give links their 'inertia', or simpler collision meshes",
     )
+    TEMPLATE_STEPS = _Limit(
+        "steps of your templates, where a round of 'for' is one, and a call or an include ten",
+        1_000_000,
+        "repeat less, or render them apart",
+    )
+    TEMPLATE_CHARACTERS = _Limit(
+        "characters that your templates make", 32 * 1024**2, "make shorter documents, or render them apart"
+    )
 
     # Counted by as often as anything is computed: that of Enum is written in Python.
     __hash__ = object.__hash__

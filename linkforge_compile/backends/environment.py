@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -54,24 +54,43 @@ def finalize(context: EvalContext, value: Spellable | None) -> object:
         raise TemplateRuntimeError(f"a {type(value).__name__} has no text in XML; write one of its fields") from None
 
 
-def vector_text(values: Iterable[float]) -> str:
+def format_vector(values: Iterable[float]) -> str:
     """Return numbers as URDF writes a vector: with a space between them."""
     return " ".join(map(number_text, values))
 
 
-def yaml_text(value: object) -> str:
-    """Return a value as YAML on one line: text in quotes where it needs them, 1e-05 as 1.0e-05."""
+def format_yaml(value: object) -> str:
+    """Return a value as YAML on one line: text in quotes where it needs them, 1e-05 as 1.0e-05.
+
+    Raises:
+        TemplateRuntimeError: for what is no text, number, truth, None, list or map.
+
+    """
     import yaml
 
-    text = yaml.safe_dump(value, default_flow_style=True, allow_unicode=True, sort_keys=False, width=math.inf)
+    text = yaml.safe_dump(_plain(value), default_flow_style=True, allow_unicode=True, sort_keys=False, width=math.inf)
     return text.removesuffix("\n").removesuffix("\n...")
+
+
+def _plain(value: object) -> object:
+    """Return a value as one of the types that PyYAML knows: those of the model derive from them."""
+    match value:
+        case None | bool():
+            return value
+        case str() | int() | float():
+            return next(kind(value) for kind in (str, int, float) if isinstance(value, kind))
+        case Mapping():
+            return {_plain(key): _plain(item) for key, item in value.items()}
+        case Sequence():
+            return [_plain(item) for item in value]
+    raise TemplateRuntimeError(f"a {type(value).__name__} has no text in YAML; write its fields")
 
 
 FILTERS: dict[str, Callable[..., object]] = {
     "number": number_text,
-    "vector": vector_text,
+    "vector": format_vector,
     "degrees": math.degrees,
-    "to_yaml": yaml_text,
+    "to_yaml": format_yaml,
 }
 """The filters that templates have beside those of Jinja2."""
 

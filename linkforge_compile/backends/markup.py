@@ -18,7 +18,10 @@ from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import double_text, number_text
 
-_EMPTY = re.compile(r"<(([^\s<>/]+)[^<>]*)(?<!/)></\2>")
+_EMPTY = re.compile(r"<(([^\s<>/]++)[^<>]*+)(?<!/)></\2>")
+
+_SPLIT_TAG = re.compile(r"<(?![!?])[^<>\n]*\n[^<>]*>")
+_LINE_BREAK = re.compile(r"\s*\n\s*")
 
 # No XML 1.0 document may hold these, not even as a reference.
 _CONTROLS, _BEYOND_ASCII = "\x00-\x08\x0b\x0c\x0e-\x1f", "\ud800-\udfff\ufffe\uffff"
@@ -40,6 +43,9 @@ _XML_NAME = re.compile(rf"(?:{_LOCAL_NAME}:)?{_LOCAL_NAME}")
 
 MARK = "\x00"
 """Begins a line that is no XML, and that none can be taken for: what `extra_inside` says of the element around it."""
+
+
+_MARK_LINE = re.compile(f"^{MARK}.*$", re.MULTILINE)
 
 
 class Xml(str):
@@ -188,6 +194,11 @@ def document_text(text: str, *, pretty: bool) -> str:
     return text if recorded() else restored(text)
 
 
+def whole_tags(text: str) -> str:
+    """Return XML with each tag on one line."""
+    return _SPLIT_TAG.sub(lambda tag: _LINE_BREAK.sub(" ", tag[0]), text)
+
+
 def laid_out(text: str) -> list[str]:
     """Return the lines of a text indented, each an opening tag, a closing tag, or something whole.
 
@@ -200,11 +211,21 @@ def laid_out(text: str) -> list[str]:
             lines.append(INDENT * len(begun) + line)
             if is_opening(line):
                 begun.append(len(lines))
-        elif begun.pop() == len(lines):
+        elif begun.pop() == len(lines) and _is_one_tag(lines[-1]) and _is_one_tag(line):
             lines[-1] = f"{lines[-1][:-1]}/>"
         else:
             lines.append(INDENT * len(begun) + line)
     return lines
+
+
+def _is_one_tag(line: str) -> bool:
+    """Whether a line is a tag and nothing else; one with a `>` in an attribute may be taken for more."""
+    return line[-1] == ">" and line.count("<") == 1 and line.count(">") == 1
+
+
+def without_marks(text: str) -> str:
+    """Return what a template rendered as XML: without the lines that are none, and with the signs of raw XML."""
+    return restored(_MARK_LINE.sub("", text))
 
 
 def is_closing(line: str) -> bool:

@@ -1,4 +1,4 @@
-"""Renders our own templates, and says where one is at fault that somebody has changed."""
+"""Renders our own templates, and locates the fault in one that was changed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from linkforge_compile.resources import templates_folder
 
 
 class TemplateFaultError(Exception):
-    """A template of linkforge is not as it was made: somebody has changed it; the message says where, and why."""
+    """A template of linkforge was changed and cannot be rendered; the message has its file, line and fault."""
 
     def __init__(self, path: Path, line: int, reason: str) -> None:
         super().__init__(
@@ -21,12 +21,12 @@ class TemplateFaultError(Exception):
         )
 
 
-def rendered(template: str, views: Mapping[str, object]) -> str:
-    """Return what one of our own templates makes of views of the robot, not laid out.
+def render_own(template: str, views: Mapping[str, object]) -> str:
+    """Render one of our own templates and return its text, not laid out.
 
     Raises:
         RobotGeneratorError: for text that XML cannot hold.
-        TemplateFaultError: for a template that somebody has changed to what it cannot be.
+        TemplateFaultError: for a template that was changed and cannot be rendered.
 
     """
     try:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.banner import banner_of
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
@@ -14,12 +14,16 @@ from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
+    from linkforge_compile.backends.user_templates import TemplateFolder
     from linkforge_compile.cli.targets import Targets
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.pipeline import Compilation
+
+_Options: TypeAlias = "Mapping[str, Mapping[str, object]]"
+"""What the renderer of each format takes besides the robot and a banner."""
 
 
 class Output(NamedTuple):
@@ -30,11 +34,17 @@ class Output(NamedTuple):
 
 
 class Order(NamedTuple):
-    """What is to be built: a spec, with its parameters as typed, into targets."""
+    """What is to be built: a spec, with its parameters as typed, into targets, by a user's templates if any."""
 
     spec: str
     assignments: list[str]
     targets: Targets
+    templates: TemplateFolder | None = None
+
+    @property
+    def template_files(self) -> tuple[Path, ...]:
+        """The templates that were read so far."""
+        return self.templates.files if self.templates else ()
 
 
 def targets_for(robot: Robot, targets: Targets) -> Targets | None:
@@ -54,44 +64,51 @@ def compile_order(order: Order, arguments: argparse.Namespace) -> Compilation:
 
 def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespace) -> int:
     """Tell of a compilation and write or compare what comes out of it; return the exit code."""
-    outputs = None if compilation.robot is None else _outputs(compilation.robot, order, arguments)
-    if outputs is not None:
+    outputs, faults = ((), ()) if compilation.robot is None else _outputs(compilation.robot, order, arguments)
+    if outputs:
         from linkforge_compile.cli.output import refuse_to_replace
 
-        refuse_to_replace(compilation.files, (*(output.path for output in outputs), file_to_write(arguments.depfile)))
-    stale = _stale(outputs, order.spec, compilation.robot) if arguments.check and outputs else ()
-    if tell((*_report(compilation, outputs), *stale), arguments) or outputs is None:
+        made_from = (*compilation.files, *order.template_files)
+        refuse_to_replace(made_from, (*(output.path for output in outputs), file_to_write(arguments.depfile)))
+    stale = _stale(outputs, order.spec, compilation.robot) if arguments.check else ()
+    report = (
+        sorted((*compilation.diagnostics, *faults), key=lambda one: one.order) if faults else compilation.diagnostics
+    )
+    if tell((*report, *stale), arguments) or not outputs:
         return FAULTY_SPEC
     if arguments.depfile is None:
         _put(outputs, arguments)
     else:
         # Who asks for a depfile is a build, which tells itself what it makes; colcon takes a word on standard error
         # for a warning.
-        _write((*outputs, _depfile(outputs, compilation, arguments.depfile)))
+        inputs = (*compilation.files, *order.template_files)
+        _write((*outputs, _depfile(outputs, inputs, arguments.depfile)))
     return OK
 
 
-def _report(compilation: Compilation, outputs: Sequence[Output] | None) -> tuple[Diagnostic, ...]:
-    """Return what is to be told of a spec, with the part that it lacks where an SRDF is asked for in vain."""
-    robot = compilation.robot
-    if robot is None or outputs is not None:
-        return compilation.diagnostics
-    from linkforge_compile.diagnostics.codes.backends import NO_SEMANTIC_PART
-
-    missed = NO_SEMANTIC_PART.at(robot.source, "name", robot=robot.name)
-    return tuple(sorted((*compilation.diagnostics, missed), key=lambda diagnostic: diagnostic.order))
-
-
-def _outputs(robot: Robot, order: Order, arguments: argparse.Namespace) -> tuple[Output, ...] | None:
-    """Return what goes where, all of it rendered before any is written; None where an SRDF is asked for in vain."""
+def _outputs(
+    robot: Robot, order: Order, arguments: argparse.Namespace
+) -> tuple[tuple[Output, ...], tuple[Diagnostic, ...]]:
+    """Return what goes where, all of it rendered before any is written; nothing, and why, where that cannot be."""
     targets = targets_for(robot, order.targets)
     if targets is None:
-        return None
+        from linkforge_compile.diagnostics.codes.backends import NO_SEMANTIC_PART
+
+        return (), (NO_SEMANTIC_PART.at(robot.source, "name", robot=robot.name),)
     name = Path(order.spec).name
     banner = None if order.spec == "-" else banner_of(on_one_line(name))
-    options: dict[str, dict[str, str]] = {"urdf": {"gazebo": arguments.gazebo}, "srdf": {}}
+    if order.templates is not None:
+        return _of_templates(robot, banner, targets, order.templates, arguments)
     if arguments.source_map:
-        return tuple(_with_maps(robot, banner, targets, options))
+        return tuple(_with_maps(robot, banner, targets, _options(arguments))), ()
+    return _rendered(robot, banner, targets, _options(arguments)), ()
+
+
+def _options(arguments: argparse.Namespace) -> _Options:
+    return {"urdf": {"gazebo": arguments.gazebo}, "srdf": {}}
+
+
+def _rendered(robot: Robot, banner: str | None, targets: Targets, options: _Options) -> tuple[Output, ...]:
     from linkforge_compile.backends import BACKENDS
 
     return tuple(
@@ -100,9 +117,22 @@ def _outputs(robot: Robot, order: Order, arguments: argparse.Namespace) -> tuple
     )
 
 
-def _with_maps(
-    robot: Robot, banner: str | None, targets: Targets, options: dict[str, dict[str, str]]
-) -> Iterator[Output]:
+def _of_templates(
+    robot: Robot, banner: str | None, targets: Targets, templates: TemplateFolder, arguments: argparse.Namespace
+) -> tuple[tuple[Output, ...], tuple[Diagnostic, ...]]:
+    from linkforge_compile.backends.user_templates import TemplateError
+
+    try:
+        if targets.are_documents:
+            texts = templates.render(robot, banner=banner or "", gazebo=arguments.gazebo)
+            return tuple(Output(path, texts[name]) for name, path in targets.paths.items()), ()
+        options = {format_: {**more, "templates": templates} for format_, more in _options(arguments).items()}
+        return _rendered(robot, banner, targets, options), ()
+    except TemplateError as error:
+        return (), error.diagnostics
+
+
+def _with_maps(robot: Robot, banner: str | None, targets: Targets, options: _Options) -> Iterator[Output]:
     from linkforge_compile.backends.map_file import ENDING, map_text
     from linkforge_compile.backends.source_map import WITH_MAP
 
@@ -140,8 +170,8 @@ def _write(outputs: Sequence[Output]) -> frozenset[Path]:
     return write_changed(texts, next((output.text for output in outputs if output.path is None), None))
 
 
-def _depfile(outputs: Sequence[Output], compilation: Compilation, name: str) -> Output:
+def _depfile(outputs: Sequence[Output], inputs: Sequence[Path], name: str) -> Output:
     from linkforge_compile.cli.depfile import inputs_of, make_rules
 
     targets = [output.path for output in outputs if output.path is not None]
-    return Output(file_to_write(name), make_rules(targets, inputs_of(compilation)))
+    return Output(file_to_write(name), make_rules(targets, inputs_of(inputs)))

@@ -5,13 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.resources import compiler_files
-
-if TYPE_CHECKING:
-    from linkforge_compile.pipeline import Compilation
 
 # A blank ends a name unless a backslash stands before it, and backslashes before that one are then doubled.
 _BLANK = re.compile(r"(\\*)([ \t])")
@@ -25,9 +21,9 @@ _UNWRITABLE = re.compile(r"[\n\r;|\ud800-\udfff]")
 _UNWRITABLE_IN_TARGETS = re.compile(r"[\n\r;|=%\ud800-\udfff]")
 
 
-def inputs_of(compilation: Compilation) -> tuple[Path, ...]:
-    """Return every file whose change may change the output: those of the robot, then those of linkforge itself."""
-    return tuple(dict.fromkeys((*compilation.files, *compiler_files())))
+def inputs_of(files: Iterable[Path]) -> tuple[Path, ...]:
+    """Return every file whose change may change the output: those that were read, then those of linkforge itself."""
+    return tuple(dict.fromkeys((*files, *compiler_files())))
 
 
 def make_rules(outputs: Iterable[Path], inputs: Sequence[Path]) -> str:

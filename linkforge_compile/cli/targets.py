@@ -19,10 +19,14 @@ _STANDARD_OUTPUT = "-"
 
 
 class Targets(NamedTuple):
-    """Where each format goes, by name, None for standard output; `srdf` may be left out unless it was asked for."""
+    """Where each format goes, by name, None for standard output; `srdf` may be left out unless it was asked for.
+
+    In place of formats, `are_documents`, they may be the documents of a folder of templates.
+    """
 
     paths: Mapping[str, Path | None]
     is_srdf_asked_for: bool = True
+    are_documents: bool = False
 
     @property
     def folder(self) -> Path | None:
@@ -31,7 +35,8 @@ class Targets(NamedTuple):
         return urdf.parent if urdf else None
 
     def without_srdf(self) -> Targets:
-        return Targets(MappingProxyType({format_: path for format_, path in self.paths.items() if format_ != "srdf"}))
+        paths = {format_: path for format_, path in self.paths.items() if format_ != "srdf"}
+        return self._replace(paths=MappingProxyType(paths))
 
     def require_files(self, option: str, why: str) -> None:
         """Refuse an option that has no meaning where the output is no file."""
@@ -71,6 +76,23 @@ def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets
     folder, name = Path(output), name_of(spec)
     paths = {format_: folder / f"{name}.{format_}" for format_ in FORMATS if chosen in (None, format_)}
     return Targets(paths, is_srdf_asked_for=chosen == "srdf")
+
+
+def targets_of_documents(names: Sequence[str], outputs: Sequence[str]) -> Targets | None:
+    """Return where the documents of a folder of templates go; None where `outputs` name files of URDF or SRDF.
+
+    Raises:
+        UsageError: for several documents that would go to standard output.
+
+    """
+    if not outputs or (len(outputs) == 1 and file_to_write(outputs[0]) is None):
+        if len(names) > 1:
+            found = f"found {len(names)}: {', '.join(names)}"
+            raise UsageError(f"standard output takes one document of --template, {found}; write -o FOLDER/")
+        return Targets({names[0]: None}, are_documents=True)
+    if len(outputs) > 1 or not outputs[0] or _is_file(outputs[0]):
+        return None
+    return Targets({name: Path(outputs[0], name) for name in names}, are_documents=True)
 
 
 def file_to_write(output: str | None) -> Path | None:

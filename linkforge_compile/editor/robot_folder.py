@@ -69,7 +69,7 @@ class RobotFolder:
         }
 
     def _texts(self, name: str) -> dict[str, str]:
-        from linkforge_compile.backends.own_templates import rendered
+        from linkforge_compile.backends.own_templates import render_own
 
         words = {
             "name": name,
@@ -79,7 +79,7 @@ class RobotFolder:
             "folder": _prefix(self.repository, self.folder),
             "yaml_schemas": self._yaml_schemas(),
         }
-        texts = {path: rendered(f"init/{template}.j2", words) for path, template in _TEMPLATES.items()}
+        texts = {path: render_own(f"init/{template}.j2", words) for path, template in _TEMPLATES.items()}
         ignored = self._ignored_above()
         lines = [line for line in texts[_GITIGNORE].splitlines(keepends=True) if line.strip().strip("/") not in ignored]
         return {**texts, _GITIGNORE: "".join(lines)}

@@ -112,6 +112,48 @@ def test_a_file_that_is_used_no_more_is_watched_no_more(watch: Callable[..., lis
     assert told[-3:] == ["cell.robot.yaml changed", "wrote out/cell.urdf", "watching cell.robot.yaml; Ctrl-C ends"]
 
 
+def by_templates(folder: Path) -> None:
+    folder.mkdir()
+    (folder / "a.md.j2").write_text("{% include '_b.j2' ignore missing %}\n")
+
+
+def test_templates_are_watched_and_what_they_miss(cell: Path, watch: Callable[..., list[str]]):
+    by_templates(cell / "t")
+    deeds = (
+        nothing,
+        sets("t/a.md.j2", "{% include '_b.j2' ignore missing %}.\n"),
+        nothing,
+        sets("t/_b.j2", "b"),
+        nothing,
+    )
+    told = watch(*deeds, nothing, sets("t/_b.j2", "changed"), words=("--template", "t"))
+    assert [line for line in told if not line.startswith("watching")] == [
+        "wrote out/a.md",
+        "t/a.md.j2 changed",
+        "wrote out/a.md",
+        "t/_b.j2 and 1 more changed",
+        "wrote out/a.md",
+        "t/_b.j2 changed",
+        "wrote out/a.md",
+    ]
+    assert (cell / "out" / "a.md").read_text() == "changed.\n"
+
+
+def test_a_template_that_is_new_is_rendered_and_a_fault_in_it_waited_for(cell: Path, watch: Callable[..., list[str]]):
+    by_templates(cell / "t")
+    told = watch(
+        sets("t/b.md.j2", "{{ nosuch }}"), nothing, sets("t/b.md.j2", "right"), nothing, words=("--template", "t")
+    )
+    assert "t/b.md.j2:1:1: error: this template names what is not there: 'nosuch' is not defined [LF7202]" in told
+    assert (cell / "out" / "b.md").read_text() == "right"
+
+
+def test_templates_beside_what_they_write_do_not_compile_for_ever(cell: Path, watch: Callable[..., list[str]]):
+    by_templates(cell / "out")
+    told = watch(sets("out/a.md.j2", "changed"), nothing, nothing, words=("--template", "out"))
+    assert [line for line in told if line.startswith("wrote")] == ["wrote out/a.md"] * 2
+
+
 def test_an_output_that_somebody_deletes_is_made_again(cell: Path, watch: Callable[..., list[str]]):
     told = watch(removes("out/cell.urdf"), nothing)
     assert told[2:] == ["out/cell.urdf is gone", "wrote out/cell.urdf", WATCHING]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.backends.document import render
+from linkforge_compile.backends.document import Templates, render
 from linkforge_compile.backends.element import attributes, elements
 from linkforge_compile.backends.markup import Xml
 from linkforge_compile.backends.urdf.joint import JointView, joint_views
@@ -55,21 +55,29 @@ def require_dialect(gazebo: str) -> None:
         raise ValueError(f"gazebo takes {' or '.join(map(repr, DIALECTS))}, found {gazebo!r}")
 
 
-def render_urdf(robot: Robot, *, pretty: bool = True, banner: str | None = None, gazebo: Gazebo = "gz") -> str:
+def render_urdf(
+    robot: Robot,
+    *,
+    pretty: bool = True,
+    banner: str | None = None,
+    gazebo: Gazebo = "gz",
+    templates: Templates = None,
+) -> str:
     """Return the robot as a URDF document: materials, links, joints, transmissions, ros2_control, Gazebo, in its order.
 
     `pretty` indents by two spaces; without it everything stands on one line. `banner` becomes a comment at the top,
     None for none. `gazebo` is the dialect of the sensors: Gazebo Sim, or Classic. What URDF cannot say is left out;
-    `urdf_limits` tells it.
+    `urdf_limits` tells it. `templates` is a folder whose `urdf/` has templates that go before linkforge's own.
 
     Raises:
         RobotGeneratorError: for text that XML cannot hold, and for extras that are not well-formed XML.
+        TemplateError: for what is wrong with one of `templates`.
         ValueError: for another `gazebo` than `gz` or `classic`.
 
     """
     require_dialect(gazebo)
     views = {"robot": robot, "urdf": robot_view(robot, gazebo)}
-    return render("urdf/robot.xml.j2", views, pretty=pretty, banner=banner)
+    return render("urdf/robot.xml.j2", views, pretty=pretty, banner=banner, templates=templates)
 
 
 def stated_version(robot: Robot) -> str | None:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.build import Order, compile_order, deliver
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.one_spec import one_spec
-from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
-from linkforge_compile.cli.targets import add_target_options, targets_of
+from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, packages_of, split_assignments
+from linkforge_compile.cli.targets import Targets, add_target_options, targets_of, targets_of_documents
 from linkforge_compile.cli.telling import add_telling_options
 
 if TYPE_CHECKING:
     import argparse
+
+    from linkforge_compile.backends.user_templates import TemplateFolder
 
 _EXAMPLES = """\
 examples:
@@ -26,6 +29,11 @@ examples:
   linkforge compile arm.robot.yaml -o urdf/ --check     write nothing; fail where urdf/arm.urdf is not up to date
   linkforge compile arm.robot.yaml -o arm.urdf --depfile arm.urdf.d     and what it was made from, for Make and Ninja
   linkforge compile - < arm.robot.yaml                  from standard input
+  linkforge compile arm.robot.yaml --template docs/templates -o docs/     docs/joints.md, of docs/templates/joints.md.j2
+
+--template FOLDER writes NAME for each Jinja2 template NAME.j2 at the top of FOLDER, in place of URDF and SRDF. These
+are written where --format or -o FILE asks for them, or FOLDER has no such template; templates in FOLDER/urdf/ and
+FOLDER/srdf/ then replace linkforge's own. docs/templates.md describes what a template is given.
 """
 
 
@@ -46,6 +54,11 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
         "--source-map",
         action="store_true",
         help="write FILE.map.json beside each file, for `linkforge where FILE:LINE` to tell what wrote the line",
+    )
+    parser.add_argument(
+        "--template",
+        metavar="FOLDER",
+        help="write what the Jinja2 templates NAME.j2 in FOLDER make of the robot, in place of URDF and SRDF",
     )
     parser.add_argument(
         "--depfile",
@@ -70,13 +83,40 @@ def order(arguments: argparse.Namespace) -> Order:
     """Return what the words and options ask for; UsageError for what cannot be meant."""
     specs, assignments = split_assignments(arguments.words)
     spec = one_spec(specs)
-    targets = targets_of(spec, arguments.outputs, arguments.format)
+    templates = None if arguments.template is None else _template_folder(arguments)
+    targets = _targets(spec, templates, arguments)
     if arguments.source_map:
         targets.require_files("--source-map", "writes its map beside the output")
+        if templates is not None:
+            raise UsageError("--source-map is of what linkforge's own templates write; leave it or --template out")
     if arguments.check:
         targets.require_files("--check", "compares with files")
     if arguments.depfile is not None:
         targets.require_files("--depfile", "tells what files are made from")
         if arguments.check:
             raise UsageError("--check writes nothing, so there is no --depfile with it")
-    return Order(spec, assignments, targets)
+    return Order(spec, assignments, targets, templates)
+
+
+def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:
+    from linkforge_compile.backends.user_templates import TemplateFolder
+
+    folder = arguments.template
+    packages = map(Path, packages_of(arguments).values())
+    try:
+        templates = TemplateFolder(folder, packages=packages, allow_outside=arguments.allow_outside)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise UsageError(f"--template takes a folder, found '{folder}': {reason}") from None
+    if not templates.documents and not templates.has_ours:
+        has = "NAME.j2 for a document, nor urdf/ or srdf/ with a template that goes before one of linkforge's"
+        raise UsageError(f"--template: '{folder}' has no {has}")
+    return templates
+
+
+def _targets(spec: str, templates: TemplateFolder | None, arguments: argparse.Namespace) -> Targets:
+    if templates is not None and templates.documents and arguments.format is None:
+        documents = targets_of_documents(templates.documents, arguments.outputs)
+        if documents is not None:
+            return documents
+    return targets_of(spec, arguments.outputs, arguments.format)

@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
     elif not is_faulty:
         from linkforge_compile.cli.depfile import inputs_of, make_rules
 
-        write_to_stdout(make_rules(_outputs(spec, arguments.outputs, compilation), inputs_of(compilation)))
+        write_to_stdout(make_rules(_outputs(spec, arguments.outputs, compilation), inputs_of(compilation.files)))
     return FAULTY_SPEC if is_faulty else OK
 
 

@@ -11,6 +11,7 @@ from linkforge_compile.cli.build import Order, compile_order, deliver
 from linkforge_compile.cli.commands import compile as compile_command
 from linkforge_compile.cli.exits import OK, WRONG_USAGE, UsageError
 from linkforge_compile.cli.telling import line_to_stderr, say, say_failure
+from linkforge_compile.roots import identity
 from linkforge_compile.stamps import Stamps
 
 if TYPE_CHECKING:
@@ -65,21 +66,36 @@ def run(arguments: argparse.Namespace) -> int:
             say(f"{_listed(changed)} changed", arguments)
         if gone:
             say(f"{_listed(gone)} {'is' if len(gone) == 1 else 'are'} gone", arguments)
-        exit_code = _build_again(order, stamps, arguments)
+        exit_code = _build_again(stamps, arguments)
 
 
 def _build(order: Order, stamps: Stamps, arguments: argparse.Namespace) -> int:
     began = time.time_ns()
     compilation = compile_order(order, arguments)
+    files = (*compilation.files, *compilation.unread)
     # Before anything that may fail or take its time: what changes meanwhile is to be seen.
-    stamps.follow((*compilation.files, *compilation.unread), began)
-    return deliver(order, compilation, arguments)
+    stamps.follow(files, began)
+    try:
+        return deliver(order, compilation, arguments)
+    finally:
+        stamps.follow((*files, *_templates(order)), began)
 
 
-def _build_again(order: Order, stamps: Stamps, arguments: argparse.Namespace) -> int:
+def _templates(order: Order) -> tuple[Path, ...]:
+    """Return the templates that were read or looked for, and the folder, to which one may be added."""
+    folder = order.templates
+    if folder is None:
+        return ()
+    # What is written into the folder itself would change it again and again.
+    outputs = (path for path in order.targets.paths.values() if path is not None)
+    is_written = any(identity(path.parent) == identity(folder.folder) for path in outputs)
+    return (*folder.files, *folder.unread, *(() if is_written else (folder.folder,)))
+
+
+def _build_again(stamps: Stamps, arguments: argparse.Namespace) -> int:
     """Build, and tell of what cannot be done where the first build would end: it is mended while we watch."""
     try:
-        return _build(order, stamps, arguments)
+        return _build(compile_command.order(arguments), stamps, arguments)
     except UsageError as error:
         line_to_stderr(f"linkforge watch: {error}")
         return WRONG_USAGE

@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes import (
     roots,
     schema,
     syntax,
+    templates,
 )
 from linkforge_compile.diagnostics.diagnostic import Code
 
@@ -26,7 +27,7 @@ REGISTER: dict[str, Code] = {
     code.id: code
     for family in (
         *(syntax, ignoring, schema, modules, files, repetition, bounds, roots, expressions),
-        *(names, model, physics, backends, importing),
+        *(names, model, physics, backends, templates, importing),
     )
     for code in vars(family).values()
     if isinstance(code, Code)

@@ -1,0 +1,191 @@
+"""The sandbox of a user's templates: they read the robot, change and call nothing else, and take bounded work."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import PurePath
+from typing import Any
+
+from jinja2 import BaseLoader, StrictUndefined, Template, nodes
+from jinja2.compiler import CodeGenerator, Frame
+from jinja2.exceptions import SecurityError
+from jinja2.runtime import Context, Undefined
+from jinja2.sandbox import ImmutableSandboxedEnvironment
+from jinja2.utils import missing
+from jinja2.visitor import NodeTransformer
+
+from linkforge_compile.backends.environment import FILTERS, OPTIONS
+from linkforge_compile.bounds import Budget, Limit
+from linkforge_compile.core.exceptions import RobotModelError
+from linkforge_compile.core.models.index import Index
+from linkforge_compile.diagnostics.suggest import did_you_mean
+
+NAMES = ("robot", "urdf", "srdf", "banner")
+"""What a document's template is given."""
+
+_READING = ("get", "has", "find", "is", "to", "volume")
+"""How the names begin of methods of the model that change nothing and read no file."""
+
+_MOST_BITS = 4096
+"""Bits of a whole number that is multiplied, or is a power."""
+
+_STEPS_OF_A_CALL = 10
+"""What a call or an include takes beside a round of a loop."""
+
+_COUNTED, _MEASURED = "counted", "measured"
+
+
+class _StrictUndefined(StrictUndefined):
+    """The value of an undefined name: its message offers the names that are like it."""
+
+    @property
+    def _undefined_message(self) -> str:
+        name, owner = self._undefined_name, self._undefined_obj
+        if self._undefined_hint:
+            return self._undefined_hint
+        if owner is missing:
+            return f"'{name}' is not defined{did_you_mean(str(name), NAMES)}"
+        if owner is None:
+            return f"this is None, which has no '{name}'; test it with '{{% if … %}}'"
+        whole = "this" if isinstance(owner, Index | Mapping) else f"a {type(owner).__name__}"
+        return f"{whole} has no '{name}'{did_you_mean(str(name), _names_in(owner))}"
+
+
+def _names_in(owner: object) -> Iterator[str]:
+    """Yield what a template may name of an object."""
+    yield from (str(key) for key in owner) if isinstance(owner, Mapping) else ()
+    yield from getattr(owner, "names", ())
+    yield from (name for name in dir(owner) if not name.startswith("_"))
+
+
+class _Counting(NodeTransformer):
+    """Passes what loops run over, and what `~` and filters take and make, through filters that count it."""
+
+    def visit_For(self, node: nodes.For) -> nodes.For:  # noqa: N802 the name is NodeTransformer's
+        self.generic_visit(node)
+        node.iter = _filtered(node.iter, _COUNTED)
+        return node
+
+    def visit_Concat(self, node: nodes.Concat) -> nodes.Expr:  # noqa: N802 as above
+        self.generic_visit(node)
+        return _filtered(node, _MEASURED)
+
+    def visit_Filter(self, node: nodes.Filter) -> nodes.Expr:  # noqa: N802 as above
+        self.generic_visit(node)
+        if node.node is None:
+            return node  # the first filter of a block: it takes the text of the block
+        node.node = _filtered(node.node, _MEASURED)
+        return _filtered(node, _MEASURED)
+
+
+def _filtered(node: nodes.Node, name: str) -> nodes.Filter:
+    return nodes.Filter(node, name, [], [], None, None, lineno=node.lineno, environment=node.environment)
+
+
+class _CountingCode(CodeGenerator):
+    """Compiles a template whose work is counted."""
+
+    def visit_Template(self, node: nodes.Template, frame: Frame | None = None) -> None:  # noqa: N802 CodeGenerator's
+        _Counting().visit(node)
+        super().visit_Template(node, frame)
+
+
+class FolderEnvironment(ImmutableSandboxedEnvironment):
+    """The environment of a folder of templates, which a budget bounds.
+
+    Loops, calls and includes count as steps, texts by their characters. One operation may still make one long text,
+    as `'%999999999d' % 1` does.
+    """
+
+    code_generator_class = _CountingCode
+    intercepted_binops = frozenset({"*", "**", "+", "%"})
+
+    def __init__(self, loader: BaseLoader, budget: Budget) -> None:
+        super().__init__(loader=loader, **OPTIONS | {"undefined": _StrictUndefined})
+        self.filters.update(FILTERS | {_COUNTED: self._counted, _MEASURED: self._measured})
+        del self.globals["lipsum"]
+        self._budget = budget
+
+    def text_of(self, template: str, context: Mapping[str, object]) -> str:
+        """Return what a template makes of a context."""
+        return self.concat(self.get_template(template).generate(context))
+
+    # Any: what templates handle, which the signatures of Jinja2 leave open.
+
+    def is_safe_attribute(self, obj: Any, attr: str, value: Any) -> bool:
+        """Allow what is data of the model: where it was written, and what finds its meshes, lead to files."""
+        leads_to_files = attr in {"source", "resource_resolver"} or isinstance(value, PurePath)
+        return not leads_to_files and super().is_safe_attribute(obj, attr, value)
+
+    def is_safe_callable(self, obj: Any) -> bool:
+        """Allow methods of Python's values and of Jinja2's, and those of the model that only read."""
+        home = (getattr(obj, "__module__", None) or "builtins").partition(".")[0]
+        if isinstance(obj, Undefined):
+            return True  # to call it reports the name
+        if home == "linkforge_compile":
+            return not isinstance(obj, type) and obj.__name__.partition("_")[0] in _READING
+        return home in {"builtins", "jinja2", "markupsafe"} and super().is_safe_callable(obj)
+
+    def getattr(self, obj: Any, attribute: str) -> Any:
+        """Return what an object has by a name; undefined too where an index has no such item."""
+        try:
+            return super().getattr(obj, attribute)
+        except RobotModelError:
+            if not isinstance(obj, Index):
+                raise
+            return self.undefined(obj=obj, name=attribute)
+
+    def getitem(self, obj: Any, argument: Any) -> Any:
+        """Return an item of an object; undefined too where an index has no such item."""
+        try:
+            return super().getitem(obj, argument)
+        except RobotModelError:
+            if not isinstance(obj, Index):
+                raise
+            return self.undefined(obj=obj, name=argument)
+
+    def call(self, context: Context, obj: Any, /, *args: Any, **kwargs: Any) -> Any:
+        self._step(_STEPS_OF_A_CALL)
+        if not self.is_safe_callable(obj):
+            raise SecurityError(f"'{getattr(obj, '__name__', type(obj).__name__)}' may do more than that")
+        owner = getattr(obj, "__self__", None)
+        if isinstance(owner, str | list | tuple):
+            self._measured(owner)
+        return self._measured(super().call(context, obj, *args, **kwargs))
+
+    def call_binop(self, context: Context, operator: str, left: Any, right: Any) -> Any:
+        """Compute what may make much of little, if it does not."""
+        if isinstance(left, int) and isinstance(right, int):
+            bits = {"**": left.bit_length() * right, "*": left.bit_length() + right.bit_length()}.get(operator, 0)
+            if bits > _MOST_BITS:
+                raise OverflowError(f"this number has more than {_MOST_BITS} bits")
+        elif operator == "*":
+            for text, times in ((left, right), (right, left)):
+                if isinstance(text, str | list | tuple) and isinstance(times, int):
+                    self._budget.spend(Limit.TEMPLATE_CHARACTERS, len(text) * max(times, 0), None)
+        return self._measured(super().call_binop(context, operator, left, right))
+
+    def get_template(self, name: str | Template, *args: Any, **kwargs: Any) -> Template:
+        self._step(_STEPS_OF_A_CALL)
+        return super().get_template(name, *args, **kwargs)
+
+    def select_template(self, names: Iterable[str | Template] | Undefined, *args: Any, **kwargs: Any) -> Template:
+        self._step(_STEPS_OF_A_CALL)
+        return super().select_template(names, *args, **kwargs)
+
+    def concat(self, texts: Iterable[str]) -> str:
+        """Join texts that a template writes, as far as there may be more."""
+        return "".join(map(self._measured, texts))
+
+    def _step(self, steps: int = 1) -> None:
+        self._budget.spend(Limit.TEMPLATE_STEPS, steps, None)
+
+    def _counted(self, items: Iterable[object]) -> Iterator[object]:
+        for item in items:
+            self._step()
+            yield item
+
+    def _measured(self, value: Any) -> Any:
+        if isinstance(value, str | list | tuple | range | Mapping | Index):
+            self._budget.spend(Limit.TEMPLATE_CHARACTERS, len(value), None)
+        return value

@@ -1,0 +1,167 @@
+"""A user's folder of templates: documents of his own at its top, and templates that go before ours."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.backends.markup import document_text, whole_tags, without_marks
+from linkforge_compile.bounds import Budget
+from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.diagnostics.codes.templates import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
+from linkforge_compile.resources import templates_folder
+from linkforge_compile.roots import ANYWHERE, Roots
+
+if TYPE_CHECKING:
+    from linkforge_compile.backends.sandbox import FolderEnvironment
+    from linkforge_compile.backends.template_loader import FolderLoader
+    from linkforge_compile.backends.urdf.sensor import Gazebo
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.diagnostics import Diagnostic
+
+SUFFIX = ".j2"
+"""How the names of templates end; without it, that of a document's template is the document's."""
+
+_NOT_DOCUMENTS = ("_", ".")
+"""How the names of templates begin at the top of a folder that others include."""
+
+
+class TemplateError(Exception):
+    """A user's templates cannot be rendered; `diagnostics` has the faults, at their lines."""
+
+    def __init__(self, diagnostics: tuple[Diagnostic, ...]) -> None:
+        self.diagnostics = diagnostics
+        super().__init__("\n".join(map(str, diagnostics)))
+
+    def __reduce__(self) -> tuple[type[TemplateError], tuple[tuple[Diagnostic, ...]]]:
+        return TemplateError, (self.diagnostics,)
+
+
+class TemplateFolder:
+    """A user's folder of templates; each is read once, when it is first used."""
+
+    def __init__(self, folder: str | Path, *, packages: Iterable[Path] = (), allow_outside: bool = False) -> None:
+        """Templates may be links to what lies in the folder's repository or in `packages`, else with `allow_outside`.
+
+        Raises:
+            NotADirectoryError: for what is no folder.
+            OSError: for a folder that cannot be read.
+
+        """
+        self.folder = Path(folder)
+        self._roots = ANYWHERE if allow_outside else Roots.around(self.folder, (self.folder, *packages))
+        with os.scandir(self.folder) as entries:
+            names = sorted(entry.name for entry in entries if entry.is_symlink() or entry.is_file())
+        templates = [name for name in names if name.endswith(SUFFIX) and not name.startswith(_NOT_DOCUMENTS)]
+        self.documents = tuple(name.removesuffix(SUFFIX) for name in templates)
+        """The names of the documents that its templates make, sorted."""
+
+    @property
+    def has_ours(self) -> bool:
+        """Whether one of its templates goes before one of ours."""
+        ours = (path.relative_to(templates_folder()) for path in templates_folder().rglob(f"*{SUFFIX}"))
+        return any(os.path.lexists(self.folder / path) for path in ours)
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """The templates that were read, those of ours among them."""
+        return tuple(map(Path, self._loader.files))
+
+    @property
+    def unread(self) -> tuple[Path, ...]:
+        """What was looked for in the folder and is not there: when it is, the result is another."""
+        return tuple(self._loader.missing)
+
+    def render(self, robot: Robot, *, banner: str = "", gazebo: Gazebo = "gz") -> dict[str, str]:
+        """Render all documents and return their texts by name; XML is laid out as URDF is.
+
+        Raises:
+            RobotGeneratorError: for a robot whose text XML cannot hold.
+            TemplateError: with all that is wrong, one fault a document.
+            ValueError: for another `gazebo` than `gz` or `classic`.
+
+        """
+        from linkforge_compile.backends.environment import is_xml
+        from linkforge_compile.backends.srdf_view import semantic_view
+        from linkforge_compile.backends.urdf import require_dialect, robot_view
+
+        require_dialect(gazebo)
+        srdf = semantic_view(robot) if robot.says_semantic else None
+        context = {"robot": robot, "urdf": robot_view(robot, gazebo), "srdf": srdf, "banner": banner}
+        texts: dict[str, str] = {}
+        faults: list[Diagnostic] = []
+        for name in self.documents:
+            template = f"{name}{SUFFIX}"
+            try:
+                if is_xml(template):
+                    texts[name] = f"{self.xml(template, context, pretty=True)}\n"
+                else:
+                    texts[name] = self._text(template, context)
+            except TemplateError as error:
+                faults += error.diagnostics
+        if faults:
+            raise TemplateError(tuple(faults))
+        return texts
+
+    def xml(self, template: str, context: Mapping[str, object], *, pretty: bool) -> str:
+        """Render a template of XML, check that it is well-formed, and return it laid out.
+
+        Raises:
+            TemplateError: for what is wrong with it.
+
+        """
+        from linkforge_compile.backends.template_faults import find_xml_fault
+
+        rendered = self._text(template, context)
+        place = self._loader.place_of(template)
+        if problem := find_xml_fault(without_marks(rendered).lstrip()):
+            raise TemplateError((NOT_XML_FROM_TEMPLATE.at(place, problem=problem),))
+        try:
+            return document_text(whole_tags(rendered), pretty=pretty)
+        except RobotGeneratorError as error:
+            raise TemplateError((TEMPLATE_FAILS.at(place, reason=error),)) from None
+        except (LookupError, TypeError, ValueError):
+            reason = "the 'elements' of a view need the other elements of that view before them"
+            raise TemplateError((TEMPLATE_FAILS.at(place, reason=reason),)) from None
+
+    def _text(self, template: str, context: Mapping[str, object]) -> str:
+        try:
+            return self._environment.text_of(template, context)
+        # A template may raise whatever Python can: each is a fault of the template.
+        except Exception as error:
+            from linkforge_compile.backends.template_faults import diagnose
+
+            raise TemplateError((diagnose(error, template, self._loader),)) from None
+
+    @cached_property
+    def _loader(self) -> FolderLoader:
+        from linkforge_compile.backends.template_loader import FolderLoader
+
+        return FolderLoader(self.folder, self._roots)
+
+    @cached_property
+    def _environment(self) -> FolderEnvironment:
+        from linkforge_compile.backends.sandbox import FolderEnvironment
+
+        return FolderEnvironment(self._loader, Budget())
+
+
+def render_templates(
+    robot: Robot, folder: str | Path, *, banner: str = "", gazebo: Gazebo = "gz", allow_outside: bool = False
+) -> dict[str, str]:
+    """Return what each template at the top of a folder makes of the robot, by its name without `.j2`.
+
+    Templates see the robot as `robot`, its URDF and SRDF as `urdf` and `srdf`, and `banner`. They run in a sandbox.
+    A link among them leads within the folder's repository, unless `allow_outside` lets it lead anywhere.
+
+    Raises:
+        TemplateError: with all that is wrong with the templates.
+        RobotGeneratorError: for a robot whose text XML cannot hold.
+        OSError: for a folder that cannot be read.
+        ValueError: for another `gazebo` than `gz` or `classic`.
+
+    """
+    return TemplateFolder(folder, allow_outside=allow_outside).render(robot, banner=banner, gazebo=gazebo)
