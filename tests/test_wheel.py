@@ -3,10 +3,13 @@
 import os
 import subprocess
 import sys
+import tarfile
 import zipfile
 from pathlib import Path
 
+import jinja2
 import pytest
+from jinja2 import ModuleLoader
 
 from tests.conftest import ROOT
 from tests.programs import program
@@ -34,6 +37,57 @@ def test_every_schema_template_and_page_of_the_manual_is_in_the_wheel(wheel: Pat
     assert manual <= packed
     assert "linkforge_compile/_data/linkforge-matcher.json" in packed
     assert not any(name.startswith(("tests/", "examples/", "schemas/")) for name in packed)
+
+
+def test_every_template_is_in_the_wheel_compiled(wheel: Path):
+    packed = set(zipfile.ZipFile(wheel).namelist())
+    templates = [path.relative_to(ROOT / "templates").as_posix() for path in (ROOT / "templates").rglob("*.j2")]
+    names = {ModuleLoader.get_module_filename(name) for name in templates}
+    assert {f"linkforge_compile/_data/compiled_templates/{name}" for name in (*names, "jinja2.txt")} <= packed
+    assert not any("_build_hook" in name for name in packed)
+
+
+def built_by_hatchling(source: Path, target: str, folder: Path) -> Path:
+    """Return what the build backend makes of a source tree: its wheel or sdist."""
+    build = (sys.executable, "-m", "hatchling", "build", "--target", target, "--directory", str(folder))
+    subprocess.run(build, cwd=source, check=True, capture_output=True, timeout=120)
+    (path,) = folder.iterdir()
+    return path
+
+
+def test_the_sdist_builds_the_same_wheel(wheel: Path, tmp_path: Path):
+    sdist = built_by_hatchling(ROOT, "sdist", tmp_path / "sdist")
+    with tarfile.open(sdist) as archive:
+        archive.extractall(tmp_path / "source", filter="data")
+    (source,) = (tmp_path / "source").iterdir()
+    assert (source / "linkforge_compile" / "_build_hook.py").is_file()
+    assert built_by_hatchling(source, "wheel", tmp_path / "wheel").read_bytes() == wheel.read_bytes()
+
+
+LOADER = "from linkforge_compile.backends.environment import own_environment as e; print(type(e().loader).__name__)"
+
+
+def test_an_installed_wheel_uses_its_compiled_templates_as_long_as_they_are_of_this_jinja2(wheel: Path, tmp_path: Path):
+    site = tmp_path / "site"
+    subprocess.run((*PIP, "install", "--no-deps", "--target", site, wheel), check=True, timeout=120)
+
+    def run(*words: str) -> str:
+        env = {**os.environ, "PYTHONPATH": str(site), "PYTHONSAFEPATH": "1"}
+        command = (sys.executable, *words)
+        return subprocess.run(
+            command, cwd=tmp_path, env=env, check=True, capture_output=True, timeout=60
+        ).stdout.decode()
+
+    example = ROOT / "tests" / "cases" / "good" / "sensors"
+    compile_example = ("-m", "linkforge_compile", "compile", str(example / "sensors.robot.yaml"))
+    assert run("-c", LOADER) == "ModuleLoader\n"
+    by_compiled = run(*compile_example)
+    assert by_compiled == (example / "sensors.urdf").read_text("utf-8")
+    made_by = site / "linkforge_compile" / "_data" / "compiled_templates" / "jinja2.txt"
+    assert made_by.read_text().strip() == jinja2.__version__
+    made_by.write_text("0.0\n")
+    assert run("-c", LOADER) == "FileSystemLoader\n"
+    assert run(*compile_example) == by_compiled
 
 
 def test_the_installed_command_compiles_and_has_its_schema(wheel: Path, tmp_path: Path):
