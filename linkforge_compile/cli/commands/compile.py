@@ -31,9 +31,9 @@ examples:
   linkforge compile - < arm.robot.yaml                  from standard input
   linkforge compile arm.robot.yaml --template docs/templates -o docs/     docs/joints.md, of docs/templates/joints.md.j2
 
---template FOLDER writes what the templates NAME.j2 at the top of FOLDER make, each to NAME. Where --format or -o FILE
-asks for URDF or SRDF, or FOLDER has no such templates, that is written, FOLDER/urdf/ and FOLDER/srdf/ going before
-linkforge's own templates. docs/templates.md tells what templates are given.
+--template FOLDER writes NAME for each Jinja2 template NAME.j2 at the top of FOLDER, in place of URDF and SRDF. These
+are written where --format or -o FILE asks for them, or FOLDER has no such template; templates in FOLDER/urdf/ and
+FOLDER/srdf/ then replace linkforge's own. docs/templates.md describes what a template is given.
 """
 
 
