@@ -24,7 +24,7 @@ MAY_IMPORT = {
     "bounds": "source diagnostics",
     "syntax": "source diagnostics bounds units",
     "expressions": "source diagnostics bounds units syntax",
-    "schema": "bytecode source diagnostics syntax units resources expressions",
+    "schema": "source diagnostics syntax units resources expressions",
     "importers": "banner source diagnostics bounds units syntax shape_order",
     "modules": "source diagnostics bounds units syntax schema expressions importers manifest roots",
     "core": "manifest source units roots shape_order",

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from linkforge_compile.schema.registry import linked_schema_text
 from tests.conftest import ROOT
 from tests.programs import program
 
@@ -34,6 +35,13 @@ def test_every_schema_template_and_page_of_the_manual_is_in_the_wheel(wheel: Pat
     assert manual <= packed
     assert "linkforge_compile/_data/linkforge-matcher.json" in packed
     assert not any(name.startswith(("tests/", "examples/", "schemas/")) for name in packed)
+
+
+def test_the_linked_schema_in_the_wheel_is_made_of_the_schemas(wheel: Path):
+    with zipfile.ZipFile(wheel) as packed:
+        if "linkforge_compile/_data/linked_schema.json" not in packed.namelist():
+            pytest.skip("this wheel was built without it: the installed package makes it of its schemas")
+        assert packed.read("linkforge_compile/_data/linked_schema.json").decode() == linked_schema_text()
 
 
 def test_the_installed_command_compiles_and_has_its_schema(wheel: Path, tmp_path: Path):
