@@ -20,10 +20,12 @@ class MadeFiles(BuildHookInterface[Any]):  # Any: the configuration of whatever 
         # The sources that are built, whatever linkforge is installed.
         sys.path.insert(0, self.root)
         from linkforge_compile.backends.environment import compile_templates
+        from linkforge_compile.schema.registry import linked_schema_text
 
         self._folder = TemporaryDirectory()
         made = Path(self._folder.name)
         compile_templates(made / "compiled_templates")
+        (made / "linked_schema.json").write_text(linked_schema_text(), "utf-8")
         for path in made.iterdir():
             build_data["force_include"][str(path)] = f"linkforge_compile/_data/{path.name}"
 

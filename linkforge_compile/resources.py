@@ -16,6 +16,11 @@ def schemas_folder() -> Path:
     return data_folder() / "schemas"
 
 
+def linked_schema_file() -> Path:
+    """Return the file of all schemas as one, which is made when a wheel is built; a checkout has none."""
+    return _packed() / "linked_schema.json"
+
+
 def templates_folder() -> Path:
     return data_folder() / "templates"
 

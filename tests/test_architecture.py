@@ -30,7 +30,7 @@ MAY_IMPORT = {
     "lowering": "source diagnostics bounds units syntax modules core roots shape_order",
     "checks": "source diagnostics units core roots",
     "backends": "source diagnostics bounds units core resources roots shape_order",
-    "_build_hook": "backends",
+    "_build_hook": "schema backends",
     "writers": "source units syntax core modules shape_order",
     "compare": "units core backends shape_order",
     "pipeline": (

@@ -11,6 +11,7 @@ import jinja2
 import pytest
 from jinja2 import ModuleLoader
 
+from linkforge_compile.schema.registry import linked_schema_text
 from tests.conftest import ROOT
 from tests.programs import program
 
@@ -24,6 +25,13 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     subprocess.run(build, check=True, capture_output=True, timeout=120)
     (path,) = folder.glob("*.whl")
     return path
+
+
+def test_the_wheel_is_built_with_what_the_project_says_it_takes(wheel: Path, tmp_path: Path):
+    build = (*PIP, "wheel", "--no-deps", "--wheel-dir", str(tmp_path), str(ROOT))
+    subprocess.run(build, check=True, capture_output=True, timeout=300)
+    (isolated,) = tmp_path.glob("*.whl")
+    assert set(zipfile.ZipFile(isolated).namelist()) == set(zipfile.ZipFile(wheel).namelist())
 
 
 def test_every_schema_template_and_page_of_the_manual_is_in_the_wheel(wheel: Path):
@@ -88,6 +96,11 @@ def test_an_installed_wheel_uses_its_compiled_templates_as_long_as_they_are_of_t
     made_by.write_text("0.0\n")
     assert run("-c", LOADER) == "FileSystemLoader\n"
     assert run(*compile_example) == by_compiled
+
+
+def test_the_linked_schema_in_the_wheel_is_made_of_the_schemas(wheel: Path):
+    with zipfile.ZipFile(wheel) as packed:
+        assert packed.read("linkforge_compile/_data/linked_schema.json").decode() == linked_schema_text()
 
 
 def test_the_installed_command_compiles_and_has_its_schema(wheel: Path, tmp_path: Path):

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from linkforge_compile.schema.for_editors import EditorForm
 from linkforge_compile.schema.json_types import Schema
-from linkforge_compile.schema.registry import ROOT, definitions, definitions_with_patches
-
-IDENTIFIER = "https://linkforge.dev/schema/v1/robot.schema.json"
-"""Names version 1 of the language's schema; an identifier, never fetched."""
+from linkforge_compile.schema.registry import IDENTIFIER, ROOT, definitions, definitions_with_patches
 
 
 def bundle() -> Schema:

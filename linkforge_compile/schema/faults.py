@@ -6,12 +6,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from itertools import islice
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from jsonschema import Draft7Validator
 
 from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, brought_in_at, too_many_errors
 from linkforge_compile.schema.explain import Judgement, explain
+from linkforge_compile.schema.gate import plain
 from linkforge_compile.schema.json_types import Schema
 from linkforge_compile.schema.meant import Path
 from linkforge_compile.schema.missing_level import told_once
@@ -19,7 +20,7 @@ from linkforge_compile.schema.registry import linked
 from linkforge_compile.schema.shapes import FREE, shape_of
 from linkforge_compile.schema.validator import HEADER
 from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, fault_of
+from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, fault_of
 
 if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError
@@ -43,7 +44,7 @@ def computed_without_faults(node: YamlNode, written: YamlNode, key: str, schema:
     tree = YamlMap({key: YamlEntry(name, node)}, node.span)
     shown = YamlMap({key: YamlEntry(name, written)}, node.span)
     whole: Schema = {"type": "object", "properties": {key: schema}}
-    errors = Draft7Validator(whole).iter_errors({key: _plain(shown.entries[key].value)})
+    errors = Draft7Validator(whole).iter_errors({key: plain(shown.entries[key].value)})
     judgements = [one for error in errors for one in _explained(error, shown) if len(one.path) > 1]
     return _told(tree, judgements, sink).entries[key].value
 
@@ -80,7 +81,7 @@ def _validator(is_included: bool) -> Draft7Validator:
 
 
 def _errors(tree: YamlMap, is_included: bool) -> Iterator[ValidationError]:
-    data = {entry.name: _plain(entry.value) for entry in tree}
+    data = {entry.name: plain(entry.value) for entry in tree}
     for name in HEADER:
         if tree.get(name) is None:
             data.pop(name, None)
@@ -98,22 +99,6 @@ def _is_in_reserved_name(error: ValidationError) -> bool:
         else:
             shape = shape.under(step)
     return False
-
-
-_FAULTY: Final = object()
-"""Stands for a YamlFault in plain data: no kind of value, so every schema errs on it, and `explain` passes over it."""
-
-
-def _plain(node: YamlNode) -> object:
-    match node:
-        case YamlMap():
-            return {entry.name: _plain(entry.value) for entry in node}
-        case YamlList():
-            return [_plain(item) for item in node]
-        case YamlScalar():
-            return node.value
-        case YamlFault():
-            return _FAULTY
 
 
 def _pruned(tree: YamlMap, judgements: Iterable[Judgement]) -> YamlMap:

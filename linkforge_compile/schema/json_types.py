@@ -24,4 +24,4 @@ def branches(schema: Schema) -> list[Schema]:
 def reference(schema: Schema) -> str | None:
     """Return the name of the definition that a schema stands for, None where it stands for itself."""
     target = schema.get("$ref")
-    return target.removeprefix("#/definitions/") if isinstance(target, str) else None
+    return target.rpartition("#/definitions/")[2] if isinstance(target, str) else None

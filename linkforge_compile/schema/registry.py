@@ -1,12 +1,16 @@
-"""Loads schemas/ and joins the files: each concept's schema becomes one definition of one whole."""
+"""Load schemas/ and join the files: each concept's schema becomes one definition of one whole."""
 
 from __future__ import annotations
 
+import json
 from functools import cache
 
-from linkforge_compile.resources import schemas_folder
+from linkforge_compile.resources import linked_schema_file, schemas_folder
 from linkforge_compile.schema.json_types import Json, Schema, mapping, reference
 from linkforge_compile.schema.repetition import add_repetition
+
+IDENTIFIER = "https://linkforge.dev/schema/v1/robot.schema.json"
+"""Names version 1 of the language's schema; an identifier, never fetched."""
 
 ROOT = "robot"
 """The schema of a whole file; a module has the same."""
@@ -16,8 +20,6 @@ _SUFFIX = ".schema.json"
 
 def load_files() -> dict[str, Schema]:
     """Return every schema file by its concept: `joint` for joint.schema.json; sorted, as read."""
-    import json
-
     paths = sorted(schemas_folder().glob(f"*{_SUFFIX}"))
     return {path.name.removesuffix(_SUFFIX): json.loads(path.read_text(encoding="utf-8")) for path in paths}
 
@@ -44,23 +46,36 @@ def definitions() -> dict[str, Schema]:
 @cache
 def definitions_with_patches() -> dict[str, Schema]:
     """Return all definitions and the patch forms that `override` and `defaults` take, as `link_patch`."""
-    # Asked for by who makes the whole anew, and by editors.
+    # Imported by whoever makes the whole schema, which an installed package only reads.
     from linkforge_compile.schema.patches import add_patches
 
     return add_patches(definitions(), ROOT)
+
+
+def linked_schema_text() -> str:
+    """Return all definitions as the JSON of one schema, in which each `$ref` names that schema.
+
+    The build of a wheel writes it to `linked_schema_file()`: an installed package reads one file and joins none.
+    """
+    definitions = json.dumps(definitions_with_patches(), ensure_ascii=False)
+    absolute = definitions.replace('"$ref": "#/', f'"$ref": "{IDENTIFIER}#/')
+    return f'{{"$id": "{IDENTIFIER}", "definitions": {absolute}}}\n'
+
+
+@cache
+def whole_schema() -> Schema:
+    """Return what `linked_schema_text()` holds, read from the installed package, made in a checkout."""
+    file = linked_schema_file()
+    return mapping(json.loads(file.read_text(encoding="utf-8") if file.is_file() else linked_schema_text()))
 
 
 @cache
 def linked() -> Schema:
     """Return the root schema with each `$ref` replaced by its definition itself, shared, not copied.
 
-    A validator then looks nothing up, which is half of its time; a schema that contains itself is a cycle.
-    To put it together takes as long as a twelfth of a whole compile, so what an earlier process made is taken.
+    A schema that contains itself is a cycle.
     """
-    return _linked()
-
-
-def _linked() -> Schema:
+    definitions = mapping(whole_schema()["definitions"])
     done: dict[str, Schema] = {}
 
     def link(node: Json) -> Json:
@@ -70,15 +85,29 @@ def _linked() -> Schema:
             return node
         if (target := reference(node)) is not None:
             return link_definition(target)
-        return {key: link(value) for key, value in node.items()}
+        return link_object(node, {})
 
     def link_definition(name: str) -> Schema:
         if name not in done:
             done[name] = {}
-            done[name].update(mapping(link(definitions_with_patches()[name])))
+            link_object(mapping(definitions[name]), done[name])
         return done[name]
 
+    def link_object(node: Schema, whole: Schema) -> Schema:
+        _UNLINKED[id(whole)] = node
+        whole.update((key, link(value)) for key, value in node.items())
+        return whole
+
     return link_definition(ROOT)
+
+
+def unlinked(schema: Schema) -> Schema:
+    """Return a part of the linked schema as it is in `whole_schema()`, with its `$ref`s; any other schema itself."""
+    return _UNLINKED.get(id(schema), schema)
+
+
+# The schemas are made once and stay, so their identity is theirs for ever.
+_UNLINKED: dict[int, Schema] = {}
 
 
 def _flattened(node: Json) -> Json:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.schema import SECTION_LINE_INDENTED, SECTION_LINE_LOST
-from linkforge_compile.schema.fit import fit_of
+from linkforge_compile.schema.gate import accepts
 from linkforge_compile.schema.json_types import branches, mapping
 from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.schema.words import COMMON_KEYS, shortened
@@ -165,7 +165,7 @@ def _takes(section: Shape, entry: YamlEntry) -> bool:
 
 
 def _is_shaped_as(section: Shape, entry: YamlEntry) -> bool:
-    return fit_of(section.schema).takes(YamlMap({entry.name: entry}, entry.key.span))
+    return accepts(section.schema, YamlMap({entry.name: entry}, entry.key.span))
 
 
 def _lacks_its_essence(entry: YamlEntry, section: Shape) -> bool:

@@ -1,11 +1,11 @@
-"""Judges the shape of a tree by the schema: what is right goes on as it is; what is faulty is told and taken out."""
+"""Validate the shape of a tree by the schema: report what does not fit, and return the tree without it."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.schema.fit import fit_of
+from linkforge_compile.schema.gate import accepts
 from linkforge_compile.schema.registry import linked
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.units import Quantity
@@ -27,7 +27,7 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     """
     if _is_right(tree, is_included) and not _may_lack_a_line(tree):
         return tree
-    # The words for faults, and jsonschema, which takes 110 ms to import, are needed for a faulty file only.
+    # Only what the gate does not accept needs jsonschema, which takes 90 ms to import, and the words for its errors.
     from linkforge_compile.schema.faults import without_faults
     from linkforge_compile.schema.section_lines import with_sections_restored
 
@@ -40,7 +40,7 @@ def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics)
     Whether it is itself of the kind and length that stands there, its reader judges, as of any computed value.
     """
     written = _with_units(node)
-    if fit_of(shape.schema).takes(written):
+    if accepts(shape.schema, written):
         return node
     from linkforge_compile.schema.faults import computed_without_faults
 
@@ -48,9 +48,9 @@ def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics)
 
 
 def _is_right(tree: YamlMap, is_included: bool) -> bool:
-    """Whether a file is certainly as the language says; jsonschema, which takes long, is asked of others only."""
-    said = ("linkforge",) if is_included else HEADER
-    return all(tree.get(name) is not None for name in said) and fit_of(linked()).takes(tree)
+    """Whether a file has its header and the gate accepts it; `faults` finds what is wrong with any other."""
+    header = ("linkforge",) if is_included else HEADER
+    return all(tree.get(name) is not None for name in header) and accepts(linked(), tree)
 
 
 def _may_lack_a_line(tree: YamlMap) -> bool:
