@@ -218,8 +218,7 @@ class _Reader:
         self.document = Node("", (), [])
         self._mark = mark
         self._open = [self.document]
-        # Of each open element, the byte at which it begins, and whether white space in it is text.
-        self._begun = [0]
+        # Of each open element, whether white space in it is text.
         self._keeps_space = [False]
 
     def begin(self, tag: str, attributes: list[str]) -> None:
@@ -229,13 +228,11 @@ class _Reader:
         node = Node(tag, pairs, [], self._mark(self.parser.CurrentLineNumber))
         self._open[-1].content.append(node)
         self._open.append(node)
-        self._begun.append(self.parser.CurrentByteIndex)
         space = dict(pairs).get("xml:space")
         self._keeps_space.append(self._keeps_space[-1] if space is None else space == "preserve")
 
     def end(self, _: str) -> None:
         content = self._open.pop().content
-        self._begun.pop()
         if not self._keeps_space.pop() and all(not is_text(item) or not str(item).strip() for item in content):
             content[:] = [item for item in content if not is_text(item)]
 
@@ -262,33 +259,20 @@ class _Reader:
 
     def malformed(self) -> RawXmlError:
         """Return what is wrong where the parser gave up."""
-        from linkforge_compile.source.malformed_xml import malformed
+        from linkforge_compile.source.malformed_xml import fault_of
 
-        code, byte = self._fault()
-        at = self._index(byte)
+        # As of a text that just ends: a tag that is not closed would be one that holds what stands around the text.
+        found = fault_of(self._text, _BEGIN)
+        assert found, "the element around it is not closed"
+        at = min(found.at, len(self._text.rstrip()))
         if self._text.startswith("<!DOCTYPE", at - len("<!")):
             reason = "raw XML has a document type, whose entities can hold and fetch anything; delete that"
             return RawXmlError(reason, self._text, at - len("<!"))
         if self._text.startswith(("<?xml ", "<?xml?"), at):
             reason = "raw XML is part of a file, which has its '<?xml'; delete this one"
             return RawXmlError(reason, self._text, at)
-        found = malformed(code, self._text, at, [node.tag for node in self._open[2:]])
-        begun = self._index(self._begun[-1]) if found.is_open else None
-        return RawXmlError(f"raw XML is not well-formed: {found.problem}", self._text, found.at, begun)
-
-    def _fault(self) -> tuple[int, int]:
-        """Return expat's code of what is wrong, and at which byte.
-
-        Both as of a text that just ends: a tag that is not closed would be one that holds what stands around the text.
-        """
-        from xml.parsers import expat
-
-        parser = expat.ParserCreate("utf-8")
-        try:
-            parser.Parse(f"{_BEGIN}{self._text}", True)
-        except expat.ExpatError as error:
-            return error.code, parser.ErrorByteIndex
-        return self.parser.ErrorCode, self.parser.ErrorByteIndex
+        begun = found.begun[0] if found.begun else None
+        return RawXmlError(f"raw XML is not well-formed: {found.problem}", self._text, at, begun)
 
     @property
     def _is_outside(self) -> bool:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.importers.draft import number_of
-from linkforge_compile.importers.xml import XmlElement
+from linkforge_compile.source.xml_tree import XmlElement
 
 Value: TypeAlias = tuple[float | str, ...]
 """The words of a text, numbers among them as what they are."""
