@@ -20,7 +20,7 @@ MARKUP = re.compile(
 )
 """Matches each piece of a document; its group is its kind, `rest` for all from where something is not closed."""
 
-NAME = re.compile(r"""[^\s=/<>?"']+""")
+_NAME = re.compile(r"""[^\s=/<>?"']+""")
 ATTRIBUTE = re.compile(r"""\s(?P<name>[^\s=/<>"']+)\s*=\s*(?:"(?P<double>[^"]*)"|'(?P<single>[^']*)')""")
 
 _QUOTED = re.compile(r""""[^"]*"|'[^']*'""")
@@ -45,6 +45,11 @@ class Places:
         self._line_from: int | None = None
         self._hidden: list[str] = []
         self._hidden_to = 0
+
+    def name_at(self, offset: int) -> str:
+        """Return the name that begins at an offset, empty for none."""
+        found = _NAME.match(self.text, offset)
+        return found[0] if found else ""
 
     def walk(self) -> Iterator[re.Match[str]]:
         """Yield each piece before it counts, to where something is not closed, or closes what is not open."""
