@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from linkforge_compile.backends.element import Extended, place_of_attribute, raw_texts
+from linkforge_compile.backends.node import Node
 from linkforge_compile.backends.parts import Held
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic
@@ -39,7 +40,7 @@ def _names(part: Extended) -> list[str]:
 
 def _in_xml(text: str, known: frozenset[str]) -> Iterator[str]:
     """Yield the prefixes of raw XML that nothing declares; nothing for XML that cannot be read, which is told."""
-    from linkforge_compile.backends.raw import Node, well_formed_nodes
+    from linkforge_compile.backends.raw import well_formed_nodes
 
     def unknown(node: Node, known: frozenset[str]) -> Iterator[str]:
         names = [name for name, _ in node.attributes]

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.backends.element import raw_texts
-from linkforge_compile.backends.raw import well_formed_nodes
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.backends import RAW_NAME_IS_TAKEN
 
@@ -42,5 +41,7 @@ def check_raw_names(robot: Robot) -> Iterator[Diagnostic]:
 
 def _named_in(text: str) -> Iterator[tuple[str, str]]:
     """Yield the tag and name of each element of raw XML that has one."""
+    from linkforge_compile.backends.raw import well_formed_nodes
+
     for node in well_formed_nodes(text):
         yield from ((node.tag, value) for key, value in node.attributes if key == "name")

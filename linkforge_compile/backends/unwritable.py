@@ -51,7 +51,7 @@ def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> 
 
         yield from refused(lambda: raw_elements(value), where, name)
     elif isinstance(value, Mapping) and isinstance(part, Element) and part.KEYS_ARE_TAGS:
-        from linkforge_compile.backends.raw import is_surely_writable, parameter_elements
+        from linkforge_compile.backends.parameters import is_surely_writable, parameter_elements
 
         # A plugin's raw XML stands in place of its parameters.
         for key, text in (

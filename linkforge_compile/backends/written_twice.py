@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from linkforge_compile.backends.element import raw_texts
 from linkforge_compile.backends.parts import Held, Part
-from linkforge_compile.backends.raw import well_formed_nodes
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Collision, Inertial, Link, Visual
@@ -48,6 +47,8 @@ def written_twice(parts: Iterable[Held]) -> Iterator[Diagnostic]:
 
 
 def _written_again(part: Part, where: SourceRef | None, fields: Mapping[str, str]) -> Iterator[Diagnostic]:
+    from linkforge_compile.backends.raw import well_formed_nodes
+
     first = {tag: _place(where, field) for tag, field in fields.items() if _is_written(part, field, where)}
     for text, source, path in raw_texts(part, where):
         for tag in (node.tag for node in well_formed_nodes(text)):

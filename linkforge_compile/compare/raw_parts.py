@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from linkforge_compile.backends.raw import Node, inline, is_text, nodes_of
+from linkforge_compile.backends.node import Node, inline, is_text
+from linkforge_compile.backends.raw import nodes_of
 from linkforge_compile.core.exceptions import RobotGeneratorError
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from linkforge_compile.banner import BANNER
-from linkforge_compile.importers.xml import XmlComment, XmlContent
+from linkforge_compile.source.xml_tree import XmlComment, XmlContent
 
 _RULE = re.compile("=+")
 _XACRO = (

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from linkforge_compile.importers.banners import without_banners
 from linkforge_compile.importers.draft import Draft
-from linkforge_compile.importers.xml import XmlComment, XmlDocument, XmlElement
+from linkforge_compile.source.xml_tree import XmlComment, XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode
 
 

@@ -9,8 +9,9 @@ from typing import NamedTuple
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import NOT_A_ROBOT, NOTHING_EXPANDED, ROBOT_WITHOUT_NAME, STILL_XACRO
 from linkforge_compile.importers.comments import Comments
-from linkforge_compile.importers.xml import XmlDocument, XmlElement, read_xml
+from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.source import SourceFile
+from linkforge_compile.source.xml_tree import XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlMap
 
 Move = Callable[[XmlDocument], XmlDocument]

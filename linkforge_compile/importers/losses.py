@@ -16,8 +16,8 @@ from linkforge_compile.diagnostics.codes.importing import (
 from linkforge_compile.importers.draft import same
 from linkforge_compile.importers.orders import recolored
 from linkforge_compile.importers.said import Said, said
-from linkforge_compile.importers.xml import XmlDocument, XmlElement
 from linkforge_compile.source import Span
+from linkforge_compile.source.xml_tree import XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlFault, YamlMap, YamlNode, YamlScalar
 
 _Key: TypeAlias = tuple[str | None, ...]

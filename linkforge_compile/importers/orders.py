@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, TypeAlias
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.importing import COLORS_REORDERED, SHAPES_REORDERED
 from linkforge_compile.importers.draft import number_of
-from linkforge_compile.importers.xml import XmlElement
 from linkforge_compile.shape_order import KINDS, VISUAL, shown_colors
+from linkforge_compile.source.xml_tree import XmlElement
 
 if TYPE_CHECKING:
     from linkforge_compile.importers.said import Said

@@ -15,8 +15,8 @@ from linkforge_compile.diagnostics import Note, Severity
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
 from linkforge_compile.importers.draft import DeclinedError, Draft, values_in
 from linkforge_compile.importers.prefixed import MARKUP, raw_with_prefix
-from linkforge_compile.importers.xml import XmlAttribute, XmlElement
 from linkforge_compile.source import Span
+from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension
 

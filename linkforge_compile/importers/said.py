@@ -14,7 +14,7 @@ from linkforge_compile.core.fields import number_fields
 from linkforge_compile.core.models.joint import JointDynamics, JointMimic, JointSafetyController
 from linkforge_compile.core.part import Element
 from linkforge_compile.importers.draft import number_of
-from linkforge_compile.importers.xml import XmlElement
+from linkforge_compile.source.xml_tree import XmlElement
 
 Value: TypeAlias = tuple[float | str, ...]
 """The words of a text, numbers among them as what they are."""

@@ -15,8 +15,8 @@ from linkforge_compile.modules.xacro_faults import in_order
 from linkforge_compile.roots import identity
 
 if TYPE_CHECKING:
-    from linkforge_compile.importers.xml import XmlElement
     from linkforge_compile.source import SourceFile, Span
+    from linkforge_compile.source.xml_tree import XmlElement
 
 _WANTED = re.compile(r"\$\(arg\s+([^\s()]+)\s*\)")
 _SUBSTITUTION = re.compile(r"\$\((find|arg|dirname)\s*([^\s()]*)\s*\)")

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from linkforge_compile.importers.xacro import Expanded, Failed, Place
-    from linkforge_compile.importers.xml import XmlElement
     from linkforge_compile.modules.xacro import Asked, XacroUse
+    from linkforge_compile.source.xml_tree import XmlElement
 
 
 class Written:

@@ -1,11 +1,14 @@
-"""What is wrong with a text that is no XML, in the words of whoever wrote it."""
+"""What is wrong with a text that is no XML, in the words of whoever wrote it.
+
+The words are about what expat finds, which refuses all that lxml does but for its limits.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from typing import NamedTuple
-from xml.parsers.expat import ErrorString, errors
+from xml.parsers import expat
+from xml.parsers.expat import errors
 
 _CONFLICT = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 _REFERENCE = re.compile(r"&[\w.-]*\Z")
@@ -14,60 +17,108 @@ _MOST_SHOWN = 40
 _BEFORE_VALUE = re.compile(r"<[^\s<>!?/][^<>]*=\s*")
 
 
-class Malformed(NamedTuple):
-    """What is wrong, the offset at which it is, and whether that is that an element is not closed."""
+class MalformedXmlError(Exception):
+    """What is wrong with a text, and the offset at which it is.
 
-    problem: str
-    at: int
-    is_open: bool = False
-
-
-def malformed(code: int, text: str, at: int, open_tags: Sequence[str]) -> Malformed:
-    """Return what is wrong where a parser gave up, with the elements that are open there, the innermost last.
-
-    What is not certain stays as the parser says it.
+    `begun` is where `<tag` stands of an element that has no end, None where the fault is another.
     """
+
+    def __init__(self, problem: str, at: int, begun: tuple[int, int] | None = None) -> None:
+        self.problem, self.at, self.begun = problem, at, begun
+        super().__init__(problem)
+
+
+class _DocumentTypeError(Exception):
+    """What follows is not read: it could expand entities."""
+
+
+class _Open(NamedTuple):
+    """An element that has no end yet, and where it begins: a byte for expat, a character for words."""
+
+    tag: str
+    at: int
+
+
+def fault_of(text: str, around: str = "", *, is_whole: bool = True) -> MalformedXmlError | None:
+    """Return what is wrong with a text that follows the tags `around`; None for nothing, or behind a document type.
+
+    One that is not whole lacks nothing at its end.
+    """
+    opened: list[_Open] = []
+    parser = expat.ParserCreate("utf-8")
+    parser.StartElementHandler = lambda tag, _: opened.append(_Open(tag, parser.CurrentByteIndex))
+    parser.EndElementHandler = lambda _: opened.pop()
+    parser.StartDoctypeDeclHandler = _stop
+    try:
+        parser.Parse(around, False)
+        outside = len(opened)
+        parser.Parse(text, is_whole)
+    except _DocumentTypeError:
+        return None
+    except expat.ExpatError as error:
+        known = expat.ErrorString(error.code)
+    else:
+        return None
+    finally:
+        parser.StartElementHandler = None  # breaks the cycle of the two: the collector may be paused
+    data = text.encode()
+
+    def offset(byte: int) -> int:
+        return len(data[: byte - len(around)].decode(errors="replace"))
+
+    innermost = opened[-1] if len(opened) > outside else None
+    innermost = innermost and innermost._replace(at=offset(innermost.at))
+    return _explained(known, text, offset(parser.ErrorByteIndex), innermost)
+
+
+def _stop(*_: object) -> None:
+    raise _DocumentTypeError
+
+
+def _explained(known: str, text: str, at: int, innermost: _Open | None) -> MalformedXmlError:
+    """Return what is wrong where expat gave up in an element; what is not certain stays as expat says it."""
     if not text.strip():
-        return Malformed("the file is empty", 0)
-    known, innermost = ErrorString(code), _shown(open_tags[-1]) if open_tags else None
+        return MalformedXmlError("the file is empty", 0)
     if known == errors.XML_ERROR_INVALID_TOKEN and (fault := _of_invalid_token(text, at)):
         return fault
     if known == errors.XML_ERROR_UNCLOSED_TOKEN:
         what = "comment" if text.startswith("<!--", at) else "tag"
-        return Malformed(f"this {what} is not closed", at)
+        return MalformedXmlError(f"this {what} is not closed", at)
     if known == errors.XML_ERROR_UNCLOSED_CDATA_SECTION:
-        return Malformed("this CDATA is not closed; it ends with ']]>'", text.rfind("<![CDATA[", 0, at))
-    if known == errors.XML_ERROR_TAG_MISMATCH and (name := _NAME.match(text, at)):
-        found = f"</{_shown(name[0])}>"
-        if innermost is None:
-            return Malformed(f"{found} closes nothing that is open", at)
-        return Malformed(f"expected </{innermost}>, found {found}", at, is_open=True)
+        return MalformedXmlError("this CDATA is not closed; it ends with ']]>'", text.rfind("<![CDATA[", 0, at))
+    closing = _NAME.match(text, at) if known == errors.XML_ERROR_TAG_MISMATCH else None
+    if closing and not innermost:
+        return MalformedXmlError(f"</{_shown(closing[0])}> closes nothing that is open", at)
     if innermost and known in (errors.XML_ERROR_NO_ELEMENTS, errors.XML_ERROR_TAG_MISMATCH):
-        return Malformed(f"it ends before </{innermost}>", at, is_open=True)
+        end, begun = f"</{_shown(innermost.tag)}>", (innermost.at, innermost.at + len(innermost.tag) + 1)
+        problem = f"expected {end}, found </{_shown(closing[0])}>" if closing else f"it ends before {end}"
+        return MalformedXmlError(problem, at, begun)
     if known == errors.XML_ERROR_NO_ELEMENTS:
-        return Malformed("there is no element in it", at)
+        return MalformedXmlError("there is no element in it", at)
     if known == errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
-        return Malformed("it has one element, behind which nothing but comments may stand", at)
-    return Malformed("invalid token" if known == errors.XML_ERROR_INVALID_TOKEN else known, at)
+        return MalformedXmlError("it has one element, behind which nothing but comments may stand", at)
+    return MalformedXmlError("invalid token" if known == errors.XML_ERROR_INVALID_TOKEN else known, at)
 
 
-def _of_invalid_token(text: str, at: int) -> Malformed | None:
+def _of_invalid_token(text: str, at: int) -> MalformedXmlError | None:
     before = text[:at]
     line = before.rfind("\n") + 1
     if _CONFLICT.match(text, line):
-        return Malformed("this line is one that git leaves of a merge conflict; keep one of the two sides", line)
+        return MalformedXmlError(
+            "this line is one that git leaves of a merge conflict; keep one of the two sides", line
+        )
     if before.rfind("<!--") > before.rfind("-->"):
         is_second = before.endswith("--")
-        return Malformed("a comment holds no '--'", at - 2) if is_second else None
+        return MalformedXmlError("a comment holds no '--'", at - 2) if is_second else None
     if reference := _REFERENCE.search(before, line):
-        return Malformed("'&' by itself is written '&amp;'", reference.start())
+        return MalformedXmlError("'&' by itself is written '&amp;'", reference.start())
     tag = before[max(before.rfind("<"), 0) :]
     if tag.count('"') % 2:
         found = "the value of an attribute holds no '<'; close its quote, or write '&lt;'"
-        return Malformed(found, at) if text.startswith("<", at) else None
+        return MalformedXmlError(found, at) if text.startswith("<", at) else None
     value = _NAME.match(text, at)
     if value and _BEFORE_VALUE.fullmatch(tag):
-        return Malformed(
+        return MalformedXmlError(
             f"the value of an attribute stands in quotes; write '\"{_shown(value[0].strip('“”‘’'))}\"'", at
         )
     return None

@@ -6,7 +6,8 @@ import pytest
 
 from linkforge_compile.backends import render_urdf
 from linkforge_compile.backends.element import RawXmlError
-from linkforge_compile.backends.raw import parameter_elements, raw_elements
+from linkforge_compile.backends.parameters import parameter_elements
+from linkforge_compile.backends.raw import raw_elements
 from linkforge_compile.core import Robot
 from linkforge_compile.core.exceptions import RobotGeneratorError
 

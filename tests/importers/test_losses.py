@@ -16,8 +16,9 @@ from linkforge_compile.cli.main import main
 from linkforge_compile.diagnostics import Diagnostics, sink
 from linkforge_compile.importers.losses import losses
 from linkforge_compile.importers.reading import Reading
-from linkforge_compile.importers.xml import XmlDocument, read_xml
+from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.source import SourceFile
+from linkforge_compile.source.xml_tree import XmlDocument
 
 ROBOT = """\
 <robot name="r">

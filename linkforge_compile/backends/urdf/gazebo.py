@@ -8,7 +8,7 @@ from typing import NamedTuple
 from linkforge_compile.backends.element import attributes, attributes_at, elements
 from linkforge_compile.backends.marks import recorded
 from linkforge_compile.backends.markup import Xml, placed, spelled
-from linkforge_compile.backends.raw import parameter_elements, raw_elements
+from linkforge_compile.backends.parameters import parameter_elements
 from linkforge_compile.backends.urdf.link import says_physics
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.link import PHYSICS_TAGS, Link, LinkPhysics
@@ -61,12 +61,17 @@ def gazebo_views(blocks: Iterable[GazeboElement]) -> tuple[GazeboView, ...]:
 
 
 def plugin_view(plugin: GazeboPlugin) -> PluginView:
-    raw = plugin.raw_xml
     return PluginView(
-        attributes(plugin, name=plugin.name, filename=plugin.filename),
-        raw_elements(raw) if raw is not None else parameter_elements(plugin.parameters, plugin.source, "parameters"),
-        elements(plugin),
+        attributes(plugin, name=plugin.name, filename=plugin.filename), _parameters(plugin), elements(plugin)
     )
+
+
+def _parameters(plugin: GazeboPlugin) -> Xml:
+    if plugin.raw_xml is None:
+        return parameter_elements(plugin.parameters, plugin.source, "parameters")
+    from linkforge_compile.backends.raw import raw_elements
+
+    return raw_elements(plugin.raw_xml)
 
 
 def _properties(block: GazeboElement) -> Xml:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from linkforge_compile.backends.element import attributes, elements
 from linkforge_compile.backends.markup import Xml, placed
-from linkforge_compile.backends.raw import parameter_elements
+from linkforge_compile.backends.parameters import parameter_elements
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.units import number_text
 

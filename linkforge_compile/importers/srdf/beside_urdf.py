@@ -12,8 +12,8 @@ from linkforge_compile.importers.document import Imported, Move, read_document
 from linkforge_compile.importers.draft import DeclinedError
 from linkforge_compile.importers.srdf.known import Known, named_parts
 from linkforge_compile.importers.srdf.semantic import read_srdf
-from linkforge_compile.importers.xml import XmlDocument, XmlElement
 from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source.xml_tree import XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
 _MOST_ROUNDS = 20

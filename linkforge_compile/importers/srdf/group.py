@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from linkforge_compile.importers.draft import DeclinedError
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.srdf.known import Known
-from linkforge_compile.importers.xml import XmlElement
+from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode
 
 _NO_JOINTS = frozenset(("extra", "extra_attributes", "extra_inside", "for", "when"))

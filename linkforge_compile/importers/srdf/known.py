@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from linkforge_compile.importers.draft import DeclinedError
 from linkforge_compile.importers.reading import Reading
-from linkforge_compile.importers.xml import XmlAttribute, XmlElement
+from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 from linkforge_compile.syntax import YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
 

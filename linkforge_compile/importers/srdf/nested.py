@@ -7,7 +7,7 @@ from collections.abc import Callable
 from linkforge_compile.importers.draft import DeclinedError
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.srdf.known import Known
-from linkforge_compile.importers.xml import XmlAttribute, XmlElement
+from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
 Outer = dict[str, tuple[XmlAttribute, dict[str, tuple[XmlAttribute, YamlNode]]]]

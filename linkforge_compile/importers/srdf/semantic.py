@@ -14,8 +14,8 @@ from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.srdf.group import read_end_effector, read_group, read_state, subgroups_first
 from linkforge_compile.importers.srdf.known import Known
 from linkforge_compile.importers.srdf.nested import read_nested, read_pair, read_property
-from linkforge_compile.importers.xml import XmlAttribute, XmlDocument
 from linkforge_compile.source import Span
+from linkforge_compile.source.xml_tree import XmlAttribute, XmlDocument
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
 Named = dict[str, tuple[XmlAttribute, YamlNode]]

@@ -9,7 +9,7 @@ from itertools import groupby
 from linkforge_compile.importers.draft import number_of
 from linkforge_compile.importers.prefixed import names, names_by_text, place_of, with_prefix
 from linkforge_compile.importers.reading import Reading
-from linkforge_compile.importers.xml import XmlElement
+from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import number_text
 

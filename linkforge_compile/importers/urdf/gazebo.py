@@ -14,7 +14,7 @@ from linkforge_compile.importers.urdf.free_part import (
     read_word,
     take_free,
 )
-from linkforge_compile.importers.xml import XmlElement
+from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import is_in_full, number_text
 

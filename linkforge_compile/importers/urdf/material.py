@@ -5,7 +5,7 @@ from __future__ import annotations
 from linkforge_compile.importers.draft import DeclinedError, Draft, same
 from linkforge_compile.importers.orders import named_colors
 from linkforge_compile.importers.reading import Reading
-from linkforge_compile.importers.xml import XmlAttribute, XmlElement
+from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
 Named = dict[str, tuple[XmlAttribute, YamlNode]]

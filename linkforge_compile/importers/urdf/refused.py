@@ -31,7 +31,7 @@ from linkforge_compile.diagnostics.codes.importing import (
 )
 from linkforge_compile.importers.draft import number_of
 from linkforge_compile.importers.urdf.joint import TYPES_OF_JOINTS
-from linkforge_compile.importers.xml import XmlAttribute, XmlElement
+from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 
 _UNBOUNDED = re.compile(r"[+-]?(?:inf|infinity|nan)", re.IGNORECASE)
 """No finite numbers: older versions of urdfdom take them, and MuJoCo does; vendors write such limits."""

@@ -21,8 +21,8 @@ from linkforge_compile.importers.urdf.material import Named, Palette
 from linkforge_compile.importers.urdf.refused import refused_by_readers
 from linkforge_compile.importers.urdf.ros2_control import read_ros2_control
 from linkforge_compile.importers.urdf.transmission import read_transmission
-from linkforge_compile.importers.xml import XmlElement
 from linkforge_compile.source import SourceFile
+from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
 _OF_SRDF = (

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 
 from linkforge_compile.importers.xacro.process import MARK
 from linkforge_compile.importers.xacro.run import Place, place_of
-from linkforge_compile.importers.xml import Bounds, XmlAttribute, XmlComment, XmlContent, XmlDocument, XmlElement
 from linkforge_compile.source import Span
+from linkforge_compile.source.xml_tree import Bounds, XmlAttribute, XmlComment, XmlContent, XmlDocument, XmlElement
 
 _MARK = re.compile(rf'\s{MARK}(?:="[0-9:]*"|(?=-->))')
 _FOLLOWS = f" {MARK}"

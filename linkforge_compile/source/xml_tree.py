@@ -1,0 +1,181 @@
+"""XML as a tree that knows its places: lxml reads it, and where things stand is found beside."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from linkforge_compile.source.file import SourceFile, span_of
+from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
+from linkforge_compile.source.span import Span
+from linkforge_compile.source.xml_places import ATTRIBUTE, Places, as_written
+
+if TYPE_CHECKING:
+    from lxml import etree
+
+_NO_VALUES: Mapping[str, str] = MappingProxyType({})
+
+Bounds: TypeAlias = tuple[Span | SourceFile, int, int]
+"""Where something stands, as nodes of a spec know it: its span, or its file and the indexes between which it stands."""
+
+
+class XmlAttribute(NamedTuple):
+    """An attribute, its value as XML means it; its place is that of what stands between the quotes."""
+
+    name: str
+    value: str
+    bounds: Bounds
+
+    @property
+    def span(self) -> Span:
+        return span_of(*self.bounds)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class XmlComment:
+    """A comment, without its marks; `follows` where it stands behind a tag on the line on which that ends."""
+
+    text: str
+    span: Span
+    follows: bool
+
+
+class XmlElement(NamedTuple):
+    """An element. Names keep their prefixes: namespaces are not resolved.
+
+    lxml makes an element anew for whoever asks for it, so that its own could not keep a place. A tuple, and its spans
+    are computed as they are asked for: a robot of 2,000 links has 40,000. It stands in its file from `begin` to `end`.
+    """
+
+    tag: str
+    values: Mapping[str, str]
+    """What its attributes say, by their names."""
+    content: tuple[XmlContent, ...]
+    children: tuple[XmlElement, ...]
+    """The elements of the content."""
+    text: str
+    """The text that stands directly in the element, in one."""
+    file: SourceFile
+    begin: int
+    end: int
+
+    @property
+    def attributes(self) -> dict[str, XmlAttribute]:
+        """The attributes with their places, looked for anew each time."""
+        written = ATTRIBUTE.finditer(self.file.counted, self.begin)
+        attributes: dict[str, XmlAttribute] = {}
+        for (name, value), found in zip(self.values.items(), written, strict=False):
+            begin, end = found.span("single" if found["double"] is None else "double")
+            attributes[name] = XmlAttribute(name, value, (self.file, begin, end))
+        return attributes
+
+    @property
+    def bounds(self) -> Bounds:
+        """Where `<tag` stands."""
+        return self.file, self.begin, self.begin + len(self.tag) + 1
+
+    @property
+    def span(self) -> Span:
+        return span_of(*self.bounds)
+
+    @property
+    def raw(self) -> str:
+        """The whole element as it stands in the file."""
+        return self.file.counted[self.begin : self.end]
+
+    def get(self, name: str) -> str | None:
+        return self.values.get(name)
+
+    # Equal to itself alone: elements that say the same stand at several places.
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __ne__(self, other: object) -> bool:
+        return self is not other
+
+    def __hash__(self) -> int:
+        return id(self)
+
+
+XmlContent: TypeAlias = "XmlElement | XmlComment | str"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class XmlDocument:
+    """A document: its one element, and the comments before and behind it."""
+
+    root: XmlElement
+    content: tuple[XmlContent, ...]
+
+
+def document_of(file: SourceFile, places: Places) -> XmlDocument:
+    """Return the document that a file holds, once its text was walked over.
+
+    Raises:
+        MalformedXmlError: for what is no XML, or holds names that other readers refuse.
+
+    """
+    from lxml import etree
+
+    text = places.text
+    try:
+        root = etree.fromstring(places.without_namespaces.encode(), _parser())
+    except etree.XMLSyntaxError as error:
+        # Of what lxml alone refuses, a text or a value of 10 MB, the line is enough.
+        at = sum(len(line) + 1 for line in text.split("\n")[: error.position[0] - 1])
+        raise fault_of(text) or MalformedXmlError(f"it cannot be read: {error.msg.partition(',')[0]}", at) from None
+    # lxml takes names of the fifth edition of XML 1.0; expat, and with it xacro, those of the fourth.
+    if places.has_foreign_names and (fault := fault_of(text)):
+        raise fault
+    making = _Making(file, places)
+    before = tuple(reversed([*root.itersiblings(preceding=True)]))
+    content = making.content(None, (*before, root, *root.itersiblings()))
+    [made] = (item for item in content if isinstance(item, XmlElement))
+    return XmlDocument(made, content)
+
+
+@cache
+def _parser() -> etree.XMLParser:
+    from lxml import etree
+
+    return etree.XMLParser(
+        encoding="utf-8", remove_pis=True, resolve_entities=False, load_dtd=False, no_network=True, huge_tree=False
+    )
+
+
+class _Making:
+    """Makes a tree of lxml's, whose nodes have the order of their places."""
+
+    def __init__(self, file: SourceFile, places: Places) -> None:
+        from lxml import etree
+
+        self._comment = etree._Comment
+        self._file, self._trailing = file, places.trailing
+        self._places = zip(places.begins, places.ends, strict=True)
+
+    def content(self, text: str | None, nodes: Iterable[etree._Element]) -> tuple[XmlContent, ...]:
+        """Return a text, then the nodes and the text behind each."""
+        content: list[XmlContent] = [text] if text else []
+        for node in nodes:
+            begin, end = next(self._places)
+            if isinstance(node, self._comment):
+                span = self._file.between(begin, begin + len("<!--"))
+                content.append(XmlComment(node.text or "", span, begin in self._trailing))
+            else:
+                content.append(self._element(node, begin, end))
+            if node.tail:
+                content.append(node.tail)
+        return tuple(content)
+
+    def _element(self, node: etree._Element, begin: int, end: int) -> XmlElement:
+        # Taken out: lxml looks for each from the first on, which takes quadratic time where 100,000 stay.
+        left = node.attrib
+        values = {as_written(str(name)): str(left.pop(name)) for name in list(left)}
+        content = self.content(node.text, node)
+        children = tuple([item for item in content if isinstance(item, XmlElement)])
+        text = "".join([item for item in content if isinstance(item, str)])
+        return XmlElement(as_written(node.tag), values or _NO_VALUES, content, children, text, self._file, begin, end)
