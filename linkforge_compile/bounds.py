@@ -19,7 +19,7 @@ FACTOR_VARIABLE = "LINKFORGE_LIMITS"
 """The environment variable that allows so many times as much: the user's word, which no spec can say."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Limit:
     """What is counted, how much of it there may be, and how to need less."""
 

@@ -33,7 +33,7 @@ _WRONG_ARGUMENTS = (NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER)
 """What is told of arguments that are not those that the files take: another robot is meant than the one read."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Import:
     """What reading a robot that was written elsewhere gave: a spec, and what is to be told about it.
 

@@ -90,7 +90,7 @@ class CompileError(Exception):
         return CompileError, (self.diagnostics,)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Compilation:
     """What one compile gave: the robot and all that was told about the spec.
 

@@ -11,7 +11,7 @@ MARKERS = ("package.xml", ".git")
 """What the top folder of a package or repository holds."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Roots:
     """The folders in which a file must lie that a spec names, wherever links and `..` lead.
 

@@ -114,7 +114,7 @@ class Source(NamedTuple):
     sha256: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class MapFile:
     """A source map as it was read; `sha256` is of the document that it is for."""
 

@@ -24,7 +24,7 @@ class Segment(NamedTuple):
     place: Place
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SourceMap:
     """Where each line of a document was written, and each attribute on it; `lines` has none for what nobody wrote."""
 

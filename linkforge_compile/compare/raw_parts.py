@@ -10,7 +10,7 @@ from linkforge_compile.backends.raw import nodes_of
 from linkforge_compile.core.exceptions import RobotGeneratorError
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class RawElement:
     """An element of raw XML: `written` is the whole of it.
 

@@ -38,7 +38,7 @@ class Blame(Enum):
     """Whoever wrote the value."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Note:
     """A second place that explains the first, such as where the other of two equal names stands."""
 
@@ -49,7 +49,7 @@ class Note:
         object.__setattr__(self, "message", _quotable(self.message))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Diagnostic:
     """One fault, told once: `message` is lower case, without full stop, the user's own words in quotes."""
 
@@ -80,7 +80,7 @@ class Diagnostic:
         return f"{place}{self.severity}: {self.message} [{self.code.id}]"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Code:
     """A kind of fault. `message` is its sentence, with the facts it needs as `{name}` fields.
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from linkforge_compile.diagnostics.diagnostic import Note
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Removed:
     """Names that are not there because the author said so, each with the note that shows where.
 
@@ -37,7 +37,7 @@ def _everywhere(_: Path) -> bool:
     return True
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Gaps:
     """Names that the author wrote and the robot lacks.
 

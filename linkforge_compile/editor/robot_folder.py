@@ -31,7 +31,7 @@ _TEMPLATES = {
 _FIND = "find_package(linkforge_compile REQUIRED)"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class RobotFolder:
     """Where a new robot goes, and the folders at or above that which have what stands once for all robots below.
 

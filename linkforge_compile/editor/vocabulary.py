@@ -24,7 +24,7 @@ from linkforge_compile.roots import Roots
 from linkforge_compile.syntax import YamlEntry, YamlMap
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Vocabulary:
     """The words of a spec, final names with their prefixes, each kind in the robot's order.
 

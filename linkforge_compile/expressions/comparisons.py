@@ -17,7 +17,7 @@ from linkforge_compile.units import Quantity
 Predicate = Callable[[Any, Any], bool]  # of the operator module, which is typed no closer
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Comparison:
     """An operator between two values that gives true or false."""
 

@@ -17,7 +17,7 @@ _WHOLE_NUMBER = re.compile(r"\s*[+-]?[0-9]{1,300}\s*")
 _DECIMAL_NUMBER = re.compile(r"\s*[+-]?(?:[0-9]{1,300}(?:\.[0-9]{0,300})?|\.[0-9]{1,300})(?:[eE][+-]?[0-9]{1,3})?\s*")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Function:
     """A function: how it is written, what it computes, and how many values it takes (`most` None: any number)."""
 
@@ -34,7 +34,7 @@ class Function:
         return count >= self.least and (self.most is None or count <= self.most)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class FileFunction:
     """A function of one text that means something only in the file around the expression: its scope computes it."""
 

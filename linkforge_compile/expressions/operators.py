@@ -118,7 +118,7 @@ def _is_beyond_reach(base: int, exponent: int) -> bool:
     return abs(base) > 1 and base.bit_length() * exponent > 2 * MAX_INTEGER_BITS
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Arithmetic:
     """An operator on two numbers, and the dimension of its result."""
 

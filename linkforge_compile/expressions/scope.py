@@ -16,7 +16,7 @@ MAX_CHAIN = 64
 """How many names may be computed through one another, each for the one before it."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Lazy:
     """A value that is computed when first used: a variable, or a default that names other parameters.
 

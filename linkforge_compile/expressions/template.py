@@ -9,7 +9,7 @@ from linkforge_compile.source import Span
 from linkforge_compile.source.text_place import TextPlace
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Expression:
     """What stands between `$(` and `)`: its text, its place in the scalar, and Python's syntax tree of it.
 
@@ -47,7 +47,7 @@ class Expression:
         return self.text[self.index(node.col_offset) : self.index(node.end_col_offset or 0)]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Template:
     """Text with expressions in it; a single part that is an expression gives its value as it is."""
 

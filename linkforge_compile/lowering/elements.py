@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from linkforge_compile.core.fields import Choice, Flag, Noise, Number, Spec, Text, field_specs, number_fields
-from linkforge_compile.core.models.sensor import SensorNoise
 from linkforge_compile.core.part import Element, Part
 from linkforge_compile.lowering.extra import besides
 from linkforge_compile.lowering.fields import Fields
 from linkforge_compile.lowering.quantities import Measure, measure_of
 from linkforge_compile.units import FieldUnit, Motion
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.sensor import SensorNoise
 
 E = TypeVar("E", bound=Element)
 
@@ -70,6 +72,9 @@ def _lower_noise(name: str, unit: FieldUnit, fields: Fields) -> SensorNoise | No
     noise = fields.map(name)
     if noise is None:
         return None
+    # Most robots have no sensors, whose classes take their time to define.
+    from linkforge_compile.core.models.sensor import SensorNoise
+
     measure = measure_of(unit, None, Motion.UNKNOWN)
     numbers = {
         name: _lower_number(name, spec, noise, measure, Motion.UNKNOWN)

@@ -43,7 +43,7 @@ _SECTIONS_OF_SEMANTIC_NAMES = ("virtual_joints", "groups", "group_states", "end_
 Plain: TypeAlias = "None | bool | int | float | str | list[Plain] | dict[str, Plain]"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LoweredFile:
     """The robot of a file's own parts, its group states as written, and what is missing."""
 

@@ -24,7 +24,7 @@ class Unmerged(NamedTuple):
         return self.robot.name
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Lowered:
     """What lowering makes of an instance and of all its modules.
 

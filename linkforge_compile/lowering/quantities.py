@@ -110,7 +110,7 @@ ANGLE_OR_LENGTH = Measure((*_ANGLE, *_LENGTH))
 """A joint's position, of which nobody says yet whether it turns [rad] or slides [m]."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Refusal:
     """Why a node is not the number that its field takes; the field's name is the one fact that is missing."""
 

@@ -15,7 +15,7 @@ from linkforge_compile.source import SourceFile
 from linkforge_compile.source.ref import Located
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class FileScope:
     """`mesh_bases` are as in Instance, `materials` are those that the file declares, without those that are lost.
 

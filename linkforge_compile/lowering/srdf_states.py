@@ -24,7 +24,7 @@ Positions: TypeAlias = Mapping[str, object]
 """Positions by joint, each a tuple of one number [rad] or [m] for every degree of freedom."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class WrittenState:
     """A state as its file writes it: `values` are entries by joint, or by group with the name of a state.
 
@@ -41,7 +41,7 @@ class WrittenState:
         return self.group, self.name
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Surroundings:
     """What a file's states may refer to: names of its own and, with their prefix, of its modules.
 

@@ -37,7 +37,7 @@ class Told(NamedTuple):
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Arguments:
     """Values by parameter name, each with its place.
 

@@ -29,7 +29,7 @@ class NameReference(NamedTuple):
     where: SourceRef
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Instance:
     """One use of one spec file: the compiled file itself, or an entry of `modules`.
 

@@ -17,7 +17,7 @@ _NAMES_ITS_JOINT = frozenset({"a frame", "a module"})
 """The titles of entries that bring a joint with them, named after themselves unless `joint` says its name."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Disabled:
     """Collects the entries of one use of a file that a `when` takes out, where their names can be told."""
 

@@ -122,7 +122,7 @@ class _Silence(Diagnostics):
     """Takes what nobody is to be told."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class TreeEvaluator:
     """Evaluates nodes of one file in one scope.
 

@@ -48,7 +48,7 @@ def expanded(
     return _Expansion(spec, shared, sink).instance(_Use(spec, Given(arguments, sink)))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Use:
     """One use of a file: by an entry in the file of the `outer` use, or the compiled file itself."""
 

@@ -38,7 +38,7 @@ _SHOWN_TEXT = 60
 """How long choices may be that a message shows."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Given:
     """The arguments of one use of a file.
 

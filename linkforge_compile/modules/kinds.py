@@ -12,7 +12,7 @@ from linkforge_compile.expressions.types import as_text, dimension_name
 from linkforge_compile.units import Dimension, Quantity, units_of
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Kind:
     """A type: its words in "takes …", and `take`, which gives a value of it or None for one that does not fit."""
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from linkforge_compile.modules.packages import Package
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class SpecFile:
     """One file, read and validated, and how it was reached; two of one `file` are two ways to it.
 
@@ -51,7 +51,7 @@ class SpecFile:
         return self.included.get(where.file, self)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Used:
     """The text that names a file and where it stands, None for what is named on the command line or in Python."""
 

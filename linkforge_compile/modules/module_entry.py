@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from linkforge_compile.modules.overrides import Override
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ModuleEntry:
     """What an entry says: `ref` is the entry without `with`, `use` None where no file is named.
 

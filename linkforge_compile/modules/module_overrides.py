@@ -12,7 +12,7 @@ from linkforge_compile.modules.overrides import Override
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Body:
     """What one use of a file holds before its modules are read; `removed` says of names why they are not there."""
 

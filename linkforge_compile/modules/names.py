@@ -44,7 +44,7 @@ _KINDS = {"parameters": "parameter", "variables": "variable", "data": "data name
 """The sections that declare names, and what each is called."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Shared:
     """What all uses of all files in one compile share; `variant` is the one chosen for the compiled file."""
 

@@ -22,7 +22,7 @@ _MOST_STEPS = 10_000
 _LONGEST_TEXT = 60
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Setting:
     """What gives a name its value.
 
@@ -41,7 +41,7 @@ class Setting:
     instead_of: tuple[Setting, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class ExpressionTrace:
     """One expression and the scope in which it was computed: from there its value can be followed back."""
 

@@ -38,7 +38,7 @@ _SHOWN_NAMES = 8
 _AXES: Mapping[str, tuple[int, int, int]] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Override:
     """What one file changes in a module: `patch` is computed in that file's scope, `sink` takes what is wrong there."""
 

@@ -33,7 +33,7 @@ _MOST_FOLDERS = 500
 """In so many folders a package is looked for that is nowhere."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Package:
     """A package and the folder that its `package://` stands for."""
 

@@ -38,7 +38,7 @@ _STEPS_AN_INSTRUCTION = 4
 _CONSTRAINTS = ("minimum", "maximum", "enum", "pattern")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Declaration:
     """A parameter as its file declares it; `kind` is None where it follows from the default.
 
@@ -80,7 +80,7 @@ def _declaration(entry: YamlEntry) -> Declaration:
     return Declaration(entry.key, kind, default, constraints, is_faulty)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Parameter:
     """A declaration whose constraints are computed; those that it does not have, or that are at fault, are None."""
 

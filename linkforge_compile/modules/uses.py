@@ -28,7 +28,7 @@ _SCHEME = re.compile(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
 _PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class UseSite:
     """A `use`, or another path, as it is written: in the file `user`, which declares where some packages are."""
 

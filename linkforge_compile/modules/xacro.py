@@ -34,7 +34,7 @@ FORBIDDEN = "LINKFORGE_NO_XACRO"
 """The environment variable that, set to anything, keeps xacro files from being expanded."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class XacroUse:
     """One use of a xacro file: what names it, what it is given, and where packages are said to be.
 

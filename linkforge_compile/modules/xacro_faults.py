@@ -70,7 +70,7 @@ class Written:
         return tuple(in_order(document.root)) if document else ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Telling:
     """Tells what is wrong with a use of a xacro file: `sink` at the use, `inside` in the file with its use."""
 

@@ -12,12 +12,8 @@ from linkforge_compile.source.characters import on_one_line
 from linkforge_compile.source.span import Span
 
 
-class Room:
-    """Where `cached_property` keeps a value: slots have none."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class SourceFile(Room):
+@dataclass(frozen=True, eq=False)
+class SourceFile:
     """A text and its name in messages; two are the same only if they are one object.
 
     `path` is None for text that is no file: standard input, a string, the command line.

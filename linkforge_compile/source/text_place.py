@@ -9,14 +9,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from linkforge_compile.source.file import Room
 from linkforge_compile.source.span import Span
 
 _LINE = re.compile(r"^.*$", re.MULTILINE)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TextPlace(Room):
+@dataclass(frozen=True, eq=False)
+class TextPlace:
     """The span of a scalar, its text, and where in it that begins.
 
     `start` is None where the text does not stand on one line of the file as it is: of a text behind `|` each line still
@@ -53,7 +52,7 @@ class TextPlace(Room):
         return _Block.of(self.text, self.span)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Block:
     """A text behind `|`, each line of which is one of the file, indented by as much as all others.
 

@@ -85,7 +85,7 @@ class _UnreadableError(Exception):
         super().__init__(str(diagnostic))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Anchor:
     """An anchored node, its size with every alias in it counted as a copy, and how many levels lie below it."""
 

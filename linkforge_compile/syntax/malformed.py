@@ -58,7 +58,7 @@ def _closes(text: str, start: int) -> bool:
     return False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Trouble:
     """Where the parser stopped, as indexes into the text: at `at`, reading what began at `began`."""
 

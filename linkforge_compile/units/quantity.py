@@ -49,7 +49,7 @@ WIDEST_ANGLE = 2 * math.pi + 0.005
 """Beyond this a bare angle [rad] was meant in degrees; a whole turn rounded to two decimals (6.29) is still radians."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Quantity:
     """A number in the SI unit of its dimension; `written` is how a person wrote it, None for what was computed."""
 

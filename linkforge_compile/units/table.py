@@ -17,7 +17,7 @@ _POUND: _Ratio = (45_359_237, 100_000_000)
 _STANDARD_GRAVITY: _Ratio = (980_665, 100_000)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Unit:
     """A unit and how many SI units it is: `numerator` over `denominator`, times pi where `per_pi` is set."""
 

@@ -36,7 +36,7 @@ class UnknownPathError(LookupError):
         super().__init__(f"there is no '{name}' in {place}")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Explanation:
     """A value of a finished robot.
 

@@ -16,7 +16,7 @@ _LINKS_AND_JOINTS = ("link", "link1", "link2", "base_link", "tip_link", "parent_
 _NAMED_BY_NAME = ("link", "joint", "passive_joint")
 
 
-@dataclass(slots=True)
+@dataclass
 class Known:
     """Names as the spec writes them; what stands under another is kept raw, for MoveIt skips it."""
 

@@ -35,7 +35,7 @@ class Place(NamedTuple):
     element: int
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Expanded:
     """What xacro made of a file: XML in which every element is marked with its place.
 
@@ -51,7 +51,7 @@ class Expanded:
     warnings: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Failed:
     """Why there is no expansion.
 
