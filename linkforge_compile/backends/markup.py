@@ -150,20 +150,15 @@ def require_writable(text: str) -> None:
 
 def is_xml_name(name: str) -> bool:
     """Tell whether an element or an attribute may have this name, with a namespace prefix or without."""
-    return _XML_NAME.fullmatch(name) is not None and (name.isascii() or _is_read_by_expat(name))
+    return _XML_NAME.fullmatch(name) is not None and (name.isascii() or _is_read_by_all(name))
 
 
-def _is_read_by_expat(name: str) -> bool:
+def _is_read_by_all(name: str) -> bool:
     # Beyond ASCII, XML 1.0 allows fewer names in its fourth edition than in its fifth. expat, and with it xacro and
     # Python's own parsers, keeps to the fourth, so a name of the fifth would be lost on them.
-    from xml.parsers import expat
+    from linkforge_compile.source.malformed_xml import fault_of
 
-    try:
-        for local in name.split(":"):
-            expat.ParserCreate("utf-8").Parse(f"<{local}/>", True)
-    except (expat.ExpatError, UnicodeEncodeError):  # a lone surrogate is no character
-        return False
-    return True
+    return is_writable(name) and all(fault_of(f"<{local}/>") is None for local in name.split(":"))
 
 
 def harmless_in_comment(text: str) -> str:

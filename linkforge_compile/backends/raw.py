@@ -111,7 +111,7 @@ def _sections(places: Places) -> Mapping[int, int]:
         elif kind == "section" and places.open:
             sections.setdefault(places.begins[places.open[-1]], begin)
         elif kind == "instruction":
-            target = f"'<?{places.name_at(begin + len('<?'))}'"
+            target = f"'<?{piece['target']}'"
             reason = f"raw XML holds the processing instruction {target}; most readers of URDF refuse a file with one"
             raise _refused(reason, places, begin, piece)
         elif kind == "start" and len(places.open) >= MAX_NESTED_ELEMENTS:

@@ -6,12 +6,11 @@ The long arrays are cut before anything is parsed, so that a look takes a few mi
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
-    from xml.etree.ElementTree import Element
+    from lxml.etree import _Element as Element
 
     from linkforge_compile.checks.mesh_files import Effort
 
@@ -20,8 +19,6 @@ _END = 1024
 
 _DEEPEST = 50
 """How deep in one another nodes are looked at; a node may be placed in itself."""
-
-_PREFIX = re.compile(r"\{[^}]*\}")
 
 Corner: TypeAlias = tuple[float, float, float]
 Matrix: TypeAlias = tuple[tuple[float, float, float, float], ...]
@@ -40,7 +37,9 @@ def corners_of_scene(content: bytes, effort: Effort) -> Sequence[Corner]:
     Small files can ask for much, as nodes place one shape again and again, so the effort is counted. `<unit meter>`
     scales all of it, and `<up_axis>` turns nothing, as where meshes are read whole.
     """
-    from xml.etree import ElementTree
+    from lxml import etree
+
+    from linkforge_compile.source.xml_tree import safe_parser
 
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
         return ()
@@ -48,9 +47,9 @@ def corners_of_scene(content: bytes, effort: Effort) -> Sequence[Corner]:
         return ()
     try:
         pieces = (piece if len(piece) <= 2 * _END else _shortened(piece) for piece in content.split(b"<"))
-        root = ElementTree.fromstring(b"<".join(pieces))
+        root = etree.fromstring(b"<".join(pieces), safe_parser(remove_comments=True))
         corners = tuple(_Scene(root, effort).corners())
-    except (ElementTree.ParseError, ValueError, LookupError, _UnknownError):  # LookupError: of ids and encodings
+    except (etree.XMLSyntaxError, ValueError, LookupError, _UnknownError):  # LookupError: of ids and encodings
         return ()
     return corners if all(math.isfinite(at) for corner in corners for at in corner) else ()
 
@@ -73,7 +72,7 @@ class _Scene:
     def __init__(self, root: Element, effort: Effort) -> None:
         self._root, self._effort = root, effort
         for element in root.iter():
-            element.tag = _PREFIX.sub("", element.tag)
+            element.tag = element.tag.rpartition("}")[2]
         self._by_id = {name: element for element in root.iter() if (name := element.get("id"))}
 
     def corners(self) -> Iterator[Corner]:

@@ -10,6 +10,7 @@ import re
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from linkforge_compile.source.xml_places import ATTRIBUTE, MARKUP
 from linkforge_compile.syntax import YamlScalar
 
 _PREFIX = "$(prefix)"
@@ -63,19 +64,12 @@ _NAMES_BY_TEXT = (
 )
 """Elements whose text is the name, each with the tag around it."""
 
-MARKUP = re.compile(
-    r"""<!--.*?-->|<!\[CDATA\[.*?\]\]>|<(?P<end>/?)(?P<tag>[^\s/<>!?"']+)(?:[^<>"']|"[^"]*"|'[^']*')*>""", re.DOTALL
-)
-"""A comment, a section of characters, or a tag whole: a `>` may stand in an attribute."""
-
 _SECTION = "<![CDATA["
 _LINK_COLLISION = re.compile(r"(?P<link>.+)_collision(?:_[0-9]+)?")
 """How Gazebo calls the collisions of a link that have no name; those of links that it merges are called otherwise."""
 
 _RESERVED = re.compile(r"__.*__")
 """What means something to Gazebo rather than naming a part, such as `__default_topic__`."""
-
-_ATTRIBUTE = re.compile(r"""(?<=\s)(?P<name>[^\s=/>"']+)\s*=\s*(?:"(?P<double>[^"]*)"|'(?P<single>[^']*)')""")
 
 
 class Shapes(NamedTuple):
@@ -119,26 +113,22 @@ def raw_with_prefix(raw: str, around: str, shapes: Shapes) -> str:
     places: list[str | None] = [around]
     pieces: list[str] = []
     opened, text_begins = "", 0
-    behind = 0
     for found in MARKUP.finditer(raw):
-        pieces.append(raw[behind : found.start()])
-        behind, tag = found.end(), found["tag"]
-        if tag is None:
-            pieces.append(found[0])
-            continue
-        if opened:
+        if opened and found.lastgroup in ("start", "end"):
             pieces[text_begins:] = _text_with_prefix(pieces[text_begins:], opened, places[-2], shapes)
             opened = ""
-        if found["end"]:
-            pieces.append(found[0])
+        if found.lastgroup == "end":
             places.pop()
+        if found.lastgroup != "start":
+            pieces.append(found[0])
             continue
+        tag = found["tag"]
         place = place_of(tag, places[-1])
         pieces.append(_tag_with_prefix(found[0], place) if place in _NAMES else found[0])
         if not found[0].endswith("/>"):
             opened, text_begins = tag if (places[-1], tag) in _NAMES_BY_TEXT else "", len(pieces)
             places.append(place)
-    return "".join((*pieces, raw[behind:]))
+    return "".join(pieces)
 
 
 def _text_with_prefix(pieces: list[str], tag: str, around: str | None, shapes: Shapes) -> list[str]:
@@ -169,7 +159,7 @@ def _tag_with_prefix(start: str, place: str | None) -> str:
         before, behind = found.start(group) - found.start(), found.end(group) - found.start()
         return f"{found[0][:before]}{_with_prefix(found[group])}{found[0][behind:]}"
 
-    return _ATTRIBUTE.sub(named, start)
+    return ATTRIBUTE.sub(named, start)
 
 
 def _with_prefix(name: str) -> str:

@@ -14,8 +14,9 @@ from dataclasses import replace
 from linkforge_compile.diagnostics import Note, Severity
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
 from linkforge_compile.importers.draft import DeclinedError, Draft, values_in
-from linkforge_compile.importers.prefixed import MARKUP, raw_with_prefix
+from linkforge_compile.importers.prefixed import raw_with_prefix
 from linkforge_compile.source import Span
+from linkforge_compile.source.xml_places import MARKUP
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension
@@ -24,11 +25,7 @@ Read = Callable[["Reading"], YamlNode | None]
 """Reads an element: a node, or None for one that says only what goes without saying."""
 
 _MOST_SHOWN = 40
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _LINE_END = "\x01"  # no XML holds it
-
-# Comments and CDATA are found as well, for what looks like one in them is none.
-_INSTRUCTION = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>", re.DOTALL)
 
 _BROKEN_VALUE = re.compile(r"""=\s*(?:"[^"<]*[\r\n][^"]*"|'[^'<]*[\r\n][^']*')""")
 _INDENT = re.compile(r"^[ \t]+")
@@ -276,7 +273,7 @@ def _names_in(element: XmlElement) -> Iterator[str]:
 
 def without_instructions(raw: str) -> str:
     """Return an element without its processing instructions, which are told as left out and no spec can write."""
-    return _INSTRUCTION.sub(lambda found: "" if found[0].startswith("<?") else found[0], raw) if "<?" in raw else raw
+    return "".join(found[0] for found in MARKUP.finditer(raw) if found.lastgroup != "instruction")
 
 
 def tidy(raw: str) -> str:
@@ -284,19 +281,19 @@ def tidy(raw: str) -> str:
 
     Comments stay as they are, wherever their lines begin.
     """
-    texts = MARKUP.split(raw)[:: 1 + MARKUP.groups]
-    if "<![CDATA[" in raw or _BROKEN_VALUE.search(raw) or any("\n" in text and text.strip() for text in texts):
+    has_lines = any(found["text"] and "\n" in found[0] and found[0].strip() for found in MARKUP.finditer(raw))
+    if has_lines or "<![CDATA[" in raw or _BROKEN_VALUE.search(raw):
         return raw
-    lines = raw.replace("\r\n", "\n").replace("\r", "\n")
-    closed = MARKUP.sub(_without_space_before_its_end, lines)
-    whole_comments = _COMMENT.sub(lambda comment: comment[0].replace("\n", _LINE_END), closed)
-    first, *others = [line.rstrip() for line in whole_comments.split("\n")]
+    lines = MARKUP.sub(_tidied, raw.replace("\r\n", "\n").replace("\r", "\n"))
+    first, *others = [line.rstrip() for line in lines.split("\n")]
     others = [_INDENT.sub(lambda space: space[0].expandtabs(2), line) for line in others if line]
     margin = min((len(line) - len(line.lstrip(" ")) for line in others), default=0)
     return "\n".join((first, *(line[margin:] for line in others))).replace(_LINE_END, "\n")
 
 
-def _without_space_before_its_end(found: re.Match[str]) -> str:
-    """Return `<tag />` as `<tag/>`, and comments as they are."""
-    tag = found[0]
-    return f"{tag[:-2].rstrip()}/>" if found["tag"] and tag.endswith("/>") else tag
+def _tidied(found: re.Match[str]) -> str:
+    """Return `<tag />` as `<tag/>`, a comment on one line, and anything else as it is."""
+    piece = found[0]
+    if found["start"] and piece.endswith("/>"):
+        return f"{piece[:-2].rstrip()}/>"
+    return piece.replace("\n", _LINE_END) if found["comment"] else piece

@@ -20,7 +20,7 @@ from linkforge_compile.diagnostics.codes.importing import (
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
-from linkforge_compile.source.xml_places import Places
+from linkforge_compile.source.xml_places import MARKUP, Places
 from linkforge_compile.source.xml_tree import XmlDocument, document_of
 
 MOST_ELEMENTS = 250_000
@@ -115,11 +115,11 @@ class _Bounds:
         """Yield a warning for each processing instruction that ends before an offset or at it."""
         for piece in self._instructions:
             if piece.end() <= offset:
-                target = self.places.name_at(piece.start() + len("<?"))
+                target = piece["target"]
                 yield INSTRUCTION_LEFT_OUT.at(self._span(piece, len(target) + len("<?")), target=target)
 
     def _begin(self, piece: re.Match[str]) -> None:
-        depth, length = len(self.places.open), len(self.places.name_at(piece.start() + 1)) + 1
+        depth, length = len(self.places.open), len(piece["tag"]) + 1
         if depth == MAX_NESTED_ELEMENTS:
             raise self._refused(piece, TOO_DEEP.at(self._span(piece, length), limit=MAX_NESTED_ELEMENTS))
         self._count(piece, length)
@@ -134,7 +134,8 @@ class _Bounds:
     def _require_room(self, piece: re.Match[str], length: int) -> None:
         depth = len(self.places.open)
         if self._inside[depth] >= self._most_inside:
-            owner = f"<{self.places.name_at(self.places.begins[self.places.open[-1]] + 1)}>" if depth else "the file"
+            around = MARKUP.match(self.places.text, self.places.begins[self.places.open[-1]]) if depth else None
+            owner = f"<{around['tag']}>" if around else "the file"
             refused = TOO_MUCH_INSIDE.at(self._span(piece, length), owner=owner, limit=MOST_INSIDE)
             raise self._refused(piece, refused)
         self._inside[depth] += 1

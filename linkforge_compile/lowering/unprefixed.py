@@ -12,13 +12,9 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.model import ABSOLUTE_TOPIC, UNPREFIXED_NAME, UNPREFIXED_TOPICS
 from linkforge_compile.source import SourceFile, SourceRef, Span
+from linkforge_compile.source.xml_places import ATTRIBUTE, MARKUP
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
-_RAW_NAME = re.compile(r"[\w:.-]+")
-# An attribute may hold a `>`. What is read is not given back: an unclosed quote would be tried from each place in it.
-_REST_OF_TAG = re.compile(r"""(?:[^>"']|"[^"]*"|'[^']*')*+>""")
-# It begins with the first character of a name only: tried from each, a long name would take quadratic time.
-_RAW_VALUE = re.compile(r"""(?<![\w:.-])([\w:.-]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 _NAMED_FOR_ITSELF = ("visual", "collision", "material")
 """Elements whose own name may well be that of their link."""
 
@@ -219,13 +215,11 @@ def _find_extras(node: YamlNode, found: list[YamlNode]) -> None:
 
 
 def _said_in(raw: str) -> Iterator[tuple[str, str]]:
-    """Yield the texts and attributes of raw XML by their names, in time that grows with its length, whatever it is."""
-    for piece in raw.split("<")[1:]:
-        tag = _RAW_NAME.match(piece)
-        rest = _REST_OF_TAG.match(piece, tag.end()) if tag else None
-        if not (tag and rest):
-            continue
-        yield tag[0], piece[rest.end() :].partition(">")[0].strip()
-        for name, double, single in _RAW_VALUE.findall(piece, tag.end(), rest.end()):
-            if name != "name" or tag[0] not in _NAMED_FOR_ITSELF:
-                yield name, double or single
+    """Yield the texts and attributes of raw XML by their names, as they are written."""
+    for piece in MARKUP.finditer(raw):
+        if tag := piece["tag"]:
+            following = MARKUP.match(raw, piece.end())
+            yield tag, ((following and following["text"]) or "").strip()
+            for found in ATTRIBUTE.finditer(piece[0]):
+                if found["name"] != "name" or tag not in _NAMED_FOR_ITSELF:
+                    yield found["name"], found["double"] or found["single"] or ""

@@ -6,7 +6,6 @@ The words are about what expat finds, which refuses all that lxml does but for i
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
 from xml.parsers import expat
 from xml.parsers.expat import errors
 
@@ -14,6 +13,7 @@ _CONFLICT = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 _REFERENCE = re.compile(r"&[\w.-]*\Z")
 _NAME = re.compile(r"[^\s/<>\"']+")
 _MOST_SHOWN = 40
+_BARE_AMPERSAND = "'&' by itself is written '&amp;'"
 _BEFORE_VALUE = re.compile(r"<[^\s<>!?/][^<>]*=\s*")
 
 
@@ -32,21 +32,14 @@ class _DocumentTypeError(Exception):
     """What follows is not read: it could expand entities."""
 
 
-class _Open(NamedTuple):
-    """An element that has no end yet, and where it begins: a byte for expat, a character for words."""
-
-    tag: str
-    at: int
-
-
 def fault_of(text: str, around: str = "", *, is_whole: bool = True) -> MalformedXmlError | None:
     """Return what is wrong with a text that follows the tags `around`; None for nothing, or behind a document type.
 
     One that is not whole lacks nothing at its end.
     """
-    opened: list[_Open] = []
+    opened: list[tuple[str, int]] = []
     parser = expat.ParserCreate("utf-8")
-    parser.StartElementHandler = lambda tag, _: opened.append(_Open(tag, parser.CurrentByteIndex))
+    parser.StartElementHandler = lambda tag, _: opened.append((tag, parser.CurrentByteIndex))
     parser.EndElementHandler = lambda _: opened.pop()
     parser.StartDoctypeDeclHandler = _stop
     try:
@@ -66,31 +59,36 @@ def fault_of(text: str, around: str = "", *, is_whole: bool = True) -> Malformed
     def offset(byte: int) -> int:
         return len(data[: byte - len(around)].decode(errors="replace"))
 
-    innermost = opened[-1] if len(opened) > outside else None
-    innermost = innermost and innermost._replace(at=offset(innermost.at))
-    return _explained(known, text, offset(parser.ErrorByteIndex), innermost)
+    tag, byte = opened[-1] if len(opened) > outside else ("", len(around))
+    begin = offset(byte)
+    return _explained(known, text, offset(parser.ErrorByteIndex), tag, (begin, begin + len(tag) + 1))
 
 
 def _stop(*_: object) -> None:
     raise _DocumentTypeError
 
 
-def _explained(known: str, text: str, at: int, innermost: _Open | None) -> MalformedXmlError:
-    """Return what is wrong where expat gave up in an element; what is not certain stays as expat says it."""
+def _explained(known: str, text: str, at: int, tag: str, begun: tuple[int, int]) -> MalformedXmlError:
+    """Return what is wrong where expat gave up in an element; what is not certain stays as expat says it.
+
+    Outside of all, the tag is empty.
+    """
     if not text.strip():
         return MalformedXmlError("the file is empty", 0)
     if known == errors.XML_ERROR_INVALID_TOKEN and (fault := _of_invalid_token(text, at)):
         return fault
     if known == errors.XML_ERROR_UNCLOSED_TOKEN:
+        if text.startswith("&", at):
+            return MalformedXmlError(_BARE_AMPERSAND, at)
         what = "comment" if text.startswith("<!--", at) else "tag"
         return MalformedXmlError(f"this {what} is not closed", at)
     if known == errors.XML_ERROR_UNCLOSED_CDATA_SECTION:
         return MalformedXmlError("this CDATA is not closed; it ends with ']]>'", text.rfind("<![CDATA[", 0, at))
     closing = _NAME.match(text, at) if known == errors.XML_ERROR_TAG_MISMATCH else None
-    if closing and not innermost:
+    if closing and not tag:
         return MalformedXmlError(f"</{_shown(closing[0])}> closes nothing that is open", at)
-    if innermost and known in (errors.XML_ERROR_NO_ELEMENTS, errors.XML_ERROR_TAG_MISMATCH):
-        end, begun = f"</{_shown(innermost.tag)}>", (innermost.at, innermost.at + len(innermost.tag) + 1)
+    if tag and known in (errors.XML_ERROR_NO_ELEMENTS, errors.XML_ERROR_TAG_MISMATCH):
+        end = f"</{_shown(tag)}>"
         problem = f"expected {end}, found </{_shown(closing[0])}>" if closing else f"it ends before {end}"
         return MalformedXmlError(problem, at, begun)
     if known == errors.XML_ERROR_NO_ELEMENTS:
@@ -111,7 +109,7 @@ def _of_invalid_token(text: str, at: int) -> MalformedXmlError | None:
         is_second = before.endswith("--")
         return MalformedXmlError("a comment holds no '--'", at - 2) if is_second else None
     if reference := _REFERENCE.search(before, line):
-        return MalformedXmlError("'&' by itself is written '&amp;'", reference.start())
+        return MalformedXmlError(_BARE_AMPERSAND, reference.start())
     tag = before[max(before.rfind("<"), 0) :]
     if tag.count('"') % 2:
         found = "the value of an attribute holds no '<'; close its quote, or write '&lt;'"

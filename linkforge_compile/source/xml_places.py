@@ -12,16 +12,15 @@ MARKUP = re.compile(
     r"""(?P<text>[^<]+)
     | (?P<comment><!--.*?-->)
     | (?P<section><!\[CDATA\[.*?\]\]>)
-    | (?P<instruction><\?.*?\?>)
+    | (?P<instruction><\?(?P<target>[^\s?]*+).*?\?>)
     | (?P<end></[^<>]*>)
-    | (?P<start><[^\s/<>!?"'](?:[^<>"']++|"[^"<]*"|'[^'<]*')*+>)
+    | (?P<start><(?P<tag>[^\s/<>!?"'][^\s/<>=?"']*+)(?:[^<>"']++|"[^"<]*"|'[^'<]*')*+>)
     | (?P<rest><.*)""",
     re.DOTALL | re.VERBOSE,
 )
 """Matches each piece of a document; its group is its kind, `rest` for all from where something is not closed."""
 
-_NAME = re.compile(r"""[^\s=/<>?"']+""")
-ATTRIBUTE = re.compile(r"""\s(?P<name>[^\s=/<>"']+)\s*=\s*(?:"(?P<double>[^"]*)"|'(?P<single>[^']*)')""")
+ATTRIBUTE = re.compile(r"""(?<=[\s"'])(?P<name>[^\s=/<>"']+)\s*=\s*(?:"(?P<double>[^"]*)"|'(?P<single>[^']*)')""")
 
 _QUOTED = re.compile(r""""[^"]*"|'[^']*'""")
 _COLON, _NOTHING = "\ua789", "\ua78a"
@@ -45,11 +44,6 @@ class Places:
         self._line_from: int | None = None
         self._hidden: list[str] = []
         self._hidden_to = 0
-
-    def name_at(self, offset: int) -> str:
-        """Return the name that begins at an offset, empty for none."""
-        found = _NAME.match(self.text, offset)
-        return found[0] if found else ""
 
     def walk(self) -> Iterator[re.Match[str]]:
         """Yield each piece before it counts, to where something is not closed, or closes what is not open."""
@@ -97,6 +91,14 @@ class Places:
         lxml resolves prefixes, and refuses those that nothing declares; here a name is what is written.
         """
         return "".join((*self._hidden, self.text[self._hidden_to :]))
+
+
+def walked_over(text: str) -> Places:
+    """Return the places of a text."""
+    places = Places(text)
+    for _ in places.walk():
+        pass
+    return places
 
 
 def as_written(name: str) -> str:

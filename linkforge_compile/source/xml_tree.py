@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from linkforge_compile.source.file import SourceFile, span_of
 from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
 from linkforge_compile.source.span import Span
-from linkforge_compile.source.xml_places import ATTRIBUTE, Places, as_written
+from linkforge_compile.source.xml_places import ATTRIBUTE, Places, as_written, walked_over
 
 if TYPE_CHECKING:
     from lxml import etree
@@ -112,18 +112,19 @@ class XmlDocument:
     content: tuple[XmlContent, ...]
 
 
-def document_of(file: SourceFile, places: Places) -> XmlDocument:
-    """Return the document that a file holds, once its text was walked over.
+def document_of(file: SourceFile, walked: Places | None = None) -> XmlDocument:
+    """Return the document that a file holds; `walked` are the places of its text if that was walked over already.
 
     Raises:
-        MalformedXmlError: for what is no XML, or holds names that other readers refuse.
+        MalformedXmlError: for what is no XML, holds names that other readers refuse, or has a document type.
 
     """
     from lxml import etree
 
+    places = walked or walked_over(file.counted)
     text = places.text
     try:
-        root = etree.fromstring(places.without_namespaces.encode(), _parser())
+        root = etree.fromstring(places.without_namespaces.encode(), safe_parser("utf-8"))
     except etree.XMLSyntaxError as error:
         # Of what lxml alone refuses, a text or a value of 10 MB, the line is enough.
         at = sum(len(line) + 1 for line in text.split("\n")[: error.position[0] - 1])
@@ -131,6 +132,8 @@ def document_of(file: SourceFile, places: Places) -> XmlDocument:
     # lxml takes names of the fifth edition of XML 1.0; expat, and with it xacro, those of the fourth.
     if places.has_foreign_names and (fault := fault_of(text)):
         raise fault
+    if root.getroottree().docinfo.internalDTD is not None:
+        raise MalformedXmlError("it has a document type", 0)
     making = _Making(file, places)
     before = tuple(reversed([*root.itersiblings(preceding=True)]))
     content = making.content(None, (*before, root, *root.itersiblings()))
@@ -139,11 +142,18 @@ def document_of(file: SourceFile, places: Places) -> XmlDocument:
 
 
 @cache
-def _parser() -> etree.XMLParser:
+def safe_parser(encoding: str | None = None, *, remove_comments: bool = False) -> etree.XMLParser:
+    """Return a parser for what strangers wrote, in the encoding that it says itself if none is given."""
     from lxml import etree
 
     return etree.XMLParser(
-        encoding="utf-8", remove_pis=True, resolve_entities=False, load_dtd=False, no_network=True, huge_tree=False
+        encoding=encoding,
+        remove_comments=remove_comments,
+        remove_pis=True,
+        resolve_entities=False,
+        load_dtd=False,
+        no_network=True,
+        huge_tree=False,
     )
 
 

@@ -114,11 +114,19 @@ def test_a_broken_map_is_told(build: Path, text: str):
     assert "cell.urdf.map.json' cannot be read: it is" in run.stderr
 
 
-def test_a_file_that_is_no_xml_is_told(build: Path):
-    (build / "build" / "cell.urdf").write_text("links:\n")
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("links:\n", "syntax error in line 1"),
+        ("<robot>\n<link>\n</robot>\n", "expected </link>, found </robot> in line 3"),
+        ("<!DOCTYPE robot>\n<robot/>", "it has a document type in line 1"),
+    ],
+)
+def test_a_file_that_is_no_xml_is_told(build: Path, text: str, reason: str):
+    (build / "build" / "cell.urdf").write_text(text)
     run = linkforge("where", "build/cell.urdf", "left_elbow", cwd=build)
     assert run.returncode == 2
-    assert "'build/cell.urdf' is not XML" in run.stderr
+    assert f"'build/cell.urdf' is not XML: {reason}" in run.stderr
 
 
 def test_a_map_lies_beside_each_output_and_says_nothing_of_the_machine(build: Path):

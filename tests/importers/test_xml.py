@@ -95,6 +95,25 @@ def test_raw_text_ends_where_the_element_ends():
     assert [child.raw for child in root.children] == ["<a><b/></a>", "<c x='>'/>", "<d></d >", "<e/>"]
 
 
+def test_names_keep_their_prefixes_whatever_declares_them():
+    inside = "<x:b xml:space='default'/><drake:c xmlns:x='w' d:e=''/><f:g:h/>"
+    text = f"<robot xmlns='u' xmlns:x = 'v' x:a='1:2'>{inside}</robot>"
+    root = document(text).root
+    assert [(one.tag, dict(one.values)) for one in elements(root)] == [
+        ("robot", {"xmlns": "u", "xmlns:x": "v", "x:a": "1:2"}),
+        ("x:b", {"xml:space": "default"}),
+        ("drake:c", {"xmlns:x": "w", "d:e": ""}),
+        ("f:g:h", {}),
+    ]
+    assert [one.span.text for one in root.attributes.values()] == ["u", "v", "1:2"]
+
+
+def test_a_name_that_other_readers_refuse_is_refused():
+    """Of the fifth edition of XML 1.0, which lxml takes, and neither xacro nor Python's own parsers."""
+    assert document("<größe 高='1'/>")
+    assert codes("<robot><𝔘/></robot>") == codes("<robot 𝔘='1'/>") == ["LF8001"]
+
+
 def test_a_comment_follows_the_tag_that_ends_on_its_line():
     text = "<robot at='>'> <!-- zero --><a/> <!-- one --> <!-- two -->\n<!-- three --><b/><!-- four --></robot>"
     content = document(text).root.content
@@ -158,11 +177,24 @@ def test_depth_is_bounded():
     assert codes("<a>" * (MAX_NESTED_ELEMENTS + 1) + "</a>" * (MAX_NESTED_ELEMENTS + 1)) == ["LF8003"]
 
 
+def test_of_a_bound_and_what_is_malformed_the_first_is_told():
+    assert codes("<a>" * (MAX_NESTED_ELEMENTS + 1) + "<b c=1>") == ["LF8003"]
+    assert codes("<b c=1>" + "<a>" * (MAX_NESTED_ELEMENTS + 1)) == ["LF8001"]
+    assert codes("<a><?b c?><d></a><?b c?>") == ["LF8102", "LF8001"]
+
+
+def test_a_text_that_lxml_finds_too_long_is_refused():
+    sink = Diagnostics()
+    assert read_xml(SourceFile("robot.urdf", f"<robot>\n{'x' * 10_500_000}</robot>"), sink) is None
+    assert [one.message.startswith("this is not XML: it cannot be read: ") for one in sink] == [True]
+
+
 def test_the_number_of_elements_is_bounded(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(reader, "MOST_ELEMENTS", 3)
     assert document("<a><b/><b/></a>")
     assert codes("<a><b/><b/><b/></a>") == ["LF8004"]
     assert codes("<a><b/><!-- 1 --><!-- 2 --></a>") == ["LF8004"]
+    assert codes("<a><b/><b/><?p?></a>") == ["LF8004"]
 
 
 @pytest.mark.parametrize("one_more", ["<b/>", "<!-- c -->", "text"])
@@ -175,6 +207,13 @@ def test_what_one_element_holds_is_bounded(monkeypatch: pytest.MonkeyPatch, one_
 def test_comments_beside_the_robot_are_bounded(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(reader, "MOST_INSIDE", 3)
     assert codes("<!-- 1 --><!-- 2 --><!-- 3 --><a/>") == ["LF8098"]
+
+
+@pytest.mark.parametrize("piece", ["<!--", "<![CDATA[", "<?a ", "<a '", '<a b="', "<a b ", "</a ", "<"])
+def test_what_is_never_closed_is_refused_in_time_that_grows_with_its_length(piece: str):
+    began = time.process_time()
+    assert codes(f"<robot>{piece * 200_000}") == ["LF8001"]
+    assert time.process_time() - began < 2
 
 
 @pytest.mark.parametrize(

@@ -74,7 +74,15 @@ def test_names_in_raw_xml_are_told_wherever_they_stand():
     said = "  # W[LF5704]:8 'bulb' is a link of this file and takes the prefix, but not here; write '$(link('bulb'))'"
     for raw in ("<a b = 'bulb'/>", '<a x="1"y="bulb"/>', "<a> bulb </a>", "<a.b:c-d>bulb", '<a x=">" b="bulb"/>'):
         robot_of(used(Spec(f"{unnamed}{raw}{said}\n")))
-    for raw in ("bulb>", "a b='bulb'>", '<visual name="bulb"/>', "<!-- bulb -->", "<a b='bulb'", "</bulb>"):
+    for raw in (
+        "bulb>",
+        "a b='bulb'>",
+        '<visual name="bulb"/>',
+        "<!-- bulb -->",
+        "<!-- <a b='bulb'/> -->",
+        "<a b='bulb'",
+        "</bulb>",
+    ):
         robot_of(used(Spec(f"{unnamed}{raw}\n")))
 
 

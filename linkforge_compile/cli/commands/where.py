@@ -139,26 +139,22 @@ class _Element(NamedTuple):
 
 
 def _elements_of(path: Path, document: str) -> Iterator[_Element]:
-    from xml.parsers import expat
+    from linkforge_compile.source.malformed_xml import MalformedXmlError
+    from linkforge_compile.source.xml_tree import XmlElement, document_of
 
-    elements: list[_Element] = []
-    around: list[str] = []
-    parser = expat.ParserCreate()
+    def inside(element: XmlElement, around: tuple[str, ...]) -> Iterator[_Element]:
+        if (name := element.get("name")) is not None:
+            is_declared = len(around) == 1 or (element.tag == "sensor" and around[-1:] == ("gazebo",))
+            yield _Element(element.tag, name, element.span.line, is_declared)
+        for child in element.children:
+            yield from inside(child, (*around, element.tag))
 
-    def begin(tag: str, attributes: dict[str, str]) -> None:
-        if "name" in attributes:
-            is_declared = len(around) == 1 or (tag == "sensor" and around[-1] == "gazebo")
-            elements.append(_Element(tag, attributes["name"], parser.CurrentLineNumber, is_declared))
-        around.append(tag)
-
-    parser.StartElementHandler = begin
-    parser.EndElementHandler = lambda _: around.pop()
+    file = SourceFile(str(path), document)
     try:
-        parser.Parse(document.encode(), True)
-    except expat.ExpatError as error:
-        reason = expat.ErrorString(error.code)
-        raise UsageError(f"'{path}' is not XML: {reason} in line {error.lineno}") from None
-    return iter(elements)
+        return inside(document_of(file).root, ())
+    except MalformedXmlError as error:
+        line = file.between(error.at, error.at).line
+        raise UsageError(f"'{path}' is not XML: {error.problem} in line {line}") from None
 
 
 class _Sources:

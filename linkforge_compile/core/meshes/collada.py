@@ -15,6 +15,7 @@ from collada.triangleset import TriangleSet
 from lxml import etree
 
 from linkforge_compile.core.meshes.faults import MeshError, MeshFault
+from linkforge_compile.source.xml_tree import safe_parser
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -54,9 +55,7 @@ def collada_triangles(content: bytes, limit: int) -> Numbers:
         Exception: Whatever pycollada and lxml make of a broken file.
 
     """
-    # Entities stay unresolved, and bounds of libxml2 that guard against them stay on.
-    parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
-    root = etree.fromstring(content, parser)
+    root = etree.fromstring(content, safe_parser(remove_comments=True))
     if root.getroottree().docinfo.internalDTD is not None:
         reason = "it has a document type, whose entities can hold and fetch anything; delete that"
         raise MeshError(MeshFault.UNREADABLE, reason)
