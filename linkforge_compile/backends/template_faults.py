@@ -95,19 +95,16 @@ def find_xml_fault(text: str) -> str | None:
     """Return why a text is not well-formed XML, and quote the line; None where it is."""
     from xml.parsers import expat
 
-    from linkforge_compile.source.malformed_xml import malformed
+    from linkforge_compile.source.malformed_xml import fault_of
 
-    begun: list[str] = []
+    text = text.encode("utf-8", "backslashreplace").decode()
     # expat takes prefixes without a declaration, as the URDF of many vendors has them.
     parser = expat.ParserCreate("utf-8")
-    parser.StartElementHandler = lambda tag, _: begun.append(tag)
-    parser.EndElementHandler = lambda _: begun.pop()
-    content = text.encode("utf-8", "backslashreplace")
     try:
-        parser.Parse(content, True)
+        parser.Parse(text, True)
     except expat.ExpatError as error:
-        at = len(content[: parser.ErrorByteIndex].decode("utf-8", "replace"))
-        problem = malformed(error.code, text, at, begun).problem
+        fault = fault_of(text)
+        problem = fault.problem if fault else expat.ErrorString(error.code)
         lines = text.split("\n")
         line = lines[error.lineno - 1].strip() if error.lineno <= len(lines) else ""
         return f"{problem}, in line {error.lineno} of it, '{line[:_MOST_SHOWN]}'"
