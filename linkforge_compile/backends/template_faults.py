@@ -50,10 +50,13 @@ def diagnose(error: Exception, template: str, loader: FolderLoader) -> Diagnosti
         case BeyondLimitError(diagnostic=diagnostic):
             return replace(diagnostic, span=place, notes=(*diagnostic.notes, *notes))
         case OutsideError(path=path, roots=roots):
+            if not loader.has(place.file):  # one of ours includes it
+                place, notes = SourceFile(str(path), "", path).whole, []
             notes = [*map(Note, roots.reasons(path)), *notes]
             return OUTSIDE_ROOTS.at(place, path=path, name="NAME", notes=notes)
         case UnreadableError(path=path, reason=reason):
-            return UNREADABLE_TEMPLATE.at(place, path=path, reason=reason, notes=notes)
+            notes = [Note("included here", span) for span in places]
+            return UNREADABLE_TEMPLATE.at(error.place, path=path, reason=reason, notes=notes)
         case TemplateNotFound(name=name):
             return NO_SUCH_TEMPLATE.at(place, name=name, folder=loader.folder, near=loader.names(), notes=notes)
         case RecursionError():
