@@ -50,10 +50,13 @@ def diagnose(error: Exception, template: str, loader: FolderLoader) -> Diagnosti
         case BeyondLimitError(diagnostic=diagnostic):
             return replace(diagnostic, span=place, notes=(*diagnostic.notes, *notes))
         case OutsideError(path=path, roots=roots):
+            if not loader.has(place.file):  # one of ours includes it
+                place, notes = SourceFile(str(path), "", path).whole, []
             notes = [*map(Note, roots.reasons(path)), *notes]
             return OUTSIDE_ROOTS.at(place, path=path, name="NAME", notes=notes)
         case UnreadableError(path=path, reason=reason):
-            return UNREADABLE_TEMPLATE.at(place, path=path, reason=reason, notes=notes)
+            notes = [Note("included here", span) for span in places]
+            return UNREADABLE_TEMPLATE.at(error.place, path=path, reason=reason, notes=notes)
         case TemplateNotFound(name=name):
             return NO_SUCH_TEMPLATE.at(place, name=name, folder=loader.folder, near=loader.names(), notes=notes)
         case RecursionError():
@@ -95,19 +98,16 @@ def find_xml_fault(text: str) -> str | None:
     """Return why a text is not well-formed XML, and quote the line; None where it is."""
     from xml.parsers import expat
 
-    from linkforge_compile.source.malformed_xml import malformed
+    from linkforge_compile.source.malformed_xml import fault_of
 
-    begun: list[str] = []
+    text = text.encode("utf-8", "backslashreplace").decode()
     # expat takes prefixes without a declaration, as the URDF of many vendors has them.
     parser = expat.ParserCreate("utf-8")
-    parser.StartElementHandler = lambda tag, _: begun.append(tag)
-    parser.EndElementHandler = lambda _: begun.pop()
-    content = text.encode("utf-8", "backslashreplace")
     try:
-        parser.Parse(content, True)
+        parser.Parse(text, True)
     except expat.ExpatError as error:
-        at = len(content[: parser.ErrorByteIndex].decode("utf-8", "replace"))
-        problem = malformed(error.code, text, at, begun).problem
+        fault = fault_of(text)
+        problem = fault.problem if fault else expat.ErrorString(error.code)
         lines = text.split("\n")
         line = lines[error.lineno - 1].strip() if error.lineno <= len(lines) else ""
         return f"{problem}, in line {error.lineno} of it, '{line[:_MOST_SHOWN]}'"

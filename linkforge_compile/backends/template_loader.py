@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
@@ -13,8 +14,9 @@ from linkforge_compile.backends.environment import is_xml
 from linkforge_compile.backends.markup import is_writable
 from linkforge_compile.bounds import MAX_FILE_BYTES
 from linkforge_compile.resources import templates_folder
-from linkforge_compile.roots import Roots, is_file
+from linkforge_compile.roots import Roots, exists, is_file
 from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source.encoding import place_of_byte
 
 _MOST_NAMES = 1000
 """Templates of a folder that a suggestion may name."""
@@ -29,10 +31,10 @@ class OutsideError(Exception):
 
 
 class UnreadableError(Exception):
-    """There is a file for a template, and no text in it."""
+    """There is a file for a template, and no text in it; `place` is what is wrong in it, else its beginning."""
 
-    def __init__(self, path: Path, reason: str) -> None:
-        self.path, self.reason = path, reason
+    def __init__(self, path: Path, reason: str, place: Span | None = None) -> None:
+        self.path, self.reason, self.place = path, reason, place or SourceFile(str(path), "", path).whole
         super().__init__(reason)
 
 
@@ -64,6 +66,9 @@ class FolderLoader(FileSystemLoader):
             text, name = _text(path), str(path)
             if is_xml(template) and not is_writable(text):
                 raise UnreadableError(path, "it holds a character that XML cannot")
+        elif os.path.islink(path) and not exists(path):  # noqa: PTH114 it answers for what may not be looked at
+            self.missing.append(path)
+            raise UnreadableError(path, "the link is broken: what it leads to is not there")
         else:
             self.missing.append(path)
             text, name, _ = super().get_source(environment, template)
@@ -73,9 +78,13 @@ class FolderLoader(FileSystemLoader):
     def place_of(self, template: str) -> Span:
         """Return the place of a template as a whole; of one of ours, that of the first of the folder that it uses."""
         path = self.folder / template
-        in_folder = (file for file in self.files.values() if file.path and file.path.is_relative_to(self.folder))
-        file = self.files.get(str(path)) or next(in_folder, None) or SourceFile(str(path), "", path)
+        in_folder = () if os.path.lexists(path) else (file for file in self.files.values() if self.has(file))
+        file = self.files.get(str(path)) or next(iter(in_folder), None) or SourceFile(str(path), "", path)
         return file.whole
+
+    def has(self, file: SourceFile) -> bool:
+        """Whether a file lies in the user's folder, and is none of ours."""
+        return file.path is not None and file.path.is_relative_to(self.folder)
 
     def names(self) -> Iterator[str]:
         """Yield what a template may include, by its path in its folder."""
@@ -95,6 +104,6 @@ def _text(path: Path) -> str:
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        reason = f"it is not UTF-8: line {line} has the byte {content[error.start]:#04x}; save it as UTF-8"
-        raise UnreadableError(path, reason) from None
+        byte = error.object[error.start]
+        place = place_of_byte(error, str(path))
+        raise UnreadableError(path, f"the byte {byte:#04x} is not UTF-8; save it as UTF-8", place) from None

@@ -51,7 +51,7 @@ class TemplateFolder:
             OSError: for a folder that cannot be read.
 
         """
-        self.folder = Path(folder)
+        self.folder, self._budget = Path(folder), Budget()
         self._roots = ANYWHERE if allow_outside else Roots.around(self.folder, (self.folder, *packages))
         with os.scandir(self.folder) as entries:
             names = sorted(entry.name for entry in entries if entry.is_symlink() or entry.is_file())
@@ -102,6 +102,8 @@ class TemplateFolder:
                     texts[name] = self._text(template, context)
             except TemplateError as error:
                 faults += error.diagnostics
+                if self._budget.is_spent:
+                    break
         if faults:
             raise TemplateError(tuple(faults))
         return texts
@@ -146,7 +148,7 @@ class TemplateFolder:
     def _environment(self) -> FolderEnvironment:
         from linkforge_compile.backends.sandbox import FolderEnvironment
 
-        return FolderEnvironment(self._loader, Budget())
+        return FolderEnvironment(self._loader, self._budget)
 
 
 def render_templates(

@@ -309,6 +309,17 @@ def test_what_takes_too_much_is_refused(text: str, message: str, tmp_path: Path)
     assert fault(text, tmp_path).message.startswith(message)
 
 
+def test_templates_behind_the_one_that_takes_too_much_are_not_blamed(tmp_path: Path):
+    write(tmp_path, a_md="right", b_md="\n{{ 'x' * 10**10 }}", c_md="right", d_md="{{ nosuch }}")
+    with pytest.raises(TemplateError) as refused:
+        render_templates(ARM, tmp_path)
+    (diagnostic,) = refused.value.diagnostics
+    assert diagnostic.span
+    assert (diagnostic.code.id, diagnostic.span.file.path, diagnostic.span.line) == (
+        *("LF3301", tmp_path / "b.md.j2", 2),
+    )
+
+
 def test_who_asks_for_it_may_take_more(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     text = "{% for i in range(1001) %}{% for j in range(1001) %}{% endfor %}{% endfor %}right"
     assert fault(text, tmp_path).code.id == "LF3301"
@@ -347,22 +358,55 @@ def test_a_link_that_leads_out_is_followed_where_the_user_allows_it(tmp_path: Pa
 
 
 @pytest.mark.parametrize(
-    ("name", "content", "reason"),
+    ("name", "content", "place", "reason"),
     [
-        ("a.md", b"a\n\xff", "it is not UTF-8: line 2 has the byte 0xff; save it as UTF-8"),
-        ("a.xml", b"<a>\x00</a>", "it holds a character that XML cannot"),
-        ("a.md", b"a" * (16 * 1024**2 + 1), "it is larger than 16 MiB"),
+        ("a.md", b"\xef\xbb\xbfa\nbc\xff", "2:3", "the byte 0xff is not UTF-8; save it as UTF-8"),
+        ("a.xml", b"<a>\x00</a>", "1:1", "it holds a character that XML cannot"),
+        ("a.md", b"a" * (16 * 1024**2 + 1), "1:1", "it is larger than 16 MiB"),
     ],
     ids=["not UTF-8", "control character", "large"],
 )
-def test_a_template_without_a_text_is_told(name: str, content: bytes, reason: str, tmp_path: Path):
+def test_a_template_without_a_text_is_told_at_its_file(
+    name: str, content: bytes, place: str, reason: str, tmp_path: Path
+):
     path = tmp_path / f"{name}.j2"
     path.write_bytes(content)
+    (tmp_path / "a.first.j2").write_text("right")
     with pytest.raises(TemplateError) as refused:
         render_templates(ARM, tmp_path)
     assert [str(one) for one in refused.value.diagnostics] == [
-        f"{path}:1:1: error: template '{path}' cannot be read: {reason} [LF7207]"
+        f"{path}:{place}: error: template '{path}' cannot be read: {reason} [LF7207]"
     ]
+
+
+@pytest.mark.parametrize("text", ["right", "{% include 'b.md.j2' %}"])
+def test_a_broken_link_is_told_at_itself(text: str, tmp_path: Path):
+    (tmp_path / "a.md.j2").write_text(text)
+    (tmp_path / "b.md.j2").symlink_to(tmp_path / "nosuch")
+    with pytest.raises(TemplateError) as refused:
+        render_templates(ARM, tmp_path)
+    path = tmp_path / "b.md.j2"
+    assert {str(one) for one in refused.value.diagnostics} == {
+        f"{path}:1:1: error: template '{path}' cannot be read: "
+        "the link is broken: what it leads to is not there [LF7207]"
+    }
+    notes = [note.span.file.path for one in refused.value.diagnostics for note in one.notes if note.span]
+    assert notes == ([tmp_path / "a.md.j2"] if text != "right" else [])
+
+
+def test_a_link_that_leads_out_of_the_folder_is_told_at_itself_where_no_template_of_the_folder_includes_it(
+    tmp_path: Path,
+):
+    folder = tmp_path / "t"
+    write(folder, a_md="right", urdf__link_xml="")
+    (folder / "urdf" / "joint.xml.j2").symlink_to(tmp_path / "outside")
+    (folder / "b.md.j2").symlink_to(tmp_path / "outside")
+    with pytest.raises(TemplateError) as refused:
+        render_templates(ARM, folder)
+    assert str(refused.value).startswith(f"{folder / 'b.md.j2'}:1:1: error: ")
+    with pytest.raises(TemplateError) as refused:
+        render_urdf(ARM, templates=folder)
+    assert str(refused.value).startswith(f"{folder / 'urdf' / 'joint.xml.j2'}:1:1: error: ")
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes")
