@@ -22,8 +22,10 @@ MARKUP = re.compile(
 
 ATTRIBUTE = re.compile(r"""(?<=[\s"'])(?P<name>[^\s=/<>"']+)\s*=\s*(?:"(?P<double>[^"]*)"|'(?P<single>[^']*)')""")
 
-_QUOTED = re.compile(r""""[^"]*"|'[^']*'""")
+# lxml takes these in names, the fourth edition of XML 1.0 does not, so that no name of a document has them.
 _COLON, _NOTHING = "\ua789", "\ua78a"
+
+_QUOTED = re.compile(r""""[^"]*"|'[^']*'""")
 _HIDDEN = re.compile(rf"""({_QUOTED.pattern})|(:)|(?<=\s)xmlns(?=[\s=])""")
 _SHOWN = str.maketrans({_COLON: ":", _NOTHING: None})
 
@@ -42,6 +44,7 @@ class Places:
         self.has_foreign_names = False
         """Whether a name is not of ASCII."""
         self._line_from: int | None = None
+        """What lies behind the tag, or the comment behind one, that ends on the line that is read."""
         self._hidden: list[str] = []
         self._hidden_to = 0
 
@@ -74,6 +77,7 @@ class Places:
 
     def _note_trailing(self, comment: re.Match[str]) -> None:
         between = "\n" if self._line_from is None else self.text[self._line_from : comment.start()]
+        self._line_from = None
         if not (between.strip() or "\n" in between or "\r" in between):
             self.trailing.add(comment.start())
             self._line_from = comment.end()
@@ -86,9 +90,9 @@ class Places:
 
     @property
     def without_namespaces(self) -> str:
-        """The text with a letter for each ':' of its names.
+        """The text with a letter for each ':' of its names, and behind `xmlns`.
 
-        lxml resolves prefixes, and refuses those that nothing declares; here a name is what is written.
+        lxml would resolve prefixes, and refuse those that nothing declares; a name is to be what is written.
         """
         return "".join((*self._hidden, self.text[self._hidden_to :]))
 

@@ -209,6 +209,12 @@ def test_comments_beside_the_robot_are_bounded(monkeypatch: pytest.MonkeyPatch):
     assert codes("<!-- 1 --><!-- 2 --><!-- 3 --><a/>") == ["LF8098"]
 
 
+def test_many_comments_are_read_in_time_that_grows_with_their_number():
+    began = time.process_time()
+    assert document("<robot>" + f"<!-- {'x' * 120} -->\n" * 40_000 + "</robot>")
+    assert time.process_time() - began < 2
+
+
 @pytest.mark.parametrize("piece", ["<!--", "<![CDATA[", "<?a ", "<a '", '<a b="', "<a b ", "</a ", "<"])
 def test_what_is_never_closed_is_refused_in_time_that_grows_with_its_length(piece: str):
     began = time.process_time()
