@@ -32,4 +32,5 @@ class MadeFiles(BuildHookInterface[Any]):  # Any: the configuration of whatever 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
         """Remove them from where they were made."""
         if version != "editable":
+            sys.path.remove(self.root)
             self._folder.cleanup()

@@ -13,6 +13,7 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnost
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.suggest import suggesting
+from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.lowering import MeshSolids
 from linkforge_compile.modules import XACRO, Arguments, Loader, SpecFile, Used
@@ -73,7 +74,7 @@ def import_urdf(
     """
     settings = Settings(arguments, packages, allow_outside=allow_outside, output=Path(output) if output else None)
     urdf = _Urdf(Path(path), text)
-    return _imported(urdf, None if srdf is None else Path(srdf), settings)
+    return on_fresh_stack(lambda: _imported(urdf, None if srdf is None else Path(srdf), settings))
 
 
 class _Urdf(NamedTuple):
@@ -97,7 +98,7 @@ def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> ReadBack:
     """
     sink = Diagnostics()
     try:
-        back = _read_back(robot, gazebo, sink)
+        back = on_fresh_stack(lambda: _read_back(robot, gazebo, sink))
     except BeyondLimitError as beyond:
         sink.end(beyond)
         back = None

@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnost
 from linkforge_compile.diagnostics.codes.bounds import VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.diagnostics.suggest import suggesting
+from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.lowering import MeshSolids, lower
 from linkforge_compile.modules import (
     XACRO,
@@ -281,9 +282,13 @@ def _compile_text(text: str, name: str, folder: str | Path | None, settings: Set
     return _compile(lambda loader, sink: loader.parse(text, name, place, sink), place, settings)
 
 
+def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation:
+    return on_fresh_stack(lambda: _compile_read(read, place, settings))
+
+
 @gc_paused()
 @suggesting()
-def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation:
+def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compilation:
     require_dialect(settings.gazebo)
     sink = Diagnostics()
     loader = settings.loader(place)

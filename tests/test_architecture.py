@@ -17,6 +17,7 @@ MAY_IMPORT = {
     "roots": "",
     "manifest": "roots",
     "shape_order": "",
+    "fresh_stack": "",
     "stamps": "",
     "_version": "",
     "diagnostics": "source",
@@ -35,10 +36,11 @@ MAY_IMPORT = {
     "compare": "units core backends shape_order",
     "pipeline": (
         "source diagnostics bounds units syntax schema importers modules lowering checks backends core roots "
+        "fresh_stack"
     ),
-    "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline",
+    "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline fresh_stack",
     "launch": "diagnostics backends core modules pipeline stamps",
-    "editor": "diagnostics syntax schema modules lowering core roots resources backends",
+    "editor": "diagnostics syntax schema modules lowering core roots resources backends fresh_stack",
     "cli": (
         "banner source diagnostics bounds roots core checks schema modules pipeline importing backends writers compare "
         "editor resources stamps _version"

@@ -84,7 +84,7 @@ def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
     except MalformedXmlError as error:
         # As of a text that just ends: a tag that is not closed would be one that holds what stands around the text.
         fault = fault_of(text, _BEGIN) if fault_of(file.text) else None
-        raise _malformed(text, fault or MalformedXmlError(error.problem, error.at - len(_BEGIN))) from None
+        raise _malformed(text, fault or MalformedXmlError(error.problem, max(error.at - len(_BEGIN), 0))) from None
     return _Reading(sections, marks_of_lines(text, source, path)).content(root, keeps_space=False)
 
 

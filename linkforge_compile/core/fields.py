@@ -12,11 +12,12 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields
 from enum import StrEnum
 from functools import cache
-from typing import Any, NamedTuple, TypeAlias, get_type_hints
+from types import NoneType
+from typing import Any, NamedTuple, TypeAlias, get_args, get_type_hints
 
 from linkforge_compile.core.constants import EPSILON
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.rules import require_finite
+from linkforge_compile.core.rules import not_finite, require_finite
 from linkforge_compile.units import BARE, FieldUnit, Motion
 
 _LARGEST, _SMALLEST = sys.float_info.max, math.ulp(0.0)
@@ -48,7 +49,8 @@ class Number(NamedTuple):
     `example` is what to write where the language requires the number, by motion if that matters; empty where it does
     not. `stand_in` takes the place of a faulty one, so that its element stays for the checks; None for `implied`.
     `implied` is what the absence of the number means: the default of its class, which `field_specs` fills in, unless
-    it is required, or `has_no_default` in the language. A length that `may_be_far` is not taken for millimetres.
+    it is required. `may_be_none` is filled in from the annotation. A length that `may_be_far` is not taken for
+    millimetres.
     """
 
     unit: FieldUnit = BARE
@@ -58,7 +60,7 @@ class Number(NamedTuple):
     implied: float | None = None
     is_whole: bool = False
     may_be_far: bool = False
-    has_no_default: bool = False
+    may_be_none: bool = False
     is_required_in_urdf: bool = False
 
     def example_for(self, motion: Motion) -> str:
@@ -103,19 +105,20 @@ def field_specs(kind: type) -> Mapping[str, Spec]:
 @cache
 def _field_specs(kind: type) -> Mapping[str, Spec]:
     hints = get_type_hints(kind, include_extras=True)
-    specs = {name: _spec_in(hint) for name, hint in hints.items()}
-    return {name: _with_default(spec, kind, name) for name, spec in specs.items() if spec is not None}
+    specs = {name: spec for name, hint in hints.items() if (spec := _spec_in(hint)) is not None}
+    return {name: _with_default(spec, kind, name) for name, spec in specs.items()}
 
 
-def _spec_in(hint: object) -> Spec | None:
-    metadata: tuple[object, ...] = getattr(hint, "__metadata__", ())
-    return next((spec for spec in metadata if isinstance(spec, Spec)), None)
+def _spec_in(hint: Any) -> Spec | None:
+    """Return the spec in an annotation, None for one without; a number knows whether it may be None."""
+    spec = next((spec for spec in getattr(hint, "__metadata__", ()) if isinstance(spec, Spec)), None)
+    return spec._replace(may_be_none=NoneType in get_args(hint.__origin__)) if isinstance(spec, Number) else spec
 
 
 def _with_default(spec: Spec, kind: type[Any], name: str) -> Spec:
     default = next((one.default for one in fields(kind) if one.name == name), MISSING)
     match spec:
-        case Number(example="", has_no_default=False) | Text(example="") | Flag() | Choice() if default is not MISSING:
+        case Number(example="") | Text(example="") | Flag() | Choice() if default is not MISSING:
             return spec._replace(implied=default)
     return spec
 
@@ -143,7 +146,7 @@ def written_numbers(part: object) -> Iterator[tuple[str, float]]:
 
 
 def check_numbers(part: object) -> None:
-    """Refuse a number of a part outside of its bound, NaN and infinity; None passes.
+    """Refuse a number of a part outside of its bound, NaN, infinity, and None where the field has no place for it.
 
     Raises:
         RobotValidationError: OUT_OF_RANGE.
@@ -154,10 +157,14 @@ def check_numbers(part: object) -> None:
     specs = number_fields(kind)
     for name, spec in specs.items():
         value: float | None = getattr(part, name)
-        if value is not None and spec.bound and not (spec.bound.holds(value) or math.isnan(value)):
+        if value is None:
+            if not spec.may_be_none:
+                raise not_finite(value, name, f"{kind.__name__}.{name}", (name,))
+        elif spec.bound and not (spec.bound.holds(value) or math.isnan(value)):
+            unit = spec.unit.text(Motion.OTHER)
             raise RobotValidationError(
                 ValidationErrorCode.OUT_OF_RANGE,
-                f"{name} must be {spec.bound.words}, found {value}",
+                f"{name} must be {spec.bound.words}{unit and f' [{unit}]'}, found {value}",
                 target=f"{kind.__name__}.{name}",
                 value=value,
                 field=(name,),

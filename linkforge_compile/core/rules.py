@@ -83,32 +83,6 @@ def require_unique_names(named: Iterable[Named], owner: str, target: str, field:
         seen.add(thing.name)
 
 
-def require_not_negative(value: float, what: str, target: str, field: str) -> None:
-    """Refuse a number below zero.
-
-    Raises:
-        RobotValidationError: OUT_OF_RANGE.
-
-    """
-    if value < 0:
-        raise _out_of_range(f"{what} must be 0 or above, found {value}", target, value, field)
-
-
-def require_positive(value: float, what: str, target: str, field: str) -> None:
-    """Refuse a number that is not above zero.
-
-    Raises:
-        RobotValidationError: OUT_OF_RANGE.
-
-    """
-    if value <= 0:
-        raise _out_of_range(f"{what} must be positive, found {value}", target, value, field)
-
-
-def _out_of_range(message: str, target: str, value: float, field: str) -> RobotValidationError:
-    return RobotValidationError(ValidationErrorCode.OUT_OF_RANGE, message, target=target, value=value, field=(field,))
-
-
 def require_finite(part: object, *names: str) -> None:
     """Refuse NaN and infinity in the named fields; None is no number and passes.
 
@@ -132,7 +106,7 @@ def is_finite(value: float) -> bool:
         return False
 
 
-def not_finite(value: float, what: str, target: str, field: FieldPath) -> RobotMathError:
+def not_finite(value: float | None, what: str, target: str, field: FieldPath) -> RobotMathError:
     """Return the error for a number that is not finite."""
     return RobotMathError(
         ValidationErrorCode.INVALID_VALUE,

@@ -10,6 +10,7 @@ from pathlib import Path
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.diagnostics.suggest import suggesting
+from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.lowering import lower
 from linkforge_compile.modules import (
     Arguments,
@@ -43,7 +44,6 @@ class Vocabulary:
     has_name: bool = True
 
 
-@suggesting()
 def vocabulary_of(
     path: Path, root: Path, packages: Mapping[str, Path] | None = None, *, runs_xacro: bool = True
 ) -> Vocabulary:
@@ -52,7 +52,11 @@ def vocabulary_of(
     `packages` are where `package://` leads first. Meshes are not read: they bear no names. Without `runs_xacro`, the
     names in xacro files are missing.
     """
-    packages = packages or {}
+    return on_fresh_stack(lambda: _read_vocabulary(path, root, packages or {}, runs_xacro=runs_xacro))
+
+
+@suggesting()
+def _read_vocabulary(path: Path, root: Path, packages: Mapping[str, Path], *, runs_xacro: bool) -> Vocabulary:
     found = Vocabulary((_relative(path, root),), is_whole=False)
     sink, loader = Diagnostics(), Loader(packages, Roots.around(path, (root, *packages.values())))
     loader.runs_xacro = runs_xacro

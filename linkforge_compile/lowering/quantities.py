@@ -99,8 +99,6 @@ def measure_of(unit: FieldUnit, bound: Bound | None, motion: Motion, may_be_far:
 BARE = Measure()
 """Any number without a unit."""
 AMOUNT = Measure(bound=NOT_NEGATIVE)
-COUNT = Measure(bound=ABOVE_ZERO)
-"""How many; that it is whole, `Fields.integer` asks."""
 SHARE = Measure(bound=ZERO_TO_ONE)
 LENGTH = Measure(_LENGTH)
 EXTENT = Measure(_LENGTH, ABOVE_ZERO)

@@ -83,7 +83,9 @@ def _explained(known: str, text: str, at: int, tag: str, begun: tuple[int, int])
         what = "comment" if text.startswith("<!--", at) else "tag"
         return MalformedXmlError(f"this {what} is not closed", at)
     if known == errors.XML_ERROR_UNCLOSED_CDATA_SECTION:
-        return MalformedXmlError("this CDATA is not closed; it ends with ']]>'", text.rfind("<![CDATA[", 0, at))
+        # What looks like the begin of another in it is its text.
+        begin = text.find("<![CDATA[", text.rfind("]]>", 0, at) + 1)
+        return MalformedXmlError("this CDATA is not closed; it ends with ']]>'", begin)
     closing = _NAME.match(text, at) if known == errors.XML_ERROR_TAG_MISMATCH else None
     if closing and not tag:
         return MalformedXmlError(f"</{_shown(closing[0])}> closes nothing that is open", at)

@@ -112,6 +112,9 @@ class XmlDocument:
     content: tuple[XmlContent, ...]
 
 
+_TOO_LONG = "a text or a value in it has more than 10 MB, or a name more than 50,000 characters"
+
+
 def document_of(file: SourceFile, walked: Places | None = None) -> XmlDocument:
     """Return the document that a file holds; `walked` are the places of its text if that was walked over already.
 
@@ -126,9 +129,10 @@ def document_of(file: SourceFile, walked: Places | None = None) -> XmlDocument:
     try:
         root = etree.fromstring(places.without_namespaces.encode(), safe_parser("utf-8"))
     except etree.XMLSyntaxError as error:
-        # Of what lxml alone refuses, a text or a value of 10 MB, the line is enough.
-        at = sum(len(line) + 1 for line in text.split("\n")[: error.position[0] - 1])
-        raise fault_of(text) or MalformedXmlError(f"it cannot be read: {error.msg.partition(',')[0]}", at) from None
+        # Of what lxml alone refuses, the line is enough.
+        at = sum(len(line) + 1 for line in text.split("\n")[: max(error.position[0] - 1, 0)])
+        reason = _TOO_LONG if "too long" in error.msg else f"it cannot be read: {error.msg.partition(',')[0]}"
+        raise fault_of(text) or MalformedXmlError(reason, at) from None
     # lxml takes names of the fifth edition of XML 1.0; expat, and with it xacro, those of the fourth.
     if places.has_foreign_names and (fault := fault_of(text)):
         raise fault

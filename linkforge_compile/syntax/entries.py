@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
-from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null, new
+from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 
 STUCK = re.compile(r"[A-Za-z_]\w*:\S.*")
 """A key and its value without the space between them."""
@@ -15,7 +15,7 @@ STUCK = re.compile(r"[A-Za-z_]\w*:\S.*")
 
 def plain_entries(written: Sequence[tuple[YamlNode, YamlNode]]) -> dict[str, YamlEntry] | None:
     """Return the entries that pairs of nodes make, as of nearly all maps; None where some keys need a second look."""
-    entries = {key.text: new(YamlEntry, (key, value, None)) for key, value in written if isinstance(key, YamlScalar)}
+    entries = {key.text: YamlEntry(key, value) for key, value in written if isinstance(key, YamlScalar)}
     return entries if len(entries) == len(written) and "<<" not in entries else None
 
 

@@ -32,7 +32,6 @@ from linkforge_compile.syntax.nodes import (
     YamlMap,
     YamlNode,
     YamlScalar,
-    new,
 )
 from linkforge_compile.syntax.scalars import is_cut_expression, is_overflow, scalar_value
 
@@ -147,7 +146,7 @@ class _Reader:
         self.last_scalar = event
         begin = event.start_mark
         assert begin is not None, "the parser marks every event"
-        return new(YamlScalar, (text, meanings[text], self._file, begin.index, None))
+        return YamlScalar(text, meanings[text], self._file, begin.index)
 
     def _node(self, event: events.Event | None, depth: int, flow: bool) -> YamlNode:
         """Read the node that begins with `event`; `flow` is whether it stands inside [..] or {..}."""

@@ -15,9 +15,6 @@ from linkforge_compile.units import Quantity
 
 ScalarValue: TypeAlias = None | bool | int | float | str | Quantity
 
-new = tuple.__new__
-"""Makes a scalar or an entry of its class and a tuple of its fields: a constructor takes twice as long."""
-
 MAX_DEPTH = 100
 """How deep lists and maps may nest: every later stage walks the tree by recursion."""
 
@@ -28,8 +25,8 @@ class YamlScalar(NamedTuple):
     Only an evaluated expression or a variable gives a Quantity; a quantity that was typed is still a str here.
     Fields that are text or names take `text`, so that `version: 1.0` stays "1.0"; numbers take `value`.
 
-    A tuple, which is made in a third of the time: a robot of 10,000 links has a million. For the same reason one that
-    was read only knows its file and between which indexes it stands there; few are asked for their spans.
+    A scalar that was read knows its file and between which indexes it stands there; its span is computed when
+    asked for.
     `end` is None where it ends with its text.
     """
 

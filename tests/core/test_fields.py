@@ -108,6 +108,18 @@ def test_a_number_outside_of_its_bound_is_refused(value: float, message: str):
         check_numbers(Spring(value))
 
 
+def test_a_number_that_is_always_written_may_not_be_none():
+    for make in (
+        lambda: JointLimits(0, 1, effort=None),
+        lambda: JointMimic("a", multiplier=None),
+        lambda: CameraInfo(width=None),
+        lambda: InertiaTensor(1, 1, None),
+        lambda: LinkPhysics(mu=None),
+    ):
+        with pytest.raises(RobotModelError, match="must be a finite number, found None"):
+            make()
+
+
 def test_the_numbers_of_a_joint_are_lowered_in_the_units_of_its_motion():
     spec = """
 linkforge: 1

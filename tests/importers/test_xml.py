@@ -186,7 +186,14 @@ def test_of_a_bound_and_what_is_malformed_the_first_is_told():
 def test_a_text_that_lxml_finds_too_long_is_refused():
     sink = Diagnostics()
     assert read_xml(SourceFile("robot.urdf", f"<robot>\n{'x' * 10_500_000}</robot>"), sink) is None
-    assert [one.message.startswith("this is not XML: it cannot be read: ") for one in sink] == [True]
+    reason = "a text or a value in it has more than 10 MB, or a name more than 50,000 characters"
+    assert [one.message for one in sink] == [f"this is not XML: {reason}"]
+
+
+def test_an_open_cdata_is_reported_where_it_begins():
+    sink = Diagnostics()
+    assert read_xml(SourceFile("robot.urdf", "<robot><![CDATA[a]]><![CDATA[<![CDATA[<![CDATA["), sink) is None
+    assert [one.span.column for one in sink if one.span] == [21]
 
 
 def test_the_number_of_elements_is_bounded(monkeypatch: pytest.MonkeyPatch):
