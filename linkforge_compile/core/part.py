@@ -31,6 +31,12 @@ class Part(Sourced):
     def __deepcopy__(self, memo: object) -> Self:
         return self
 
+    if TYPE_CHECKING:
+        # dataclass makes both. Without `__eq__`, mypy reports `name in robot.joints` as a comparison that is never
+        # true, because the items of a NamedTable are parts, and not names.
+        def __eq__(self, other: object) -> bool: ...
+        def __hash__(self) -> int: ...
+
     def with_prefix(self, prefix: str) -> Self:
         """Return the part with the prefix before all its names; a name that is empty or None stays so.
 
@@ -41,12 +47,6 @@ class Part(Sourced):
         if not self.PREFIXED or not prefix:
             return self
         return prefixed_copy(self, prefix)
-
-    if TYPE_CHECKING:
-        # Every part gets one from dataclass. Seen here, it lets `name in robot.joints` pass for what it is: an Index
-        # holds names as well as parts, which mypy would otherwise call a comparison that is never true.
-        def __eq__(self, other: object) -> bool: ...
-        def __hash__(self) -> int: ...
 
 
 _NOTHING: Final = ()

@@ -197,18 +197,20 @@ class LinkBuilder(JointDraft, SensorDraft):
         joint = self._made_joint()
         transmission = self._made_transmission(joint) if joint else None
         control = self._made_control(joint) if joint else None
-        with robot.unchanged_on_error():
-            robot.add_link(link, overwrite=self._in_context)
-            for sensor in self._sensors:
-                robot.add_sensor(sensor)
-            if self._gazebo:
-                robot.add_gazebo_element(GazeboElement(reference=self._link_name, **self._gazebo))
-            if joint:
-                robot.add_joint(joint)
-            if transmission:
-                robot.add_transmission(transmission)
-            if control:
-                robot.update_ros2_control(control)
+        gazebo = [GazeboElement(reference=self._link_name, **self._gazebo)] if self._gazebo else []
+        if joint:
+            robot.require_parent(joint)
+        robot.add_parts(
+            links=[] if self._in_context else [link],
+            sensors=self._sensors,
+            gazebo_elements=gazebo,
+            joints=[joint] if joint else [],
+            transmissions=[transmission] if transmission else [],
+        )
+        if self._in_context:
+            robot.add_link(link, overwrite=True)
+        if control:
+            robot.update_ros2_control(control)
         self._committed = True
 
     def _inertial(self) -> Inertial | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.constants import SRDF_REASON_ADJACENT, SRDF_VJOIN_FIXED
-from linkforge_compile.core.models.semantic_parts import planning_group
+from linkforge_compile.core.models.planning import chain_between
 from linkforge_compile.core.models.srdf import (
     Chain,
     CollisionPair,
@@ -14,6 +14,7 @@ from linkforge_compile.core.models.srdf import (
     JointProperty,
     LinkSphereApproximation,
     PassiveJoint,
+    PlanningGroup,
     SemanticRobotDescription,
     SrdfSphere,
     VirtualJoint,
@@ -47,15 +48,8 @@ class SemanticBuilder:
         tip_link: str | None = None,
     ) -> SemanticBuilder:
         """Define a planning group; `base_link` and `tip_link`, always both, make one chain more."""
-        group = planning_group(
-            name=name,
-            links=links,
-            joints=joints,
-            chains=chains,
-            subgroups=subgroups,
-            base_link=base_link,
-            tip_link=tip_link,
-        )
+        all_chains = (*(chains or ()), *chain_between(name, base_link, tip_link))
+        group = PlanningGroup(name, links or (), joints or (), all_chains, subgroups or ())
         return self._say(SemanticRobotDescription(groups=(group,)))
 
     def group_state(self, name: str, group: str, values: dict[str, float | tuple[float, ...]]) -> SemanticBuilder:

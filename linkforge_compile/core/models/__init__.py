@@ -19,7 +19,6 @@ if TYPE_CHECKING:
         Vector3,
     )
     from linkforge_compile.core.models.graph import KinematicGraph
-    from linkforge_compile.core.models.index import Index
     from linkforge_compile.core.models.interface import Interface
     from linkforge_compile.core.models.joint import (
         Joint,
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
     )
     from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
     from linkforge_compile.core.models.material import Color, Material
+    from linkforge_compile.core.models.named_table import Index
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.core.models.ros2_control import (
         Ros2Control,
@@ -74,7 +74,7 @@ _HOMES = {
     "gazebo": "GazeboElement GazeboPlugin",
     "geometry": "Box Capsule Cylinder Geometry GeometryType Mesh Sphere Transform Vector3",
     "graph": "KinematicGraph",
-    "index": "Index",
+    "named_table": "Index",
     "interface": "Interface",
     "joint": "Joint JointCalibration JointDynamics JointLimits JointMimic JointSafetyController JointType",
     "link": "Collision InertiaTensor Inertial Link LinkPhysics Visual",

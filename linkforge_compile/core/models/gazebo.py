@@ -128,3 +128,20 @@ def _says_yes(tag: FreePart) -> bool:
     if isinstance(tag, Mapping):
         tag = tag.get("_value", tag.get("_text", ""))
     return isinstance(tag, str) and tag.strip().lower() in ("true", "yes", "1")
+
+
+def content_key(element: GazeboElement) -> tuple[str, str]:
+    """Return what sorts Gazebo elements by reference, then by content: several may be about one part."""
+    content: dict[str, object] = {
+        **{name: getattr(element, name) for name in element.__match_args__ if name not in {"reference", "plugins"}},
+        "plugins": [(plugin.name, plugin.filename, _sorted(plugin.parameters)) for plugin in element.plugins],
+        "extras": (element.extra_attributes, element.extra_elements, element.extra_inside),
+    }
+    return element.reference or "", repr(_sorted(content))
+
+
+def _sorted(value: object) -> object:
+    """Return a value with the items of every mapping in it sorted: their order does not matter for equality."""
+    if isinstance(value, Mapping):
+        return sorted((name, _sorted(item)) for name, item in value.items())
+    return [_sorted(item) for item in value] if isinstance(value, tuple | list) else value
