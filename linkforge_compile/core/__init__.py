@@ -55,8 +55,8 @@ if TYPE_CHECKING:
     from linkforge_compile.core.resolver import FileSystemResolver as FileSystemResolver
     from linkforge_compile.core.resolver import IResourceResolver as IResourceResolver
 
-_SUBMODULES = ("builders", "constants", "exceptions", "models", "naming", "physics", "resolver")
 _HOMES = {
+    "": "builders constants exceptions models naming physics resolver",
     "builders": "IComposer LinkBuilder RobotBuilder SemanticBuilder box capsule cylinder mesh sphere",
     "constants": "DEFAULT_LINK_MASS EPSILON GRAVITY_ENABLED PI",
     "exceptions": "LinkForgeError RobotGeneratorError RobotGeneratorUnsupportedTypeError RobotMathError "
@@ -82,18 +82,16 @@ _HOMES = {
     "resolver": "FileSystemResolver IResourceResolver",
 }
 HOME_OF = {name: home for home, names in _HOMES.items() for name in names.split()}
-"""The submodule that defines each exported name."""
+"""The submodule that defines each exported name; empty for a submodule itself."""
 
 if not TYPE_CHECKING:
     __all__ = list(HOME_OF)
-    __all__ += _SUBMODULES
 
     def __getattr__(name: str) -> object:
-        if name in HOME_OF:
-            return getattr(import_module(f"{__name__}.{HOME_OF[name]}"), name)
-        if name in _SUBMODULES:
-            return import_module(f"{__name__}.{name}")
-        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+        if name not in HOME_OF:
+            raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+        home = HOME_OF[name]
+        return getattr(import_module(f"{__name__}.{home}"), name) if home else import_module(f"{__name__}.{name}")
 
     def __dir__() -> list[str]:
         return sorted(__all__)

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.frozen_map import FreePart, FrozenMap
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.prefixing import prefixed_copy
 from linkforge_compile.core.rules import require_finite, require_not_blank
 
 
@@ -39,7 +38,7 @@ class GazeboPlugin(Element):
         Gazebo Classic's plugins are named by their user; Gazebo Sim loads the class that the name says, such as
         `gz::sim::systems::Imu`, and there is none with a prefix.
         """
-        return self if "::" in self.name else prefixed_copy(self, prefix) if prefix else self
+        return self if "::" in self.name else Element.with_prefix(self, prefix)
 
     def __post_init__(self) -> None:
         freeze(self, mappings=("parameters",))

@@ -23,7 +23,6 @@ from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.naming import prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
-from linkforge_compile.core.prefixing import prefixed_copies
 from linkforge_compile.core.rules import require_name, require_valid_characters
 from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
 from linkforge_compile.source import SourceRef
@@ -248,8 +247,8 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
         require_valid_characters(name, "link name", "LinkName")
         link = copy(self)
         object.__setattr__(link, "name", name)  # no index holds the copy yet, so that none has to look again
-        link.visuals = tuple(prefixed_copies(self.visuals, prefix))
-        link.collisions = tuple(prefixed_copies(self.collisions, prefix))
+        link.visuals = tuple(visual.with_prefix(prefix) for visual in self.visuals)
+        link.collisions = tuple(collision.with_prefix(prefix) for collision in self.collisions)
         return link
 
     if TYPE_CHECKING:
