@@ -1,4 +1,4 @@
-"""Telling planning about a robot under construction, call by call."""
+"""Building the SRDF part of a robot call by call."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from linkforge_compile.core.models.srdf import (
 )
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.builders.composer import IComposer
+    from linkforge_compile.core.builders.link_builder import IComposer
 
 
 class SemanticBuilder:
-    """What planning is told; links and joints may be named before they are finished, so nobody looks for them.
+    """The SRDF part of a robot under construction; links and joints that it names may be added later.
 
-    Saying anything twice raises DUPLICATE_NAME, except collision pairs and links without default collisions.
+    A second entry of one name raises DUPLICATE_NAME, except collision pairs and links without default collisions.
     """
 
     def __init__(self, builder: IComposer) -> None:
@@ -67,7 +67,7 @@ class SemanticBuilder:
     def virtual_joint(
         self, name: str, child_link: str, parent_frame: str = "world", joint_type: str = SRDF_VJOIN_FIXED
     ) -> SemanticBuilder:
-        """Say how the robot's root link stands in a frame outside of it."""
+        """Connect the robot's root link to a frame outside of the robot."""
         joint = VirtualJoint(name, joint_type, parent_frame, child_link)
         return self._say(SemanticRobotDescription(virtual_joints=(joint,)))
 

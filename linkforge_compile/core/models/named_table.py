@@ -99,7 +99,7 @@ class PartList(Generic[T]):
         return tuple(new.values())
 
     def extend(self, parts: Sequence[T]) -> None:
-        """Append parts, whatever their keys."""
+        """Append parts without a check of their keys."""
         if self._positions is not None:
             for position, part in enumerate(parts, len(self.items)):
                 self._positions.setdefault(self.spec.key(part), position)

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.geometry import Transform, Vector3
     from linkforge_compile.core.models.joint import JointLimits
     from linkforge_compile.core.models.link import Link
+    from linkforge_compile.core.models.material import Material
     from linkforge_compile.core.models.named_table import Additions
     from linkforge_compile.core.models.ros2_control import Ros2Control
     from linkforge_compile.core.models.sensor import Sensor
@@ -224,7 +225,7 @@ class Robot(RobotParts):
         """
         if at_link is not None:
             _require(self._links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
-        materials = select_new_materials(prefixed_materials(component, prefix), self.materials)
+        materials = prefixed_materials(component, prefix)
         parts = prefixed_parts(component, prefix)
         # Links of one name are reported as such, and not as the cycle that they make.
         self._links.select_new(parts["links"])
@@ -236,6 +237,14 @@ class Robot(RobotParts):
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
             parts["joints"].append(complete_joint(connecting, joint) if joint else connecting)
         parts["extra_elements"] = list(component.extra_elements)
+        self._take_in(component, prefix, parts, materials)
+        return self
+
+    def _take_in(
+        self, component: Robot, prefix: str, parts: dict[str, list[Any]], materials: dict[str, Material]
+    ) -> None:
+        """Add the parts and materials of a component, and what it says of itself, all or nothing."""
+        new_materials = select_new_materials(materials, self.materials)
         additions = self._additions(parts)
         semantic = self._semantic
         if component.says_semantic:
@@ -245,10 +254,9 @@ class Robot(RobotParts):
         extra_attributes = {**own_attributes, **dict(component.extra_attributes), **own_attributes}
         update_materials = self.materials.update
         extend_all(additions)  # the last that can be refused
-        update_materials(materials)
+        update_materials(new_materials)
         self.extra_attributes = tuple(extra_attributes.items())
         self._semantic = semantic
-        return self
 
     def prefix_all(self, prefix: str) -> None:
         """Put a prefix before the robot's name, the names of all its parts, and wherever they refer to one another.

@@ -83,7 +83,7 @@ class SemanticRobotDescription(Element):
         return self == SemanticRobotDescription(self.robot_name)
 
     def merge_with(self, other: SemanticRobotDescription) -> SemanticRobotDescription:
-        """Return this description with the members of the other behind its own; the name stays this one's.
+        """Return this description followed by the members of the other, under the name of this one.
 
         A collision pair or link without default collisions that both have is there once, as this one says it.
 
