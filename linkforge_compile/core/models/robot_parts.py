@@ -193,19 +193,35 @@ class RobotParts:
         """True once a description was assigned, be it an empty one, or something semantic was added."""
         return self._semantic is not None
 
-    def add_parts(self, **parts: Iterable[object]) -> None:
-        """Add parts of several kinds, all of them or none: `add_parts(links=[…], joints=[…])`.
-
-        Where they refer to is not looked at.
+    def add_parts(
+        self,
+        *,
+        links: Iterable[Link] = (),
+        joints: Iterable[Joint] = (),
+        sensors: Iterable[Sensor] = (),
+        transmissions: Iterable[Transmission] = (),
+        ros2_controls: Iterable[Ros2Control] = (),
+        gazebo_elements: Iterable[GazeboElement] = (),
+    ) -> None:
+        """Add parts of several kinds, all of them or none; the parts that they refer to need not exist.
 
         Raises:
             RobotValidationError: DUPLICATE_NAME for a link, joint, sensor, transmission or ros2_control whose name is
                 taken.
 
         """
+        parts = {
+            "links": links,
+            "joints": joints,
+            "sensors": sensors,
+            "transmissions": transmissions,
+            "ros2_controls": ros2_controls,
+            "gazebo_elements": gazebo_elements,
+        }
         extend_all(self._additions(parts))
 
     def _additions(self, parts: Mapping[str, Iterable[object]]) -> Additions:
+        """Return what `extend_all` takes to add parts by kind."""
         return [(vars(self)[f"_{kind}"], added) for kind, added in parts.items()]
 
     @property
