@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from linkforge_compile.backends.element import inside_of
 from linkforge_compile.backends.markup import is_writable
 from linkforge_compile.core.fields import number_fields
-from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link, LinkPhysics
 from linkforge_compile.core.part import Element
@@ -85,8 +84,8 @@ def _are_plain_of(kind: type, values: Collection[object]) -> bool:
         return _are_plain_parts([value for value in values if value.__class__ is kind and isinstance(value, _PARTS)])
     if issubclass(kind, str):
         return "".join([value for value in values if isinstance(value, str)]).isprintable()
-    if issubclass(kind, tuple | Index):
-        collections = [value for value in values if isinstance(value, tuple | Index)]
+    if issubclass(kind, tuple):
+        collections = [value for value in values if isinstance(value, tuple)]
         return _are_plain(list(chain.from_iterable(collections)))
     return issubclass(kind, _WITHOUT_TEXT) or all(
         _is_surely_writable(value) for value in values if value.__class__ is kind

@@ -9,7 +9,6 @@ from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.renames import Renames, find_renames, under_new_names
 from linkforge_compile.compare.said import key_of_field, said_fields, said_value
 from linkforge_compile.compare.walk import TOLERANCE, How, stated_differences, walk
-from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 
@@ -56,7 +55,7 @@ def _section(robot: Robot, field: str, renames: Renames) -> object:
         nameless = replace(said, robot_name="") if said.robot_name == robot.name else said
         return under_new_names(nameless, renames)
     held = said_value(robot, field)
-    return under_new_names(tuple(held), renames) if isinstance(held, Index) else held
+    return under_new_names(tuple(held), renames) if isinstance(held, tuple) else held
 
 
 def _renamed(section: str, names: Mapping[str, str]) -> Iterator[Difference]:

@@ -16,7 +16,6 @@ from linkforge_compile.compare.words import as_json, plain, shortened, texts_tol
 from linkforge_compile.compare.xml_numbers import number_in, say_the_same
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.link import InertiaTensor, LinkPhysics
@@ -125,7 +124,7 @@ def walk(path: Path, before: object, after: object, how: How) -> Iterator[Differ
             yield from _mappings(path, before, after, how)
         case (str(), _) | (_, str()):
             yield from _leaf(path, before, after, how)
-        case (tuple() | list() | Index(), tuple() | list() | Index()):
+        case (tuple() | list(), tuple() | list()):
             yield from _members(path, before, after, how)
         case _ if type(before) is type(after) and is_part(before):
             yield from _part(path, before, after, how)

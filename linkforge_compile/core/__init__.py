@@ -1,6 +1,7 @@
-"""The IR, standing alone: robots as values that can be built, joined, checked and written, with no YAML in sight.
+"""The model alone: robots as values that can be built, merged, checked and written without YAML.
 
-Names, fields and behaviour are those of `linkforge.core`. Each is imported when it is first asked for.
+Names, fields and behaviour are those of `linkforge.core`. Each name is imported when it is first used, because the
+classes take 0.1 s to define and a robot needs few of them.
 """
 
 from __future__ import annotations
@@ -8,114 +9,89 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core import models
-
 if TYPE_CHECKING:
-    from linkforge_compile.core import builders, constants, exceptions, naming, physics, resolver
-    from linkforge_compile.core.builders import (
-        IComposer,
-        LinkBuilder,
-        RobotBuilder,
-        SemanticBuilder,
-        box,
-        capsule,
-        cylinder,
-        mesh,
-        sphere,
-    )
-    from linkforge_compile.core.constants import DEFAULT_LINK_MASS, EPSILON, GRAVITY_ENABLED, PI
+    from linkforge_compile.core import builders as builders
+    from linkforge_compile.core import constants as constants
+    from linkforge_compile.core import exceptions as exceptions
+    from linkforge_compile.core import models as models
+    from linkforge_compile.core import naming as naming
+    from linkforge_compile.core import physics as physics
+    from linkforge_compile.core import resolver as resolver
+    from linkforge_compile.core.builders import IComposer as IComposer
+    from linkforge_compile.core.builders import LinkBuilder as LinkBuilder
+    from linkforge_compile.core.builders import RobotBuilder as RobotBuilder
+    from linkforge_compile.core.builders import SemanticBuilder as SemanticBuilder
+    from linkforge_compile.core.builders import box as box
+    from linkforge_compile.core.builders import capsule as capsule
+    from linkforge_compile.core.builders import cylinder as cylinder
+    from linkforge_compile.core.builders import mesh as mesh
+    from linkforge_compile.core.builders import sphere as sphere
+    from linkforge_compile.core.constants import DEFAULT_LINK_MASS as DEFAULT_LINK_MASS
+    from linkforge_compile.core.constants import EPSILON as EPSILON
+    from linkforge_compile.core.constants import GRAVITY_ENABLED as GRAVITY_ENABLED
+    from linkforge_compile.core.constants import PI as PI
+    from linkforge_compile.core.exceptions import LinkForgeError as LinkForgeError
+    from linkforge_compile.core.exceptions import RobotGeneratorError as RobotGeneratorError
     from linkforge_compile.core.exceptions import (
-        LinkForgeError,
-        RobotGeneratorError,
-        RobotGeneratorUnsupportedTypeError,
-        RobotMathError,
-        RobotModelError,
-        RobotParserError,
-        RobotParserIOError,
-        RobotParserUnexpectedError,
-        RobotParserXMLRootError,
-        RobotPhysicsError,
-        RobotSecurityError,
-        RobotValidationError,
-        RobotXacroError,
-        RobotXacroExpressionError,
-        RobotXacroRecursionError,
-        ValidationErrorCode,
-        XacroDetectedError,
+        RobotGeneratorUnsupportedTypeError as RobotGeneratorUnsupportedTypeError,
     )
-    from linkforge_compile.core.models import *  # noqa: F403 its __all__ is ours, below
-    from linkforge_compile.core.naming import is_valid_name
-    from linkforge_compile.core.physics import calculate_inertia
-    from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
+    from linkforge_compile.core.exceptions import RobotMathError as RobotMathError
+    from linkforge_compile.core.exceptions import RobotModelError as RobotModelError
+    from linkforge_compile.core.exceptions import RobotParserError as RobotParserError
+    from linkforge_compile.core.exceptions import RobotParserIOError as RobotParserIOError
+    from linkforge_compile.core.exceptions import RobotParserUnexpectedError as RobotParserUnexpectedError
+    from linkforge_compile.core.exceptions import RobotParserXMLRootError as RobotParserXMLRootError
+    from linkforge_compile.core.exceptions import RobotPhysicsError as RobotPhysicsError
+    from linkforge_compile.core.exceptions import RobotSecurityError as RobotSecurityError
+    from linkforge_compile.core.exceptions import RobotValidationError as RobotValidationError
+    from linkforge_compile.core.exceptions import RobotXacroError as RobotXacroError
+    from linkforge_compile.core.exceptions import RobotXacroExpressionError as RobotXacroExpressionError
+    from linkforge_compile.core.exceptions import RobotXacroRecursionError as RobotXacroRecursionError
+    from linkforge_compile.core.exceptions import ValidationErrorCode as ValidationErrorCode
+    from linkforge_compile.core.exceptions import XacroDetectedError as XacroDetectedError
+    from linkforge_compile.core.models import *  # noqa: F403 each is re-exported there
+    from linkforge_compile.core.naming import is_valid_name as is_valid_name
+    from linkforge_compile.core.physics import calculate_inertia as calculate_inertia
+    from linkforge_compile.core.resolver import FileSystemResolver as FileSystemResolver
+    from linkforge_compile.core.resolver import IResourceResolver as IResourceResolver
 
-_SUBMODULES = "builders constants exceptions naming physics resolver"
 _HOMES = {
+    "": "builders constants exceptions models naming physics resolver",
     "builders": "IComposer LinkBuilder RobotBuilder SemanticBuilder box capsule cylinder mesh sphere",
     "constants": "DEFAULT_LINK_MASS EPSILON GRAVITY_ENABLED PI",
     "exceptions": "LinkForgeError RobotGeneratorError RobotGeneratorUnsupportedTypeError RobotMathError "
-    "RobotModelError RobotParserError RobotParserIOError RobotParserUnexpectedError RobotParserXMLRootError "
-    "RobotPhysicsError RobotSecurityError RobotValidationError RobotXacroError RobotXacroExpressionError "
-    "RobotXacroRecursionError ValidationErrorCode XacroDetectedError",
-    "models": " ".join(models.__all__),
+    "RobotModelError RobotParserError RobotParserIOError RobotParserUnexpectedError "
+    "RobotParserXMLRootError RobotPhysicsError RobotSecurityError RobotValidationError RobotXacroError "
+    "RobotXacroExpressionError RobotXacroRecursionError ValidationErrorCode XacroDetectedError",
+    "models.gazebo": "GazeboElement GazeboPlugin",
+    "models.geometry": "Box Capsule Cylinder Geometry GeometryType Mesh Sphere Transform Vector3",
+    "models.graph": "KinematicGraph",
+    "models.interface": "Interface",
+    "models.joint": "Joint JointCalibration JointDynamics JointLimits JointMimic JointSafetyController JointType",
+    "models.link": "Collision InertiaTensor Inertial Link LinkPhysics Visual",
+    "models.material": "Color Material",
+    "models.named_table": "Index",
+    "models.robot": "Robot",
+    "models.ros2_control": "Ros2Control Ros2ControlGpio Ros2ControlJoint Ros2ControlSensor",
+    "models.sensor": "CameraInfo ContactInfo ForceTorqueInfo GPSInfo IMUInfo LidarInfo Sensor SensorNoise SensorType",
+    "models.srdf": "Chain CollisionPair EndEffector GroupState JointProperty LinkSphereApproximation PassiveJoint "
+    "PlanningGroup SemanticRobotDescription SrdfSphere VirtualJoint",
+    "models.transmission": "Transmission TransmissionActuator TransmissionJoint TransmissionType",
     "naming": "is_valid_name",
     "physics": "calculate_inertia",
     "resolver": "FileSystemResolver IResourceResolver",
 }
-_HOME_OF = {name: home for home, names in _HOMES.items() for name in names.split()}
+HOME_OF = {name: home for home, names in _HOMES.items() for name in names.split()}
+"""The submodule that defines each exported name; empty for a submodule itself."""
 
-__all__ = [
-    "DEFAULT_LINK_MASS",
-    "EPSILON",
-    "GRAVITY_ENABLED",
-    "PI",
-    "FileSystemResolver",
-    "IComposer",
-    "IResourceResolver",
-    "LinkBuilder",
-    "LinkForgeError",
-    "RobotBuilder",
-    "RobotGeneratorError",
-    "RobotGeneratorUnsupportedTypeError",
-    "RobotMathError",
-    "RobotModelError",
-    "RobotParserError",
-    "RobotParserIOError",
-    "RobotParserUnexpectedError",
-    "RobotParserXMLRootError",
-    "RobotPhysicsError",
-    "RobotSecurityError",
-    "RobotValidationError",
-    "RobotXacroError",
-    "RobotXacroExpressionError",
-    "RobotXacroRecursionError",
-    "SemanticBuilder",
-    "ValidationErrorCode",
-    "XacroDetectedError",
-    "box",
-    "builders",
-    "calculate_inertia",
-    "capsule",
-    "constants",
-    "cylinder",
-    "exceptions",
-    "is_valid_name",
-    "mesh",
-    "models",
-    "naming",
-    "physics",
-    "resolver",
-    "sphere",
-]
-__all__ += models.__all__
+if not TYPE_CHECKING:
+    __all__ = list(HOME_OF)
 
+    def __getattr__(name: str) -> object:
+        if name not in HOME_OF:
+            raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+        home = HOME_OF[name]
+        return getattr(import_module(f"{__name__}.{home}"), name) if home else import_module(f"{__name__}.{name}")
 
-def __getattr__(name: str) -> object:
-    if name in _HOME_OF:
-        return getattr(import_module(f"{__name__}.{_HOME_OF[name]}"), name)
-    if name in _SUBMODULES.split():
-        return import_module(f"{__name__}.{name}")
-    raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+    def __dir__() -> list[str]:
+        return sorted(__all__)

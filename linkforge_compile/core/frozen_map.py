@@ -1,4 +1,4 @@
-"""A mapping that nobody changes, so that the frozen parts which hold one hash and pickle."""
+"""A mapping that cannot be changed, so that the frozen parts which hold one can be hashed and pickled."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class FrozenMap(dict[K, V]):
 
 
 def frozen(value: object) -> object:
-    """Return a value that nobody changes: FrozenMaps for mappings and tuples for lists, all the way down."""
+    """Return a value that cannot be changed: FrozenMaps for mappings and tuples for lists, all the way down."""
     if isinstance(value, Mapping):
         return FrozenMap({name: frozen(item) for name, item in value.items()})
     return tuple(map(frozen, value)) if isinstance(value, list | tuple) else value

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, ClassVar, Final, Self
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from operator import is_
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Self
 
 from linkforge_compile.core.fields import check_numbers
 from linkforge_compile.core.frozen_map import FrozenMap, frozen
-from linkforge_compile.core.prefixing import prefixed_copy
 from linkforge_compile.source import Sourced
 
 
@@ -31,22 +31,37 @@ class Part(Sourced):
     def __deepcopy__(self, memo: object) -> Self:
         return self
 
+    if TYPE_CHECKING:
+        # dataclass makes both. Without `__eq__`, mypy reports `name in robot.joints` as a comparison that is never
+        # true, because the items of a NamedTable are parts, and not names.
+        def __eq__(self, other: object) -> bool: ...
+        def __hash__(self) -> int: ...
+
     def with_prefix(self, prefix: str) -> Self:
-        """Return the part with the prefix before all its names; a name that is empty or None stays so.
+        """Return the part with the prefix before its names; itself where it has none. An empty name stays so.
 
         Raises:
             RobotModelError: What the constructor raises, where the prefix makes a name that it refuses.
 
         """
-        if not self.PREFIXED or not prefix:
+        values: dict[str, Any] = {name: getattr(self, name) for name in self.PREFIXED}  # Any: names, parts, or mappings
+        changed = {name: _put_prefix(value, prefix) for name, value in values.items() if value and prefix}
+        if all(value is values[name] for name, value in changed.items()):
             return self
-        return prefixed_copy(self, prefix)
+        return replace(self, **changed)
 
-    if TYPE_CHECKING:
-        # Every part gets one from dataclass. Seen here, it lets `name in robot.joints` pass for what it is: an Index
-        # holds names as well as parts, which mypy would otherwise call a comparison that is never true.
-        def __eq__(self, other: object) -> bool: ...
-        def __hash__(self) -> int: ...
+
+def _put_prefix(value: Any, prefix: str) -> Any:
+    """Return a name, parts, or a mapping by names under a prefix; the value itself where nothing changes."""
+    if isinstance(value, str):
+        return prefix + value if value else value
+    if isinstance(value, Mapping):
+        return FrozenMap({prefix + name: each for name, each in value.items()})
+    if isinstance(value, Iterable):
+        values = tuple(value)
+        copies = tuple(_put_prefix(each, prefix) for each in values)
+        return value if all(map(is_, copies, values)) else copies
+    return value.with_prefix(prefix)
 
 
 _NOTHING: Final = ()

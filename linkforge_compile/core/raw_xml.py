@@ -8,8 +8,8 @@ from linkforge_compile.source import SourceRef
 class RawXml(str):
     """A text of `extra_elements`, or the name of an attribute; `source` says where it was written, None if nowhere.
 
-    It is that text to whoever compares, hashes or prints it. Where robots are joined, what several files say raw stands
-    in one list, so that its owner cannot say where each was written. The `source` of a name is the map that it is in.
+    It compares, hashes and prints as that text. When robots are merged, the raw XML of several files is in one list, so
+    that the owner of the list cannot say where each was written. The `source` of a name is the map that it is in.
     """
 
     __slots__ = ("source",)

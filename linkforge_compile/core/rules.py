@@ -1,4 +1,4 @@
-"""What constructors refuse, said once: empty names, names with odd characters, numbers that are none."""
+"""Checks for constructors: empty names, names with invalid characters, numbers that are not finite."""
 
 from __future__ import annotations
 

@@ -187,9 +187,7 @@ class Joining:
             tell_duplicate(self._sink, "joint", joint.name, joint.source, self._parts["joint", joint.name])
             return False
         self._parts["joint", joint.name] = joint.source
-        self._robot.joints = self._robot.joints.extended((joint,))
-        if hanging.gazebo:
-            self._robot.gazebo_elements = self._robot.gazebo_elements.extended(hanging.gazebo)
+        self._robot.add_parts(joints=[joint], gazebo_elements=hanging.gazebo)
         return True
 
     def _leave_out(self, component: Robot, prefix: str, gaps: Gaps) -> bool:
@@ -231,7 +229,7 @@ def _semantic_parts(semantic: SemanticRobotDescription) -> Iterator[tuple[PartKe
 def _root_of(robot: Robot) -> str | None:
     """Return the root link of a robot that is one tree, None where it is none."""
     try:
-        root = tree_root(robot.links.listed(), robot.joints.listed())
+        root = tree_root(robot.links, robot.joints)
     except RobotModelError:
         return None
     return root if len(robot.joints) == len(robot.links) - 1 else None

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import TypeAlias
 
-from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.named_table import NamedTable
 from linkforge_compile.core.models.srdf import (
     Chain,
     CollisionPair,
@@ -29,7 +29,7 @@ from linkforge_compile.writers.joint import position_dimension
 from linkforge_compile.writers.pen import Pen
 
 
-def written_semantic(pen: Pen, semantic: SemanticRobotDescription, joints: Index[Joint]) -> YamlMap | None:
+def written_semantic(pen: Pen, semantic: SemanticRobotDescription, joints: NamedTable[Joint]) -> YamlMap | None:
     """Return the semantic part of a robot with these joints, None where it says nothing.
 
     States of one group stand together, as pairs do of one first link and properties of one joint: where others
@@ -92,7 +92,7 @@ _States: TypeAlias = Mapping[tuple[str, str], GroupState]
 """The states of a robot, by group and name."""
 
 
-def _state(pen: Pen, state: GroupState, joints: Index[Joint], states: _States) -> YamlMap:
+def _state(pen: Pen, state: GroupState, joints: NamedTable[Joint], states: _States) -> YamlMap:
     """Return the positions by joint: a number, or a list of them for several degrees of freedom."""
     positions = {}
     written = dict(_written_positions(state, states))

@@ -15,7 +15,6 @@ from linkforge_compile.compare.walk import How, walk
 from linkforge_compile.core import Robot
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import Sphere, Vector3
-from linkforge_compile.core.models.index import Index
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.material import Color, Material
@@ -65,7 +64,7 @@ def other_values(value: object) -> Iterator[object]:
             yield {**value, "other": "1"}
             yield from ({other: value[other] for other in value if other != key} for key in value)
             yield from ({**value, key: new} for key in value for new in (*other_values(value[key]), (0.7,)))
-        case tuple() | Index():
+        case tuple():
             for place, item in enumerate(value):
                 yield (*value[:place], *value[place + 1 :])
                 news = islice((new for _, new in changed_parts(item)), 2) if is_dataclass(item) else other_values(item)

@@ -311,10 +311,3 @@ def test_every_promised_name_can_be_imported_and_is_listed():
     assert set(core.__all__) <= set(dir(core))
     with pytest.raises(AttributeError, match="no attribute 'Roboter'"):
         _ = core.Roboter
-
-
-def test_each_name_is_listed_in_the_module_where_it_is_said_to_live():
-    for package in (core, models):
-        assert set(package.__all__) == {*package._HOME_OF, *getattr(package, "_SUBMODULES", "").split()} | (
-            {"models"} if package is core else set()
-        )

@@ -1,20 +1,27 @@
-"""An index is a tuple to whoever compares or adds it, and answers to names."""
+"""The collections of a robot are tuples that answer to names as well."""
 
 import copy
 import pickle
-from operator import attrgetter
 
 import pytest
 
-from linkforge_compile.core import Index, Joint, Link, Robot, RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.models.index import Filing, Repeats
+from linkforge_compile.core import (
+    IMUInfo,
+    Index,
+    Joint,
+    Link,
+    Robot,
+    RobotValidationError,
+    Sensor,
+    SensorType,
+    ValidationErrorCode,
+)
 
 A, B, C = Link("a"), Link("b"), Link("c")
-PARENT = attrgetter("parent")
 
 
 def linked(*links: Link) -> Index[Link]:
-    return Index(links, Filing("link"))
+    return Robot("r", links=links).links
 
 
 def test_it_compares_and_adds_as_a_tuple():
@@ -26,7 +33,8 @@ def test_it_compares_and_adds_as_a_tuple():
     assert index + single == (A, B, C)
     assert single + index == (C, A, B)
     assert repr(index) == repr(pair)
-    assert hash(Index((1, 2))) == hash((1, 2))
+    joints = (Joint("j", "fixed", "a", "b"),)
+    assert hash(Robot("r", joints=joints).joints) == hash(joints)
 
 
 def test_it_gives_items_by_position_slice_and_name():
@@ -56,66 +64,72 @@ def test_it_matches_as_a_sequence():
             assert (first, rest) == (A, [B])
 
 
-def test_a_longer_one_leaves_the_shorter_as_it_was():
-    short = linked(A)
-    long = short.extended((B,))
-    assert (short, long) == ((A,), (A, B))
+def test_what_was_read_stays_as_it_was_when_parts_are_added():
+    robot = Robot("r", links=[A])
+    short = robot.links
+    robot.add_link(B)
+    assert (short, robot.links) == ((A,), (A, B))
     assert short.get("b") is None
     assert "b" not in short
+    robot.add_link(Link("a", extra_attributes={"x": "1"}), overwrite=True)
+    assert short["a"] is A
 
 
-def test_two_that_grow_from_one_do_not_meet():
-    root = linked(A)
-    left, right = root.extended((B,)), root.extended((C,))
-    assert (left, right) == ((A, B), (A, C))
-    assert left.get("c") is None
-    assert right.get("b") is None
-
-
-def test_a_repeated_name_is_refused_also_among_what_is_added():
-    with pytest.raises(RobotValidationError, match="Duplicate link name: 'b'") as refused:
-        linked(A).extended((B, Link("b")))
-    assert (refused.value.code, refused.value.value) == (ValidationErrorCode.DUPLICATE_NAME, "b")
+def test_links_can_be_added_while_the_links_are_walked():
+    robot = Robot("r", links=[A, B])
+    for link in robot.links:
+        robot.add_link(Link(f"{link.name}_copy"))
+    assert robot.links.names == ("a", "b", "a_copy", "b_copy")
 
 
 def test_what_was_refused_can_be_added_without_its_repetition():
-    index = linked(A)
-    with pytest.raises(RobotValidationError):
-        index.extended((B, A))
-    assert index.extended((B,)) == (A, B)
+    robot = Robot("r", links=[A])
+    with pytest.raises(RobotValidationError, match="Duplicate link name: 'b'") as refused:
+        robot.add_parts(joints=[Joint("j", "fixed", "a", "b")], links=[B, Link("b")])
+    assert (refused.value.code, refused.value.value) == (ValidationErrorCode.DUPLICATE_NAME, "b")
+    assert (robot.links, robot.joints) == ((A,), ())
+    robot.add_parts(links=[B])
+    assert robot.links == (A, B)
 
 
 def test_where_names_repeat_the_first_one_answers():
-    index = Index(("left", "link"), Filing("word", key=lambda word: word[0], repeats=Repeats.KEPT))
-    assert index.get("l") == "left"
-    assert index.extended(("last",)).get("l") == "left"
-
-
-def test_it_finds_items_by_any_key_in_their_order():
-    joints = [Joint(name, "fixed", parent, name) for name, parent in (("x", "a"), ("y", "b"), ("z", "a"))]
-    index = Index(joints, Filing("joint"))
-    assert [joint.name for joint in index.where(PARENT, "a")] == ["x", "z"]
-    longer = index.extended((Joint("w", "fixed", "a", "w"),))
-    assert [joint.name for joint in longer.where(PARENT, "a")] == ["x", "z", "w"]
-    assert [joint.name for joint in index.where(PARENT, "a")] == ["x", "z"]
-    assert list(index.where(PARENT, "nobody")) == []
+    first, second = (Sensor("s", SensorType.IMU, link, imu_info=IMUInfo()) for link in "ab")
+    robot = Robot("r", sensors=[first, second])
+    assert robot.sensors.get("s") is robot.sensor("s") is first
 
 
 def test_a_link_that_is_renamed_in_place_is_found_by_its_new_name_alone():
     link = Link("old")
-    index = linked(A, link)
+    robot = Robot("r", links=[A, link])
+    index = robot.links
     assert index.get("old") is link
     link.name = "new"
-    assert index.get("new") is link
-    assert index.get("old") is None
+    for finder in (index.get, robot.links.get, robot.get_link):
+        assert finder("new") is link
+        assert finder("old") is None
+    robot.add_link(Link("old"))
+    with pytest.raises(RobotValidationError, match="Duplicate"):
+        robot.add_link(Link("new"))
 
 
 def test_copies_and_pickles_are_equal_and_answer():
-    index = linked(A, B).extended((C,))
+    robot = Robot("r", links=[A, B])
+    index = robot.links
+    robot.add_link(C)
     for other in (copy.copy(index), copy.deepcopy(index), pickle.loads(pickle.dumps(index))):
         assert other == index
-        assert other.get("c") == C
+        assert other.get("b") == B
+        assert other.get("c") is None
     assert copy.deepcopy(index)[0] is not A
+
+
+def test_a_copy_of_a_robot_has_lists_of_its_own():
+    robot = Robot("r", links=[A, B]).disable_collisions("a", "b")
+    other = copy.copy(robot)
+    other.add_link(C)
+    other.disable_collisions("a", "c")
+    assert (len(robot.links), len(robot.semantic.disabled_collisions)) == (2, 1)
+    assert (len(other.links), len(other.semantic.disabled_collisions)) == (3, 2)
 
 
 def test_assigning_a_collection_rebuilds_its_index():

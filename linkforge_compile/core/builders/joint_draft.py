@@ -1,11 +1,11 @@
-"""The joint by which a link under construction hangs on its parent."""
+"""The joint between a link under construction and its parent."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
-from linkforge_compile.core.builders.draft import LinkDraft
+from linkforge_compile.core.builders.link_draft import LinkDraft
 from linkforge_compile.core.builders.shapes import Triple, pose, unit_axis
 from linkforge_compile.core.constants import (
     DEFAULT_JOINT_DAMPING,
@@ -25,18 +25,18 @@ from linkforge_compile.core.models.joint import (
     JointSafetyController,
     JointType,
 )
+from linkforge_compile.core.models.named_table import NamedTable
 from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlJoint
 from linkforge_compile.core.models.transmission import Transmission
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.builders.composer import IComposer
 
 
 class JointDraft(LinkDraft):
     """The calls that describe the joint; without a parent there is none, and they have no effect."""
 
-    def __init__(self, builder: IComposer, name: str, parent: str | None = None, joint_name: str | None = None) -> None:
-        super().__init__(builder, name, parent, joint_name)
+    def __init__(self, name: str, parent: str | None, joint_name: str | None) -> None:
+        super().__init__(name)
+        self._parent = parent
+        self._joint_name = joint_name
         self._joint_type = JointType.FIXED
         self._joint_origin = IDENTITY
         self._joint_parts: dict[str, Any] = {}  # fields of Joint, none of which LinkForge gives to a fixed one
@@ -52,7 +52,7 @@ class JointDraft(LinkDraft):
 
     def fixed(self, name: str | None = None, xyz: Triple | None = None, rpy: Triple | None = None) -> Self:
         """Fix the link to its parent; here and below, None keeps the name and the pose as they are."""
-        return self._hang(JointType.FIXED, name, xyz, rpy)
+        return self._set_joint(JointType.FIXED, name, xyz, rpy)
 
     def revolute(  # noqa: PLR0917 the contract's signature
         self,
@@ -66,7 +66,7 @@ class JointDraft(LinkDraft):
     ) -> Self:
         """Let the link turn about an axis of any length within (lower, upper) [rad], [N·m], [rad/s]."""
         bounds = JointLimits(lower=limits[0], upper=limits[1], effort=effort, velocity=velocity)
-        return self._hang(JointType.REVOLUTE, name, xyz, rpy, axis=unit_axis(axis), limits=bounds)
+        return self._set_joint(JointType.REVOLUTE, name, xyz, rpy, axis=unit_axis(axis), limits=bounds)
 
     def continuous(  # noqa: PLR0917 the contract's signature
         self,
@@ -77,14 +77,14 @@ class JointDraft(LinkDraft):
         effort: float | None = DEFAULT_JOINT_EFFORT,
         velocity: float | None = DEFAULT_JOINT_VELOCITY,
     ) -> Self:
-        """Let the link turn about an axis without end, [N·m], [rad/s]; its limits say 0 to 0, which nobody reads.
+        """Let the link turn about an axis without end, [N·m], [rad/s]; its limits are 0 to 0, which no reader uses.
 
         One of effort and velocity that is None counts as 0; without both the joint has no limits.
         """
         bounds = None
         if effort is not None or velocity is not None:
             bounds = JointLimits(lower=0.0, upper=0.0, effort=effort or 0.0, velocity=velocity or 0.0)
-        return self._hang(JointType.CONTINUOUS, name, xyz, rpy, axis=unit_axis(axis), limits=bounds)
+        return self._set_joint(JointType.CONTINUOUS, name, xyz, rpy, axis=unit_axis(axis), limits=bounds)
 
     def prismatic(  # noqa: PLR0917 the contract's signature
         self,
@@ -98,25 +98,25 @@ class JointDraft(LinkDraft):
     ) -> Self:
         """Let the link slide along an axis of any length within (lower, upper) [m], [N], [m/s]."""
         bounds = JointLimits(lower=limits[0], upper=limits[1], effort=effort, velocity=velocity)
-        return self._hang(JointType.PRISMATIC, name, xyz, rpy, axis=unit_axis(axis), limits=bounds)
+        return self._set_joint(JointType.PRISMATIC, name, xyz, rpy, axis=unit_axis(axis), limits=bounds)
 
     def floating(self, name: str | None = None, xyz: Triple | None = None, rpy: Triple | None = None) -> Self:
         """Let the link move freely."""
-        return self._hang(JointType.FLOATING, name, xyz, rpy)
+        return self._set_joint(JointType.FLOATING, name, xyz, rpy)
 
     def planar(
         self, axis: Triple, name: str | None = None, xyz: Triple | None = None, rpy: Triple | None = None
     ) -> Self:
         """Let the link move in the plane whose normal is the axis."""
-        return self._hang(JointType.PLANAR, name, xyz, rpy, axis=unit_axis(axis))
+        return self._set_joint(JointType.PLANAR, name, xyz, rpy, axis=unit_axis(axis))
 
     def dynamics(self, damping: float = DEFAULT_JOINT_DAMPING, friction: float = DEFAULT_JOINT_FRICTION) -> Self:
         """Let the joint resist: [N·m·s/rad] and [N·m], or [N·s/m] and [N]."""
-        return self._keep(dynamics=JointDynamics(damping, friction))
+        return self._set_parts(dynamics=JointDynamics(damping, friction))
 
     def mimic(self, joint: str, multiplier: float = 1.0, offset: float = 0.0) -> Self:
         """Let the joint follow another: multiplier times its position plus offset [rad] or [m]."""
-        return self._keep(mimic=JointMimic(joint, multiplier, offset))
+        return self._set_parts(mimic=JointMimic(joint, multiplier, offset))
 
     def safety(
         self,
@@ -126,11 +126,11 @@ class JointDraft(LinkDraft):
         k_velocity: float = 0.0,
     ) -> Self:
         """Give the joint a safety controller; see JointSafetyController."""
-        return self._keep(safety_controller=JointSafetyController(soft_lower, soft_upper, k_position, k_velocity))
+        return self._set_parts(safety_controller=JointSafetyController(soft_lower, soft_upper, k_position, k_velocity))
 
     def calibration(self, rising: float | None = None, falling: float | None = None) -> Self:
-        """Say where the joint's reference switch changes [rad] or [m]."""
-        return self._keep(calibration=JointCalibration(rising, falling))
+        """Give the positions at which the joint's reference switch changes [rad] or [m]."""
+        return self._set_parts(calibration=JointCalibration(rising, falling))
 
     def transmission(
         self,
@@ -166,7 +166,7 @@ class JointDraft(LinkDraft):
         self._control_system = system_name
         return self
 
-    def _hang(
+    def _set_joint(
         self, joint_type: JointType, name: str | None, xyz: Triple | None, rpy: Triple | None, **parts: object
     ) -> Self:
         self._check_not_committed()
@@ -177,12 +177,12 @@ class JointDraft(LinkDraft):
             self._joint_origin = pose(xyz, rpy)
         return self
 
-    def _keep(self, **parts: object) -> Self:
+    def _set_parts(self, **parts: object) -> Self:
         self._check_not_committed()
         self._joint_parts.update(parts)
         return self
 
-    def _made_joint(self) -> Joint | None:
+    def _make_joint(self) -> Joint | None:
         if not self._parent:
             return None
         return Joint(
@@ -194,23 +194,21 @@ class JointDraft(LinkDraft):
             **({} if self._joint_type is JointType.FIXED else self._joint_parts),
         )
 
-    def _made_transmission(self, joint: Joint) -> Transmission | None:
+    def _make_transmission(self, joint: Joint) -> Transmission | None:
         if self._transmission is None:
             return None
         name = self._transmission["name"] or f"trans_{joint.name}"
         return Transmission.create_simple(**{**self._transmission, "name": name, "joint_name": joint.name})
 
-    def _made_control(self, joint: Joint) -> Ros2Control | None:
-        """Return the system that is to move the joint, with the joint in it.
+    def _make_control(self, joint: Joint, systems: NamedTable[Ros2Control]) -> Ros2Control | None:
+        """Return the ros2_control system that is to move the joint, with the joint in it.
 
         Raises:
-            RobotValidationError: VALUE_EMPTY where the robot has no system, GENERIC_FAILURE where it lacks the one
-                that is named.
+            RobotValidationError: VALUE_EMPTY if there are no systems, GENERIC_FAILURE if the named one is missing.
 
         """
         if self._control is None:
             return None
-        systems = self._builder.robot.ros2_controls
         if not systems:
             raise RobotValidationError(
                 ValidationErrorCode.VALUE_EMPTY,

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
 from linkforge_compile.core.builders.joint_draft import JointDraft
-from linkforge_compile.core.builders.sensor_draft import SensorDraft
 from linkforge_compile.core.builders.shapes import Triple, pose
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.gazebo import GazeboElement
@@ -17,15 +16,45 @@ from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.physics import calculate_inertia, inertial_of_shapes
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.builders.composer import IComposer
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.core.solid import Solid
 
 _PHYSICS = frozenset(field.name for field in fields(LinkPhysics))
 
 
-class LinkBuilder(JointDraft, SensorDraft):
-    """A link under construction, got from `RobotBuilder.link` or `child`; every call returns it for the next one.
+@runtime_checkable
+class IComposer(Protocol):
+    """A builder that holds a robot under construction and the links that are not finished yet."""
+
+    robot: Robot
+
+    def link(self, name: str, parent: str | None = None, joint_name: str | None = None) -> LinkBuilder:
+        """Begin a link."""
+        ...
+
+    def material(self, name: str, color: tuple[float, float, float, float] | None = None) -> IComposer:
+        """Define a material that links may name."""
+        ...
+
+    def build(self, validate: bool = True) -> Robot:
+        """Finish all links and return the robot."""
+        ...
+
+    def register_link_builder(self, builder: LinkBuilder) -> None:
+        """Remember a link that is to be finished before the robot is."""
+        ...
+
+    def push_parent(self, name: str) -> None:
+        """Make a link the parent of links that name none."""
+        ...
+
+    def pop_parent(self, name: str | None = None) -> None:
+        """Take that link off again; None for the one that was made parent last."""
+        ...
+
+
+class LinkBuilder(JointDraft):
+    """A link under construction, made by `RobotBuilder.link` or `child`; every call returns it for the next one.
 
     It joins the robot when it is committed: by `commit`, `root`, `child` or `build`, by the robot's own `build`, or
     at the end of a `with` block, inside of which it is the parent of the links that name none. A call after that
@@ -33,7 +62,8 @@ class LinkBuilder(JointDraft, SensorDraft):
     """
 
     def __init__(self, builder: IComposer, name: str, parent: str | None = None, joint_name: str | None = None) -> None:
-        super().__init__(builder, name, parent, joint_name)
+        super().__init__(name, parent, joint_name)
+        self._builder = builder
         self._mass: float | None = None
         self._inertia: InertiaTensor | None = None
         self._inertial_origin: Transform | None = None
@@ -45,7 +75,7 @@ class LinkBuilder(JointDraft, SensorDraft):
         builder.register_link_builder(self)
 
     def __enter__(self) -> Self:
-        # The links inside hang on this one, so the robot must know its name by then.
+        # The links inside are children of this one: the robot must have a link of its name by then.
         self._builder.robot.add_link(Link(self._link_name))
         self._in_context = True
         self._builder.push_parent(self._link_name)
@@ -127,8 +157,8 @@ class LinkBuilder(JointDraft, SensorDraft):
     ) -> Self:
         """Give the mass [kg], and its centre [m] with the axes of the tensor [rad] in the link frame.
 
-        Where nobody gives an inertia, it is computed from the collisions, or the visuals if there are none; where
-        nobody gives a centre, it is theirs. Without shapes it is the stability floor. A mesh is read for it when the
+        An inertia that is not given is computed from the collisions, or the visuals if there are none; a centre that is
+        not given is theirs. Without shapes the inertia is the stability floor. A mesh is read for it when the
         link joins the robot, which refuses one that is no watertight file that the robot's resolver finds.
         """
         self._check_not_committed()
@@ -194,21 +224,23 @@ class LinkBuilder(JointDraft, SensorDraft):
             return
         robot = self._builder.robot
         link = Link(self._link_name, self._inertial(), self._physics, self._visuals, self._collisions)
-        joint = self._made_joint()
-        transmission = self._made_transmission(joint) if joint else None
-        control = self._made_control(joint) if joint else None
-        with robot.unchanged_on_error():
-            robot.add_link(link, overwrite=self._in_context)
-            for sensor in self._sensors:
-                robot.add_sensor(sensor)
-            if self._gazebo:
-                robot.add_gazebo_element(GazeboElement(reference=self._link_name, **self._gazebo))
-            if joint:
-                robot.add_joint(joint)
-            if transmission:
-                robot.add_transmission(transmission)
-            if control:
-                robot.update_ros2_control(control)
+        joint = self._make_joint()
+        transmission = self._make_transmission(joint) if joint else None
+        control = self._make_control(joint, robot.ros2_controls) if joint else None
+        gazebo = [GazeboElement(reference=self._link_name, **self._gazebo)] if self._gazebo else []
+        if joint:
+            robot.require_parent(joint)
+        robot.add_parts(
+            links=[] if self._in_context else [link],
+            sensors=self._sensors,
+            gazebo_elements=gazebo,
+            joints=[joint] if joint else [],
+            transmissions=[transmission] if transmission else [],
+        )
+        if self._in_context:
+            robot.add_link(link, overwrite=True)
+        if control:
+            robot.update_ros2_control(control)
         self._committed = True
 
     def _inertial(self) -> Inertial | None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from copy import deepcopy
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from linkforge_compile.core.builders.link_builder import LinkBuilder
+from linkforge_compile.core.builders.link_builder import IComposer, LinkBuilder
 from linkforge_compile.core.builders.semantic_builder import SemanticBuilder
 from linkforge_compile.core.builders.shapes import Triple, pose, unit_axis
 from linkforge_compile.core.constants import CONTROL_TYPE_SYSTEM, SRDF_REASON_ADJACENT
@@ -14,9 +14,6 @@ from linkforge_compile.core.models.joint import JointLimits, JointType
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Ros2Control
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.builders.composer import IComposer
 
 
 class RobotBuilder:
@@ -45,7 +42,10 @@ class RobotBuilder:
             del self._parents[len(self._parents) - 1 - self._parents[::-1].index(name)]
 
     def link(self, name: str, parent: str | None = None, joint_name: str | None = None) -> LinkBuilder:
-        """Begin a link; None hangs it on the link whose `with` block this is, if any, by `PARENT_to_NAME`."""
+        """Begin a link; `joint_name` is `PARENT_to_NAME` if it is None.
+
+        Without a parent, inside the `with` block of another link, it is a child of that one.
+        """
         if parent is None and self._parents:
             parent = self._parents[-1]
         return LinkBuilder(self, name, parent=parent, joint_name=joint_name)
@@ -105,7 +105,7 @@ class RobotBuilder:
 
     @property
     def semantic(self) -> SemanticBuilder:
-        """What planning is told about the robot: `builder.semantic.group("arm", links=["upper", "lower"])`."""
+        """The builder of the SRDF part: `builder.semantic.group("arm", links=["upper", "lower"])`."""
         return SemanticBuilder(self)
 
     def clone(self) -> RobotBuilder:
@@ -141,5 +141,5 @@ class RobotBuilder:
         return self.build(validate).export_urdf(validate=validate, pretty_print=pretty_print)
 
     def export_srdf(self, validate: bool = True, pretty_print: bool = True) -> str:
-        """Finish all links and return what planning is told as SRDF; `validate` as for `build`."""
+        """Finish all links and return the semantic part as SRDF; `validate` as for `build`."""
         return self.build(validate).export_srdf(validate=validate, pretty_print=pretty_print)

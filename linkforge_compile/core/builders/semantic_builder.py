@@ -1,11 +1,11 @@
-"""Telling planning about a robot under construction, call by call."""
+"""Building the SRDF part of a robot call by call."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.constants import SRDF_REASON_ADJACENT, SRDF_VJOIN_FIXED
-from linkforge_compile.core.models.semantic_parts import planning_group
+from linkforge_compile.core.models.planning import chain_between
 from linkforge_compile.core.models.srdf import (
     Chain,
     CollisionPair,
@@ -14,19 +14,20 @@ from linkforge_compile.core.models.srdf import (
     JointProperty,
     LinkSphereApproximation,
     PassiveJoint,
+    PlanningGroup,
     SemanticRobotDescription,
     SrdfSphere,
     VirtualJoint,
 )
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.builders.composer import IComposer
+    from linkforge_compile.core.builders.link_builder import IComposer
 
 
 class SemanticBuilder:
-    """What planning is told; links and joints may be named before they are finished, so nobody looks for them.
+    """The SRDF part of a robot under construction; links and joints that it names may be added later.
 
-    Saying anything twice raises DUPLICATE_NAME, except collision pairs and links without default collisions.
+    A second entry of one name raises DUPLICATE_NAME, except collision pairs and links without default collisions.
     """
 
     def __init__(self, builder: IComposer) -> None:
@@ -47,15 +48,8 @@ class SemanticBuilder:
         tip_link: str | None = None,
     ) -> SemanticBuilder:
         """Define a planning group; `base_link` and `tip_link`, always both, make one chain more."""
-        group = planning_group(
-            name=name,
-            links=links,
-            joints=joints,
-            chains=chains,
-            subgroups=subgroups,
-            base_link=base_link,
-            tip_link=tip_link,
-        )
+        all_chains = (*(chains or ()), *chain_between(name, base_link, tip_link))
+        group = PlanningGroup(name, links or (), joints or (), all_chains, subgroups or ())
         return self._say(SemanticRobotDescription(groups=(group,)))
 
     def group_state(self, name: str, group: str, values: dict[str, float | tuple[float, ...]]) -> SemanticBuilder:
@@ -73,7 +67,7 @@ class SemanticBuilder:
     def virtual_joint(
         self, name: str, child_link: str, parent_frame: str = "world", joint_type: str = SRDF_VJOIN_FIXED
     ) -> SemanticBuilder:
-        """Say how the robot's root link stands in a frame outside of it."""
+        """Connect the robot's root link to a frame outside of the robot."""
         joint = VirtualJoint(name, joint_type, parent_frame, child_link)
         return self._say(SemanticRobotDescription(virtual_joints=(joint,)))
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.frozen_map import FreePart, FrozenMap
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.prefixing import prefixed_copy
 from linkforge_compile.core.rules import require_finite, require_not_blank
 
 
@@ -39,7 +38,7 @@ class GazeboPlugin(Element):
         Gazebo Classic's plugins are named by their user; Gazebo Sim loads the class that the name says, such as
         `gz::sim::systems::Imu`, and there is none with a prefix.
         """
-        return self if "::" in self.name else prefixed_copy(self, prefix) if prefix else self
+        return self if "::" in self.name else Element.with_prefix(self, prefix)
 
     def __post_init__(self) -> None:
         freeze(self, mappings=("parameters",))
@@ -128,3 +127,20 @@ def _says_yes(tag: FreePart) -> bool:
     if isinstance(tag, Mapping):
         tag = tag.get("_value", tag.get("_text", ""))
     return isinstance(tag, str) and tag.strip().lower() in ("true", "yes", "1")
+
+
+def content_key(element: GazeboElement) -> tuple[str, str]:
+    """Return what sorts Gazebo elements by reference, then by content: several may be about one part."""
+    content: dict[str, object] = {
+        **{name: getattr(element, name) for name in element.__match_args__ if name not in {"reference", "plugins"}},
+        "plugins": [(plugin.name, plugin.filename, _sorted(plugin.parameters)) for plugin in element.plugins],
+        "extras": (element.extra_attributes, element.extra_elements, element.extra_inside),
+    }
+    return element.reference or "", repr(_sorted(content))
+
+
+def _sorted(value: object) -> object:
+    """Return a value with the items of every mapping in it sorted: their order does not matter for equality."""
+    if isinstance(value, Mapping):
+        return sorted((name, _sorted(item)) for name, item in value.items())
+    return [_sorted(item) for item in value] if isinstance(value, tuple | list) else value

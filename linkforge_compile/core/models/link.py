@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from linkforge_compile.core.constants import (
     DEFAULT_CONTACT_KD,
@@ -20,11 +20,9 @@ from linkforge_compile.core.constants import (
 from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.fields import Flag, Number, check_numbers
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
-from linkforge_compile.core.models.index import Renamable
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.naming import prefixed
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
-from linkforge_compile.core.prefixing import prefixed_copies
 from linkforge_compile.core.rules import require_name, require_valid_characters
 from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
 from linkforge_compile.source import SourceRef
@@ -160,8 +158,8 @@ class Collision(Element):
     name: str | None = None
 
 
-@dataclass(slots=True)
-class Link(Renamable):
+@dataclass(slots=True, weakref_slot=True)
+class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
     """A rigid body, or a frame if `inertial` is None and it has no shapes: `<link name>`. It may be changed in place.
 
     `source` says where it was written, None if nowhere; it is not compared. `extra_attributes` and
@@ -176,6 +174,8 @@ class Link(Renamable):
     """
 
     PREFIXED: ClassVar[tuple[str, ...]] = ("name", "visuals", "collisions")
+    renamings: ClassVar[int] = 0
+    """How often any link was renamed in place: when it changes, look-up by name starts anew."""
 
     name: str
     inertial: Inertial | None = None
@@ -195,6 +195,11 @@ class Link(Renamable):
         self.shape_order = _kinds(self.shape_order)
         self.extra_attributes = attribute_pairs(self.extra_attributes)
         self.extra_elements = tuple(self.extra_elements)
+
+    def __setattr__(self, field: str, value: object) -> None:
+        if field == "name" and hasattr(self, "name"):
+            Link.renamings += 1
+        object.__setattr__(self, field, value)
 
     def add_visual(self, visual: Visual) -> None:
         """Put a visual behind those that are there."""
@@ -242,9 +247,13 @@ class Link(Renamable):
         require_valid_characters(name, "link name", "LinkName")
         link = copy(self)
         object.__setattr__(link, "name", name)  # no index holds the copy yet, so that none has to look again
-        link.visuals = tuple(prefixed_copies(self.visuals, prefix))
-        link.collisions = tuple(prefixed_copies(self.collisions, prefix))
+        link.visuals = tuple(visual.with_prefix(prefix) for visual in self.visuals)
+        link.collisions = tuple(collision.with_prefix(prefix) for collision in self.collisions)
         return link
+
+    if TYPE_CHECKING:
+
+        def __eq__(self, other: object) -> bool: ...  # for the same reason as that of Part
 
     def __getstate__(self) -> object:
         return object.__getstate__(self)  # without it, the oldest protocols of pickle refuse what has slots

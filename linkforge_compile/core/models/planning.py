@@ -95,6 +95,26 @@ class PlanningGroup(Element):
             )
 
 
+def chain_between(group: str, base_link: str | None, tip_link: str | None) -> tuple[Chain, ...]:
+    """Return the one chain between two links, none for two None.
+
+    Raises:
+        RobotValidationError: INVALID_VALUE for one link without the other.
+
+    """
+    if base_link and tip_link:
+        return (Chain(base_link, tip_link),)
+    if base_link or tip_link:
+        raise RobotValidationError(
+            ValidationErrorCode.INVALID_VALUE,
+            f"base_link and tip_link of group '{group}' must be given together",
+            target="PlanningGroup",
+            value=base_link or tip_link,
+            field=("chain",),
+        )
+    return ()
+
+
 @dataclass(frozen=True, slots=True)
 class GroupState(Element):
     """A named pose of a group: `<group_state name group>`.

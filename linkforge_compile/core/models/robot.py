@@ -1,124 +1,201 @@
-"""Robots: putting one together from parts and from other robots, copying it, and writing it out."""
+"""Robots: adding parts, joining two robots, copying one, and writing it out."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Final
+from collections.abc import Iterable
+from copy import deepcopy
+from itertools import combinations
+from typing import TYPE_CHECKING, Any, Self
 
+from linkforge_compile.core.constants import SRDF_REASON_ADJACENT
 from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.geometry import IDENTITY
 from linkforge_compile.core.models.graph import refuse_cycles, tree_root
-from linkforge_compile.core.models.index import NAME, Index
-from linkforge_compile.core.models.inventory import require_robot_name
 from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.core.models.semantic_parts import SemanticParts
-from linkforge_compile.core.models.semantic_robot import SemanticRobot
+from linkforge_compile.core.models.merging import (
+    complete_joint,
+    prefixed_materials,
+    prefixed_parts,
+    select_new_materials,
+)
+from linkforge_compile.core.models.named_table import NAME, PartList, extend_all
+from linkforge_compile.core.models.robot_parts import RobotParts, require_robot_name
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement
     from linkforge_compile.core.models.geometry import Transform, Vector3
     from linkforge_compile.core.models.joint import JointLimits
     from linkforge_compile.core.models.link import Link
-    from linkforge_compile.core.models.merging import PrefixedParts
+    from linkforge_compile.core.models.material import Material
+    from linkforge_compile.core.models.named_table import Additions
     from linkforge_compile.core.models.ros2_control import Ros2Control
     from linkforge_compile.core.models.sensor import Sensor
+    from linkforge_compile.core.models.srdf import Chain, SemanticParts, SemanticRobotDescription, SrdfSphere
     from linkforge_compile.core.models.transmission import Transmission
 
-
-_BESIDE_TREE: Final = ("sensors", "transmissions", "ros2_controls", "gazebo_elements", "extra_elements")
-"""The collections that merging makes longer, beside links and joints."""
+# srdf.py is imported inside the functions that use it: most robots have no semantic part.
 
 
-class Robot(SemanticRobot):
+class Robot(RobotParts):
     """A robot: `<robot name>` of URDF, and `semantic` for that of SRDF.
 
-    A container that changes, of parts that do not (a Link alone may). Every method that adds something either
-    does so as a whole or raises and leaves the robot as it was.
+    It changes, its parts do not (a Link alone may). Every method that adds something either does so as a whole, or
+    leaves the robot as it was and raises RobotValidationError: DUPLICATE_NAME for a name that is taken, NOT_FOUND for
+    a link, joint or group that the addition refers to and the robot lacks.
     """
 
     def add_link(self, link: Link, overwrite: bool = False) -> None:
-        """Add a link; with `overwrite` it takes the place of one of the same name.
-
-        Raises:
-            RobotValidationError: DUPLICATE_NAME without `overwrite`.
-
-        """
+        """Add a link; with `overwrite` it takes the place of one of the same name."""
         if overwrite and self.has_link(link.name):
-            self.links = self.links.replaced(link)
+            self.links = [link if other.name == link.name else other for other in self.links]
         else:
-            self.links = self.links.extended((link,))
+            self.add_parts(links=[link])
 
     def add_joint(self, joint: Joint) -> None:
-        """Add a joint between two links that are there.
+        """Add a joint between two links of the robot."""
+        self._joints.select_new([joint])
+        self.require_parent(joint)
+        _require(self._links, joint.child, f"Child link '{joint.child}'", "ChildLink", "child")
+        self.add_parts(joints=[joint])
 
-        Raises:
-            RobotValidationError: DUPLICATE_NAME; NOT_FOUND for its parent or child.
-
-        """
-        joints = self.joints.extended((joint,))
-        _require(self.links, joint.parent, f"Parent link '{joint.parent}'", "ParentLink", "parent")
-        _require(self.links, joint.child, f"Child link '{joint.child}'", "ChildLink", "child")
-        self.joints = joints
+    def require_parent(self, joint: Joint) -> None:
+        """Refuse a joint whose parent is no link of the robot: NOT_FOUND."""
+        _require(self._links, joint.parent, f"Parent link '{joint.parent}'", "ParentLink", "parent")
 
     def add_sensor(self, sensor: Sensor) -> None:
-        """Add a sensor to a link that is there.
-
-        Raises:
-            RobotValidationError: DUPLICATE_NAME; NOT_FOUND for its link.
-
-        """
-        sensors = self.sensors.extended((sensor,))
-        _require(self.links, sensor.link_name, f"Link '{sensor.link_name}'", "LinkName", "link")
-        self.sensors = sensors
+        """Add a sensor to a link of the robot."""
+        self._sensors.select_new([sensor])
+        _require(self._links, sensor.link_name, f"Link '{sensor.link_name}'", "LinkName", "link")
+        self.add_parts(sensors=[sensor])
 
     def add_transmission(self, transmission: Transmission) -> None:
-        """Add a transmission for joints that are there; actuators are names of its own.
-
-        Raises:
-            RobotValidationError: DUPLICATE_NAME; NOT_FOUND for one of its joints.
-
-        """
-        transmissions = self.transmissions.extended((transmission,))
-        for joint in transmission.joints:
-            _require(self.joints, joint.name, f"Joint '{joint.name}'", "JointName", "joints", joint.name)
-        self.transmissions = transmissions
+        """Add a transmission for joints of the robot; actuators are names of its own."""
+        self._transmissions.select_new([transmission])
+        self._require_joints(joint.name for joint in transmission.joints)
+        self.add_parts(transmissions=[transmission])
 
     def add_ros2_control(self, ros2_control: Ros2Control) -> None:
-        """Add a hardware component for joints that are there.
-
-        Raises:
-            RobotValidationError: DUPLICATE_NAME; NOT_FOUND for one of its joints.
-
-        """
-        ros2_controls = self.ros2_controls.extended((ros2_control,))
-        for joint in ros2_control.joints:
-            _require(self.joints, joint.name, f"Joint '{joint.name}'", "JointName", "joints", joint.name)
-        self.ros2_controls = ros2_controls
+        """Add a hardware component for joints of the robot."""
+        self._ros2_controls.select_new([ros2_control])
+        self._require_joints(joint.name for joint in ros2_control.joints)
+        self.add_parts(ros2_controls=[ros2_control])
 
     def update_ros2_control(self, ros2_control: Ros2Control) -> None:
-        """Put a hardware component in the place of the one of its name, unseen; add it if there is none.
-
-        Raises:
-            RobotValidationError: NOT_FOUND for one of its joints, where it is added.
-
-        """
+        """Put a hardware component in the place of the one of its name, without checks; add it if there is none."""
         if self.has_ros2_control(ros2_control.name):
-            self.ros2_controls = self.ros2_controls.replaced(ros2_control)
+            self.ros2_controls = [
+                ros2_control if other.name == ros2_control.name else other for other in self.ros2_controls
+            ]
         else:
             self.add_ros2_control(ros2_control)
 
     def add_gazebo_element(self, element: GazeboElement) -> None:
-        """Add settings of a simulator about a link or joint that is there, or about the robot.
-
-        Raises:
-            RobotValidationError: NOT_FOUND for its reference.
-
-        """
+        """Add settings of a simulator for a link or joint of the robot, or for the robot."""
         reference = element.reference
         if reference is not None and not self.has_link(reference):
-            _require(self.joints, reference, f"Gazebo reference '{reference}'", "GazeboReference", "reference")
-        self.gazebo_elements = self.gazebo_elements.extended((element,))
+            _require(self._joints, reference, f"Gazebo reference '{reference}'", "GazeboReference", "reference")
+        self.add_parts(gazebo_elements=[element])
+
+    def _require_joints(self, names: Iterable[str]) -> None:
+        for name in names:
+            _require(self._joints, name, f"Joint '{name}'", "JointName", "joints", name)
+
+    def add_semantic(self, description: SemanticRobotDescription) -> Self:
+        """Add the entries of a description; the parts that they name need not exist.
+
+        A collision pair that exists, whatever the order of its links, and a link without default collisions are not
+        added again. Group states are told apart by group and name, sphere approximations by link, joint properties by
+        joint and property.
+        """
+        semantic, additions = self._semantic_additions(description)
+        extend_all(additions)
+        self._semantic = semantic
+        return self
+
+    def _semantic_additions(self, description: SemanticRobotDescription) -> tuple[SemanticParts | None, Additions]:
+        """Return the semantic part that the robot has with a description, and what is to be added to its lists."""
+        from linkforge_compile.core.models.srdf import SemanticParts, SemanticRobotDescription
+
+        semantic = self._semantic or SemanticParts(SemanticRobotDescription(self.name))
+        additions = semantic.additions(description)
+        return semantic if additions else self._semantic, additions
+
+    def _add_entries(self, **entries: Any) -> Self:  # Any: each collection has entries of its own class
+        from linkforge_compile.core.models.srdf import SemanticRobotDescription
+
+        return self.add_semantic(SemanticRobotDescription(**entries))
+
+    def add_group(  # noqa: PLR0917 the contract's signature
+        self,
+        name: str,
+        links: list[str] | None = None,
+        joints: list[str] | None = None,
+        chains: list[Chain] | None = None,
+        subgroups: list[str] | None = None,
+        base_link: str | None = None,
+        tip_link: str | None = None,
+    ) -> Self:
+        """Add a planning group of parts of the robot; `base_link` and `tip_link` make one chain more.
+
+        Raises:
+            RobotValidationError: INVALID_VALUE for one of base_link and tip_link without the other; VALUE_EMPTY for a
+                group of nothing.
+
+        """
+        from linkforge_compile.core.models.planning import PlanningGroup, chain_between
+
+        all_chains = (*(chains or ()), *chain_between(name, base_link, tip_link))
+        group = PlanningGroup(name, links or (), joints or (), all_chains, subgroups or ())
+        for link in (*group.links, *(end for chain in group.chains for end in (chain.base_link, chain.tip_link))):
+            self.link(link)
+        for joint in group.joints:
+            self.joint(joint)
+        for subgroup in group.subgroups:
+            if self._semantic is None or self._semantic.list_members("groups").get(subgroup) is None:
+                message = f"Subgroup '{subgroup}' not found"
+                raise RobotValidationError(
+                    ValidationErrorCode.NOT_FOUND, message, target="Subgroup", value=subgroup, field=("subgroups",)
+                )
+        return self._add_entries(groups=[group])
+
+    def disable_collisions(self, link1: str, link2: str, reason: str = SRDF_REASON_ADJACENT) -> Self:
+        """Let planning ignore collisions between two links; a pair that is disabled already stays as it is."""
+        return self._disable_pairs([(link1, link2)], reason)
+
+    def disable_all_collisions(self, links: list[str], reason: str = SRDF_REASON_ADJACENT) -> Self:
+        """Let planning ignore collisions between any two of the links; INVALID_VALUE for one that is listed twice."""
+        for link in links:
+            self.link(link)
+        return self._disable_pairs(combinations(links, 2), reason)
+
+    def _disable_pairs(self, pairs: Iterable[tuple[str, str]], reason: str) -> Self:
+        from linkforge_compile.core.models.collision_rules import CollisionPair
+
+        disabled = [CollisionPair(self.link(one).name, self.link(other).name, reason) for one, other in pairs]
+        return self._add_entries(disabled_collisions=disabled)
+
+    def enable_collisions(self, link1: str, link2: str, reason: str | None = None) -> Self:
+        """Let planning look for collisions between two links in spite of their defaults; a pair counts once."""
+        from linkforge_compile.core.models.collision_rules import CollisionPair
+
+        pair = CollisionPair(self.link(link1).name, self.link(link2).name, reason)
+        return self._add_entries(enabled_collisions=[pair])
+
+    def disable_default_collisions(self, link: str) -> Self:
+        """Let planning ignore all collisions of a link that are not enabled one by one."""
+        return self._add_entries(no_default_collision_links=[self.link(link).name])
+
+    def add_joint_property(self, joint_name: str, property_name: str, value: str) -> Self:
+        """Add a property of a joint that planners know by name."""
+        from linkforge_compile.core.models.planning import JointProperty
+
+        return self._add_entries(joint_properties=[JointProperty(self.joint(joint_name).name, property_name, value)])
+
+    def approximate_link_collision(self, link: str, spheres: list[SrdfSphere]) -> Self:
+        """Give the spheres that stand for a link's shape in collisions."""
+        from linkforge_compile.core.models.collision_rules import LinkSphereApproximation
+
+        return self._add_entries(link_sphere_approximations=[LinkSphereApproximation(self.link(link).name, spheres)])
 
     def merge(  # noqa: PLR0917 the contract's signature
         self,
@@ -146,82 +223,81 @@ class Robot(SemanticRobot):
                 different materials of one name; what Joint raises for the connecting one.
 
         """
-        own_links = self.links
         if at_link is not None:
-            _require(own_links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
-        parts = _parts_under(component, prefix)
-        links = own_links.extended(parts.links)  # of two links of one name, nobody could say which one a joint means
-        joints = parts.joints
+            _require(self._links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
+        materials = prefixed_materials(component, prefix)
+        parts = prefixed_parts(component, prefix)
+        # Links of one name are reported as such, and not as the cycle that they make.
+        self._links.select_new(parts["links"])
         if at_link is None:
-            refuse_cycles(parts.links, parts.joints)
+            refuse_cycles(parts["links"], parts["joints"])
         else:
             # The connecting joint comes from a link that is none of theirs, so it makes no cycle.
-            root = tree_root(parts.links, parts.joints)
+            root = tree_root(parts["links"], parts["joints"])
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
-            joints = (*joints, _with_rest_of(joint, connecting) if joint else connecting)
-        self._take_in(parts, links, joints)
+            parts["joints"].append(complete_joint(connecting, joint) if joint else connecting)
+        parts["extra_elements"] = list(component.extra_elements)
+        self._take_in(component, prefix, parts, materials)
         return self
 
-    def _take_in(self, parts: PrefixedParts, links: Index[Link], joints: Sequence[Joint]) -> None:
-        materials = parts.materials_beside(self.materials)
-        add_materials = self.materials.update
-        # Links come first: they alone can still be refused as they are assigned, had two been renamed alike.
-        grown: dict[str, Index[Any]] = {"links": links, "joints": self.joints.extended(joints)}
-        for collection in _BESIDE_TREE:
-            if added := getattr(parts, collection):
-                grown[collection] = getattr(self, collection).extended(added)
-        own = dict(self.extra_attributes)
-        extra_attributes = (*own.items(), *(said for said in parts.extra_attributes if said[0] not in own))
-        semantic = self._semantic.joined(parts.semantic) if parts.semantic else self._semantic
-        # From here on the robot changes.
-        for collection, longer in grown.items():
-            setattr(self, collection, longer)
-        add_materials(materials)
-        self.extra_attributes = extra_attributes
+    def _take_in(
+        self, component: Robot, prefix: str, parts: dict[str, list[Any]], materials: dict[str, Material]
+    ) -> None:
+        """Add the parts and materials of a component, and what it says of itself, all or nothing."""
+        new_materials = select_new_materials(materials, self.materials)
+        additions = self._additions(parts)
+        semantic = self._semantic
+        if component.says_semantic:
+            semantic, entries = self._semantic_additions(component.semantic.with_prefix(prefix))
+            additions += entries
+        own_attributes = dict(self.extra_attributes)
+        extra_attributes = {**own_attributes, **dict(component.extra_attributes), **own_attributes}
+        update_materials = self.materials.update
+        extend_all(additions)  # the last that can be refused
+        update_materials(new_materials)
+        self.extra_attributes = tuple(extra_attributes.items())
         self._semantic = semantic
 
     def prefix_all(self, prefix: str) -> None:
-        """Put a prefix before the robot's name, those of all its parts, and wherever they refer to one another.
+        """Put a prefix before the robot's name, the names of all its parts, and wherever they refer to one another.
 
         Extra elements, metadata and files stay as they are; an empty prefix changes nothing.
 
         Raises:
-            RobotModelError: INVALID_NAME where the prefix makes a name that nothing may have.
+            RobotModelError: INVALID_NAME where the prefix makes a name that is not allowed.
 
         """
         if not prefix:
             return
         require_robot_name(prefix + self.name)
-        parts = _parts_under(self, prefix)
-        self.links = parts.links  # first, for they alone can be refused: two may have been renamed to one name
-        self.joints = parts.joints
-        self.sensors = parts.sensors
-        self.transmissions = parts.transmissions
-        self.ros2_controls = parts.ros2_controls
-        self.gazebo_elements = parts.gazebo_elements
-        self.materials = dict(parts.materials)
-        self._semantic = SemanticParts(parts.semantic)
+        materials = prefixed_materials(self, prefix)
+        parts = prefixed_parts(self, prefix)
+        semantic = self.semantic.with_prefix(prefix) if self.says_semantic else None
+        for kind, prefixed in parts.items():  # links first: they are refused if two were renamed to one name
+            setattr(self, kind, prefixed)
+        self.materials = materials
+        self.semantic = semantic
         self.name = prefix + self.name
 
     def clone(self) -> Robot:
         """Return a robot of its own with equal parts, metadata and resolver."""
-        from copy import deepcopy
-
         return deepcopy(self)
 
     def normalized(self) -> Robot:
         """Return a clone with every kind of part sorted by name, so that equality does not depend on their order.
 
-        Gazebo elements are sorted by reference and then by what they say; materials and metadata are mappings,
-        and the order of visuals and collisions is kept, for it has a meaning.
+        Gazebo elements are sorted by reference and then by content; materials and metadata are mappings, and the order
+        of visuals and collisions is kept, for it has a meaning.
         """
+        from linkforge_compile.core.models.gazebo import content_key
+
         robot = self.clone()
         robot.links = sorted(robot.links, key=NAME)
         robot.joints = sorted(robot.joints, key=NAME)
         robot.sensors = sorted(robot.sensors, key=NAME)
         robot.transmissions = sorted((part.normalized() for part in robot.transmissions), key=NAME)
         robot.ros2_controls = sorted((part.normalized() for part in robot.ros2_controls), key=NAME)
-        robot.gazebo_elements = sorted(robot.gazebo_elements, key=_gazebo_order)
+        robot.gazebo_elements = sorted(robot.gazebo_elements, key=content_key)
         if robot.says_semantic:
             robot.semantic = robot.semantic.normalized()
         return robot
@@ -262,44 +338,6 @@ class Robot(SemanticRobot):
             raise RobotGeneratorError("\n".join(errors))
 
 
-def _parts_under(robot: Robot, prefix: str) -> PrefixedParts:
-    # Most robots are neither merged nor given a prefix.
-    from linkforge_compile.core.models.merging import PrefixedParts
-
-    return PrefixedParts.of(robot, prefix)
-
-
-def _with_rest_of(joint: Joint, connecting: Joint) -> Joint:
-    """Return the connecting joint with those fields of `joint` for which merging has no argument."""
-    return replace(
-        joint,
-        name=connecting.name,
-        type=connecting.type,
-        parent=connecting.parent,
-        child=connecting.child,
-        origin=connecting.origin,
-        axis=connecting.axis,
-        limits=connecting.limits,
-    )
-
-
-def _require(parts: Index[Link] | Index[Joint], name: str, what: str, target: str, *field: str) -> None:
+def _require(parts: PartList[Any], name: str, what: str, target: str, *field: str) -> None:
     if parts.get(name) is None:
         raise RobotValidationError(ValidationErrorCode.NOT_FOUND, f"{what} not found", target, name, field=field)
-
-
-def _gazebo_order(element: GazeboElement) -> tuple[str, str]:
-    """By reference, then by content: several elements may speak of one part."""
-    content: dict[str, object] = {
-        **{name: getattr(element, name) for name in element.__match_args__ if name not in {"reference", "plugins"}},
-        "plugins": [(plugin.name, plugin.filename, _in_order(plugin.parameters)) for plugin in element.plugins],
-        "extras": (element.extra_attributes, element.extra_elements, element.extra_inside),
-    }
-    return element.reference or "", repr(_in_order(content))
-
-
-def _in_order(value: object) -> object:
-    """Return a value with the items of every mapping in it sorted, since equality does not ask for their order."""
-    if isinstance(value, Mapping):
-        return sorted((name, _in_order(item)) for name, item in value.items())
-    return [_in_order(item) for item in value] if isinstance(value, tuple | list) else value

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from operator import attrgetter
-from typing import Any, TypeVar
+from operator import attrgetter, itemgetter
+from typing import Any
 
 from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
+from linkforge_compile.core.models.named_table import Additions, KeySpec, OnDuplicate, PartList, extend_all, itself
 from linkforge_compile.core.models.planning import (
     Chain,
     EndEffector,
@@ -33,24 +34,23 @@ __all__ = [
     "VirtualJoint",
 ]
 
-T = TypeVar("T")
-
-SEMANTIC_KEYS: Mapping[str, Callable[[object], Any]] = {  # Any: a name, or a pair of them
-    "virtual_joints": attrgetter("name"),
-    "groups": attrgetter("name"),
-    "group_states": attrgetter("group", "name"),
-    "end_effectors": attrgetter("name"),
-    "passive_joints": attrgetter("name"),
-    "disabled_collisions": attrgetter("key"),
-    "enabled_collisions": attrgetter("key"),
-    "no_default_collision_links": str,
-    "link_sphere_approximations": attrgetter("link"),
-    "joint_properties": attrgetter("joint_name", "property_name"),
+_MEMBERS: Mapping[str, KeySpec] = {
+    "virtual_joints": KeySpec("virtual joint"),
+    "groups": KeySpec("planning group"),
+    "group_states": KeySpec("group state", attrgetter("group", "name")),
+    "end_effectors": KeySpec("end effector"),
+    "passive_joints": KeySpec("passive joint"),
+    "disabled_collisions": KeySpec("collision pair", attrgetter("key"), OnDuplicate.SKIP),
+    "enabled_collisions": KeySpec("collision pair", attrgetter("key"), OnDuplicate.SKIP),
+    "no_default_collision_links": KeySpec("link without default collisions", itself, OnDuplicate.SKIP),
+    "link_sphere_approximations": KeySpec("link sphere approximation", attrgetter("link")),
+    "joint_properties": KeySpec("joint property", attrgetter("joint_name", "property_name")),
 }
-"""What tells the members of each collection of a SemanticRobotDescription apart: a name, or a pair of names."""
-
-SEMANTIC_SETS = frozenset({"disabled_collisions", "enabled_collisions", "no_default_collision_links"})
-"""The collections that are mere sets: saying a thing twice is saying it once, and no clash of names."""
+_EXTRAS: Mapping[str, KeySpec] = {
+    "extra_elements": KeySpec("extra element", itself, OnDuplicate.KEEP),
+    "extra_inside": KeySpec("extra inside", itself, OnDuplicate.KEEP),
+    "extra_attributes": KeySpec("extra attribute", itemgetter(0), OnDuplicate.SKIP),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,7 @@ class SemanticRobotDescription(Element):
     Collections keep the order in which they were given. `no_default_collision_links` are names of links.
     """
 
-    PREFIXED = ("robot_name", *SEMANTIC_KEYS, "extra_inside")
+    PREFIXED = ("robot_name", *_MEMBERS, "extra_inside")
 
     robot_name: str = ""
     virtual_joints: Sequence[VirtualJoint] = ()
@@ -75,7 +75,7 @@ class SemanticRobotDescription(Element):
     joint_properties: Sequence[JointProperty] = ()
 
     def __post_init__(self) -> None:
-        freeze(self, *SEMANTIC_KEYS)
+        freeze(self, *_MEMBERS)
 
     @property
     def is_empty(self) -> bool:
@@ -83,7 +83,7 @@ class SemanticRobotDescription(Element):
         return self == SemanticRobotDescription(self.robot_name)
 
     def merge_with(self, other: SemanticRobotDescription) -> SemanticRobotDescription:
-        """Return this description with the members of the other behind its own; the name stays this one's.
+        """Return this description followed by the members of the other, under the name of this one.
 
         A collision pair or link without default collisions that both have is there once, as this one says it.
 
@@ -91,29 +91,47 @@ class SemanticRobotDescription(Element):
             RobotValidationError: DUPLICATE_NAME for anything else that both have, or the other twice.
 
         """
-        from linkforge_compile.core.models.semantic_parts import SemanticParts
-
-        return SemanticParts(self).joined(other).description(self.robot_name)
+        parts = SemanticParts(self)
+        extend_all(parts.additions(other))
+        return parts.describe(self.robot_name)
 
     def normalized(self) -> SemanticRobotDescription:
         """Return it with every collection sorted by name; a collision pair counts by its links in order.
 
         The members of a group stay in their order, and so do the two links of a pair.
         """
-        return replace(
-            self,
-            virtual_joints=_in_order("virtual_joints", self.virtual_joints),
-            groups=_in_order("groups", self.groups),
-            group_states=_in_order("group_states", self.group_states),
-            end_effectors=_in_order("end_effectors", self.end_effectors),
-            passive_joints=_in_order("passive_joints", self.passive_joints),
-            disabled_collisions=_in_order("disabled_collisions", self.disabled_collisions),
-            enabled_collisions=_in_order("enabled_collisions", self.enabled_collisions),
-            no_default_collision_links=_in_order("no_default_collision_links", self.no_default_collision_links),
-            link_sphere_approximations=_in_order("link_sphere_approximations", self.link_sphere_approximations),
-            joint_properties=_in_order("joint_properties", self.joint_properties),
-        )
+        members: dict[str, Any] = {name: sorted(getattr(self, name), key=spec.key) for name, spec in _MEMBERS.items()}
+        return replace(self, **members)
 
 
-def _in_order(collection: str, members: Sequence[T]) -> tuple[T, ...]:
-    return tuple(sorted(members, key=SEMANTIC_KEYS[collection]))
+class SemanticParts:
+    """The semantic description of a robot while it grows: a PartList for each collection that does."""
+
+    def __init__(self, description: SemanticRobotDescription) -> None:
+        self._description = description
+        self._lists: dict[str, PartList[Any]] = {}  # Any: each collection has members of its own class
+        self._described = 0
+
+    def list_members(self, collection: str) -> PartList[Any]:
+        """Return the members of a collection, to be looked up and added to."""
+        if collection not in self._lists:
+            spec = _MEMBERS.get(collection) or _EXTRAS[collection]
+            self._lists[collection] = PartList(spec, getattr(self._description, collection))
+        return self._lists[collection]
+
+    def additions(self, other: SemanticRobotDescription) -> Additions:
+        """Return what `extend_all` takes to add the members of another description."""
+        return [(self.list_members(name), added) for name in (*_MEMBERS, *_EXTRAS) if (added := getattr(other, name))]
+
+    def describe(self, robot_name: str) -> SemanticRobotDescription:
+        """Return the whole for a robot of that name."""
+        length = sum(len(members.items) for members in self._lists.values())
+        if length != self._described or self._description.robot_name != robot_name:
+            members: dict[str, Any] = {name: members.items for name, members in self._lists.items()}
+            self._description = replace(self._description, robot_name=robot_name, **members)
+            self._described = length
+        return self._description
+
+    def copy(self) -> SemanticParts:
+        """Return a description of its own that says the same."""
+        return SemanticParts(self.describe(self._description.robot_name))

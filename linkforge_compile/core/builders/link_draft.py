@@ -1,12 +1,11 @@
-"""The sensors of a link under construction."""
+"""A link under construction, and its sensors."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 from linkforge_compile.core import constants as default
-from linkforge_compile.core.builders.draft import LinkDraft
 from linkforge_compile.core.builders.shapes import Triple, pose
 from linkforge_compile.core.models.sensor import (
     CameraInfo,
@@ -19,16 +18,21 @@ from linkforge_compile.core.models.sensor import (
     SensorType,
 )
 
-if TYPE_CHECKING:
-    from linkforge_compile.core.builders.composer import IComposer
 
+class LinkDraft:
+    """A link that is described call by call, and added to the robot when it is committed.
 
-class SensorDraft(LinkDraft):
-    """The calls that put sensors on the link, at `xyz` [m] turned by `rpy` [rad] in its frame; rates in [Hz]."""
+    Sensors are at `xyz` [m] turned by `rpy` [rad] in the link frame; rates are in [Hz].
+    """
 
-    def __init__(self, builder: IComposer, name: str, parent: str | None = None, joint_name: str | None = None) -> None:
-        super().__init__(builder, name, parent, joint_name)
+    def __init__(self, name: str) -> None:
+        self._link_name = name
+        self._committed = False
         self._sensors: list[Sensor] = []
+
+    def _check_not_committed(self) -> None:
+        if self._committed:
+            raise RuntimeError(f"LinkBuilder '{self._link_name}' already committed")
 
     def camera(  # noqa: PLR0917 the contract's signature
         self,

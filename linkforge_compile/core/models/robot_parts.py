@@ -1,19 +1,28 @@
-"""What a robot holds, and the questions that one may ask of it."""
+"""What a robot holds: its parts by kind, look-up by name and neighbourhood, and what its tree is."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
+from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING
 
 from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.exceptions import RobotModelError, RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.models.graph import KinematicGraph, single_root
-from linkforge_compile.core.models.index import Filing, Index, IndexField, Key, Renamable, Repeats, itself
-from linkforge_compile.core.models.robot_fields import SemanticField, VersionStatedField
+from linkforge_compile.core.models.graph import KinematicGraph, child_joints, parent_joints, single_root
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.named_table import (
+    Additions,
+    KeySpec,
+    NamedTable,
+    OnDuplicate,
+    PartList,
+    extend_all,
+    itself,
+)
+from linkforge_compile.core.models.robot_fields import PartsField, SemanticField, VersionStatedField
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
@@ -21,30 +30,38 @@ from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolve
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement
     from linkforge_compile.core.models.joint import Joint
-    from linkforge_compile.core.models.link import Link
     from linkforge_compile.core.models.material import Material
     from linkforge_compile.core.models.ros2_control import Ros2Control
-    from linkforge_compile.core.models.semantic_parts import SemanticParts
     from linkforge_compile.core.models.sensor import Sensor
+    from linkforge_compile.core.models.srdf import SemanticParts
     from linkforge_compile.core.models.transmission import Transmission
     from linkforge_compile.source import SourceRef
 
-PARENT: Final[Key[Joint]] = attrgetter("parent")
-CHILD: Final[Key[Joint]] = attrgetter("child")
-REFERENCE: Final[Key[GazeboElement]] = attrgetter("reference")
 
+class _Tree:
+    """What is computed from the links and joints of a robot when it is needed."""
 
-class _Drawn(NamedTuple):
-    """A graph, and what it was drawn from."""
+    def __init__(self, links: NamedTable[Link], joints: NamedTable[Joint]) -> None:
+        self._links, self._joints, self._renamings = links, joints, Link.renamings
 
-    links: Index[Link]
-    joints: Index[Joint]
-    renamings: int
-    graph: KinematicGraph
+    def is_of(self, links: NamedTable[Link], joints: NamedTable[Joint]) -> bool:
+        return self._links is links and self._joints is joints and self._renamings == Link.renamings
+
+    @cached_property
+    def graph(self) -> KinematicGraph:
+        return KinematicGraph(self._links, self._joints)
+
+    @cached_property
+    def above(self) -> Mapping[str, Joint]:
+        return parent_joints(self._joints)
+
+    @cached_property
+    def below(self) -> Mapping[str, Sequence[Joint]]:
+        return child_joints(self._joints)
 
 
 def require_robot_name(name: str) -> None:
-    """Refuse what no robot may be called.
+    """Refuse a name that no robot may have.
 
     Raises:
         RobotValidationError: NAME_EMPTY, INVALID_NAME.
@@ -61,13 +78,12 @@ def require_robot_name(name: str) -> None:
 
 
 @dataclass
-class Inventory:
-    """The parts of a robot, each kind in the order in which it was added, and look-ups by name.
+class RobotParts:
+    """The parts of a robot, each kind in the order in which they were added.
 
-    The collections are tuples to whoever compares or adds them, and answer to names as well (see Index);
-    assigning one rebuilds its index. Two links or two joints of one name are refused, by assignment too.
-    Sensors, transmissions and ros2_controls of one name can be held, so that a faulty robot can be read and
-    checked; adding and merging refuse them.
+    The collections are tuples with look-up by name (see NamedTable), and take any iterable. Two links or two joints of
+    one name are refused, by assignment too. Sensors, transmissions and ros2_controls of one name can be assigned, so
+    that a faulty robot can be read and checked; adding and merging refuse them.
     """
 
     name: str
@@ -75,133 +91,169 @@ class Inventory:
     materials: dict[str, Material] = field(default_factory=dict)
     metadata: dict[str, object] = field(default_factory=dict)
     resource_resolver: IResourceResolver = field(default_factory=FileSystemResolver, compare=False)
-    links: IndexField[Link] = IndexField(Filing("link"), distinct=True)
-    joints: IndexField[Joint] = IndexField(Filing("joint"), distinct=True)
-    sensors: IndexField[Sensor] = IndexField(Filing("sensor"))
-    transmissions: IndexField[Transmission] = IndexField(Filing("transmission"))
-    ros2_controls: IndexField[Ros2Control] = IndexField(Filing("ros2_control"))
-    gazebo_elements: IndexField[GazeboElement] = IndexField(Filing("gazebo element", REFERENCE, Repeats.KEPT))
+    links: PartsField[Link] = PartsField(KeySpec("link"), distinct=True)
+    joints: PartsField[Joint] = PartsField(KeySpec("joint"), distinct=True)
+    sensors: PartsField[Sensor] = PartsField(KeySpec("sensor"))
+    transmissions: PartsField[Transmission] = PartsField(KeySpec("transmission"))
+    ros2_controls: PartsField[Ros2Control] = PartsField(KeySpec("ros2_control"))
+    gazebo_elements: PartsField[GazeboElement] = PartsField(
+        KeySpec("gazebo element", attrgetter("reference"), OnDuplicate.KEEP)
+    )
     semantic: SemanticField = SemanticField()
-    extra_elements: IndexField[str] = IndexField(Filing("extra element", itself, Repeats.KEPT))
+    extra_elements: PartsField[str] = PartsField(KeySpec("extra element", itself, OnDuplicate.KEEP))
     _: KW_ONLY
     extra_attributes: Sequence[tuple[str, str]] | Mapping[str, str] = ()
     version_stated: VersionStatedField = VersionStatedField()
     source: SourceRef | None = field(default=None, compare=False, repr=False)
     _version_stated: bool = field(init=False, repr=False, compare=False)
-    _semantic: SemanticParts = field(init=False, repr=False, compare=False)
-    _drawn: _Drawn | None = field(default=None, init=False, repr=False, compare=False)
+    _links: PartList[Link] = field(init=False, repr=False, compare=False)
+    _joints: PartList[Joint] = field(init=False, repr=False, compare=False)
+    _sensors: PartList[Sensor] = field(init=False, repr=False, compare=False)
+    _transmissions: PartList[Transmission] = field(init=False, repr=False, compare=False)
+    _ros2_controls: PartList[Ros2Control] = field(init=False, repr=False, compare=False)
+    _semantic: SemanticParts | None = field(init=False, repr=False, compare=False)
+    _last_tree: _Tree | None = field(default=None, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         require_robot_name(self.name)
         self.extra_attributes = attribute_pairs(self.extra_attributes)
 
+    def __getstate__(self) -> dict[str, object]:
+        """Return the state for copies and pickles, with lists of their own and nothing that can be computed."""
+        state = {name: value for name, value in vars(self).items() if not isinstance(value, NamedTable)}
+        lists = {name: value.copy() for name, value in state.items() if isinstance(value, PartList)}
+        return {**state, **lists, "_semantic": self._semantic and self._semantic.copy(), "_last_tree": None}
+
     def get_link(self, name: str) -> Link | None:
         """Return the link of that name, None if there is none."""
-        return self.links.get(name)
+        return self._links.get(name)
 
     def link(self, name: str) -> Link:
-        """Return the link of that name.
-
-        Raises:
-            RobotValidationError: NOT_FOUND if there is none.
-
-        """
-        return self.links[name]
+        """Return the link of that name; raise NOT_FOUND if there is none."""
+        return self._links.require(name)
 
     def has_link(self, name: str) -> bool:
         """Tell whether there is a link of that name."""
-        return name in self.links
+        return self._links.get(name) is not None
 
     def get_joint(self, name: str) -> Joint | None:
         """Return the joint of that name, None if there is none."""
-        return self.joints.get(name)
+        return self._joints.get(name)
 
     def joint(self, name: str) -> Joint:
-        """Return the joint of that name.
-
-        Raises:
-            RobotValidationError: NOT_FOUND if there is none.
-
-        """
-        return self.joints[name]
+        """Return the joint of that name; raise NOT_FOUND if there is none."""
+        return self._joints.require(name)
 
     def has_joint(self, name: str) -> bool:
         """Tell whether there is a joint of that name."""
-        return name in self.joints
+        return self._joints.get(name) is not None
 
     def get_sensor(self, name: str) -> Sensor | None:
         """Return the sensor of that name, None if there is none."""
-        return self.sensors.get(name)
+        return self._sensors.get(name)
 
     def sensor(self, name: str) -> Sensor:
-        """Return the sensor of that name.
-
-        Raises:
-            RobotValidationError: NOT_FOUND if there is none.
-
-        """
-        return self.sensors[name]
+        """Return the sensor of that name; raise NOT_FOUND if there is none."""
+        return self._sensors.require(name)
 
     def has_sensor(self, name: str) -> bool:
         """Tell whether there is a sensor of that name."""
-        return name in self.sensors
+        return self._sensors.get(name) is not None
 
     def get_transmission(self, name: str) -> Transmission | None:
         """Return the transmission of that name, None if there is none."""
-        return self.transmissions.get(name)
+        return self._transmissions.get(name)
 
     def transmission(self, name: str) -> Transmission:
-        """Return the transmission of that name.
-
-        Raises:
-            RobotValidationError: NOT_FOUND if there is none.
-
-        """
-        return self.transmissions[name]
+        """Return the transmission of that name; raise NOT_FOUND if there is none."""
+        return self._transmissions.require(name)
 
     def has_transmission(self, name: str) -> bool:
         """Tell whether there is a transmission of that name."""
-        return name in self.transmissions
+        return self._transmissions.get(name) is not None
 
     def get_ros2_control(self, name: str) -> Ros2Control | None:
         """Return the hardware component of that name, None if there is none."""
-        return self.ros2_controls.get(name)
+        return self._ros2_controls.get(name)
 
     def ros2_control(self, name: str) -> Ros2Control:
-        """Return the hardware component of that name.
-
-        Raises:
-            RobotValidationError: NOT_FOUND if there is none.
-
-        """
-        return self.ros2_controls[name]
+        """Return the hardware component of that name; raise NOT_FOUND if there is none."""
+        return self._ros2_controls.require(name)
 
     def has_ros2_control(self, name: str) -> bool:
         """Tell whether there is a hardware component of that name."""
-        return name in self.ros2_controls
+        return self._ros2_controls.get(name) is not None
 
     def get_gazebo_elements(self, reference: str | None = None) -> list[GazeboElement]:
         """Return the Gazebo elements about one link or joint; all of them for None."""
-        if reference is None:
-            return list(self.gazebo_elements)
-        return list(self.gazebo_elements.where(REFERENCE, reference))
+        return [element for element in self.gazebo_elements if reference is None or element.reference == reference]
 
     @property
     def says_semantic(self) -> bool:
-        """True once something semantic was assigned or added, be it an empty description."""
-        return not self._semantic.silent
+        """True once a description was assigned, be it an empty one, or something semantic was added."""
+        return self._semantic is not None
+
+    def add_parts(
+        self,
+        *,
+        links: Iterable[Link] = (),
+        joints: Iterable[Joint] = (),
+        sensors: Iterable[Sensor] = (),
+        transmissions: Iterable[Transmission] = (),
+        ros2_controls: Iterable[Ros2Control] = (),
+        gazebo_elements: Iterable[GazeboElement] = (),
+    ) -> None:
+        """Add parts of several kinds, all of them or none; the parts that they refer to need not exist.
+
+        Raises:
+            RobotValidationError: DUPLICATE_NAME for a link, joint, sensor, transmission or ros2_control whose name is
+                taken.
+
+        """
+        parts = {
+            "links": links,
+            "joints": joints,
+            "sensors": sensors,
+            "transmissions": transmissions,
+            "ros2_controls": ros2_controls,
+            "gazebo_elements": gazebo_elements,
+        }
+        extend_all(self._additions(parts))
+
+    def _additions(self, parts: Mapping[str, Iterable[object]]) -> Additions:
+        """Return what `extend_all` takes to add parts by kind."""
+        return [(vars(self)[f"_{kind}"], added) for kind, added in parts.items()]
+
+    @property
+    def _tree(self) -> _Tree:
+        tree = self._last_tree
+        if tree is None or not tree.is_of(self.links, self.joints):
+            tree = self._last_tree = _Tree(self.links, self.joints)
+        return tree
+
+    @property
+    def graph(self) -> KinematicGraph:
+        """The links and joints as a graph, made anew when they have changed.
+
+        Raises:
+            RobotValidationError: NOT_FOUND for a joint without its links.
+
+        """
+        return self._tree.graph
 
     def get_joints_for_link(self, link_name: str, as_parent: bool = True) -> list[Joint]:
         """Return the joints whose parent (or child) the link is, in the order of the joints."""
-        return list(self.joints.where(PARENT if as_parent else CHILD, link_name))
+        if as_parent:
+            return self.get_child_joints(link_name)
+        return [joint for joint in self.joints if joint.child == link_name]
 
     def get_child_joints(self, link_name: str) -> list[Joint]:
         """Return the joints whose parent the link is, in the order of the joints; none for an unknown link."""
-        return self.get_joints_for_link(link_name)
+        return list(self._tree.below.get(link_name, ()))
 
     def get_parent_joint(self, link_name: str) -> Joint | None:
         """Return the first joint whose child the link is, None for a root and for an unknown link."""
-        return next(self.joints.where(CHILD, link_name), None)
+        return self._tree.above.get(link_name)
 
     def get_parent_link(self, link_name: str) -> Link | None:
         """Return the parent of the first joint whose child the link is, None for a root and for an unknown link."""
@@ -209,12 +261,7 @@ class Inventory:
         return self.get_link(joint.parent) if joint else None
 
     def get_child_links(self, link_name: str) -> list[Link]:
-        """Return the children of the joints whose parent the link is, in the order of the joints.
-
-        Raises:
-            RobotValidationError: NOT_FOUND for a child that is no link of the robot.
-
-        """
+        """Return the children of the joints whose parent the link is; raise NOT_FOUND for one that is no link."""
         return [self.link(joint.child) for joint in self.get_child_joints(link_name)]
 
     def get_root_link(self) -> Link:
@@ -232,26 +279,6 @@ class Inventory:
         return self.get_root_link()
 
     @property
-    def graph(self) -> KinematicGraph:
-        """The links and joints as a graph, drawn anew when they have changed.
-
-        Raises:
-            RobotValidationError: NOT_FOUND for a joint without its links.
-
-        """
-        # Indices never change, so the same two of them, with nothing renamed since, are the same graph.
-        drawn = self._drawn
-        if (
-            drawn is None
-            or drawn.links is not self.links
-            or drawn.joints is not self.joints
-            or drawn.renamings != Renamable.renamings
-        ):
-            graph = KinematicGraph(self.links, self.joints)
-            drawn = self._drawn = _Drawn(self.links, self.joints, Renamable.renamings, graph)
-        return drawn.graph
-
-    @property
     def has_cycle(self) -> bool:
         """True if some link is its own ancestor."""
         return self.graph.has_cycle()
@@ -267,24 +294,8 @@ class Inventory:
         return sum(joint.degrees_of_freedom for joint in self.joints)
 
     def resolve_resource(self, uri: str, relative_to: Path | None = None) -> Path:
-        """Return the file behind a URI, as the robot's resolver finds it.
-
-        Raises:
-            FileNotFoundError: There is no such file.
-
-        """
+        """Return the file of a URI, as the robot's resolver finds it; raise FileNotFoundError if there is none."""
         return self.resource_resolver.resolve(uri, relative_to=relative_to)
-
-    @contextmanager
-    def unchanged_on_error(self) -> Iterator[None]:
-        """Let the robot be as it was before the block where that raises, materials and metadata excepted."""
-        before = dict(vars(self))  # collections never change in place, so this holds all of them
-        try:
-            yield
-        except BaseException:
-            vars(self).clear()
-            vars(self).update(before)
-            raise
 
     def __str__(self) -> str:
         return (
@@ -314,6 +325,3 @@ class Inventory:
         if self.gazebo_elements:
             lines.append(f"  Simulation: {len(self.gazebo_elements)} gazebo tags")
         return "\n".join(lines)
-
-    def __getstate__(self) -> dict[str, object]:
-        return {**vars(self), "_drawn": None}
