@@ -21,10 +21,10 @@ from linkforge_compile.checks import (
 )
 from linkforge_compile.checks.mesh_files import RobotMeshes
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 
-Check: TypeAlias = Callable[[Robot, Gaps], Iterator[Diagnostic]]
-"""Looks at one question; its docstring is its manual page. It says nothing of names in the gaps."""
+Check: TypeAlias = Callable[[Robot, UnresolvedNames], Iterator[Diagnostic]]
+"""Looks at one question; its docstring is its manual page. It says nothing of names in the unresolved."""
 
 MeshCheck: TypeAlias = Callable[[Robot, RobotMeshes], Iterator[Diagnostic]]
 """A check that looks at mesh files as well; all of them share what was seen."""
@@ -87,19 +87,19 @@ MESH_CHECKS: tuple[MeshCheck, ...] = (
 )
 
 
-def check(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """Yield all that is wrong with the robot, each fault once, in the order of the checks.
 
-    `gaps` are the names that the author wrote and the robot lacks, which has been told.
+    `unresolved` are the names that the author wrote and the robot lacks, which has been told.
     """
     for one in ROBOT_CHECKS:
-        yield from one(robot, gaps)
+        yield from one(robot, unresolved)
     # To ask a robot for its semantic part makes one, and costs the import of its classes.
     if robot.says_semantic:
         from linkforge_compile.checks.semantic import SEMANTIC_CHECKS
 
         for one in SEMANTIC_CHECKS:
-            yield from one(robot, gaps)
-    files = RobotMeshes(robot, gaps)
+            yield from one(robot, unresolved)
+    files = RobotMeshes(robot, unresolved)
     for looking in MESH_CHECKS:
         yield from looking(robot, files)

@@ -12,7 +12,7 @@ from linkforge_compile.core.constants import WORLD
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps, Note
+from linkforge_compile.diagnostics import Diagnostic, Note, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import TAG_OF_TWO_BLOCKS
 from linkforge_compile.diagnostics.codes.physics import (
     BLOCK_OF_MERGED_JOINT,
@@ -36,7 +36,7 @@ LOOKS_UP_A_LINK = frozenset(("link_name", "linkName", "body_name", "parent_link"
 """The tags by which plugins name a link that they look for in the simulation."""
 
 
-def check_massless_bodies(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_massless_bodies(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """What a joint moves has mass, if mass hangs on it; and so has the root.
 
     A link without mass is a frame, and normal. But Gazebo leaves out a link that moves, or is the root, and has no
@@ -45,7 +45,7 @@ def check_massless_bodies(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     with the joints that are lost; of the root only where the robot says something to Gazebo or has sensors. Silent
     while part of the robot could not be read.
     """
-    if gaps:
+    if unresolved:
         return
     above = parent_joints(robot.joints)
     weights = _merged_weights(robot, above)
@@ -74,13 +74,13 @@ def _lost(link: Link, joint: Joint | None, moving: Sequence[Joint]) -> Diagnosti
     return MASSLESS_BODY.at(link.source, *where, joint=joint.name, link=link.name, also=also, notes=notes)
 
 
-def check_tiny_masses(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_tiny_masses(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """What a joint moves weighs more than a milligram, with all that is fixed to it.
 
     Gazebo takes 1e-6 kg and less for no mass and leaves the link out, with its joint and all that hangs below.
     Write a mass that a solver can hold beside those of its neighbours, or make the joint fixed.
     """
-    if gaps:
+    if unresolved:
         return
     above = parent_joints(robot.joints)
     for name, weight in _merged_weights(robot, above).items():
@@ -90,7 +90,7 @@ def check_tiny_masses(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
             yield TINY_MASS.at(link.source, "inertial", "mass", joint=above[name].name, link=name, mass=mass)
 
 
-def check_merged_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_merged_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A Gazebo block is about a joint that Gazebo keeps.
 
     It merges the links of a fixed joint into one, and what was to be set for the joint is lost with it. Say
@@ -102,7 +102,7 @@ def check_merged_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield BLOCK_OF_MERGED_JOINT.at(block.source, joint=block.reference)
 
 
-def check_merged_links(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_merged_links(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A Gazebo plugin that looks for a link names one that Gazebo keeps.
 
     It merges a link that hangs on a fixed joint into the link above, and a plugin that looks for it by name finds
@@ -139,7 +139,7 @@ class _Tag(NamedTuple):
         return whole is not None and self.source is not None and self.source.node.span.lies_in(whole)
 
 
-def check_tags_of_several_blocks(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_tags_of_several_blocks(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The Gazebo blocks of a link or joint, and a link's `physics`, say a thing in one way.
 
     Of a tag that stands in two of them Gazebo takes the last, and says so in its log at best. Write it once.

@@ -8,7 +8,7 @@ from linkforge_compile.checks.cycles import report_cycles
 from linkforge_compile.checks.link_sets import LinkSets, group_links
 from linkforge_compile.checks.references import Use
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     CHAIN_ACROSS,
     CHAIN_UPWARD,
@@ -20,7 +20,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 
 
-def check_group_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_group_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A group may contain groups, but not itself, not even by way of others.
 
     MoveIt drops every group of such a circle. Take one of the subgroups out.
@@ -36,7 +36,7 @@ def check_group_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     yield from report_cycles(subgroups, GROUP_CIRCLE)
 
 
-def check_chains(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_chains(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The chain of a group leads from its `base_link` down to its `tip_link`.
 
     With the two swapped MoveIt takes the joints between them and the one above as well, and kinematics solvers
@@ -54,7 +54,7 @@ def check_chains(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield use.told(code, base=chain.base_link, tip=chain.tip_link, meeting=meeting)
 
 
-def check_empty_groups(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_empty_groups(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A planning group has a joint.
 
     MoveIt leaves out a group without one, with its states and end effectors: a chain from a link to itself, or
@@ -66,7 +66,7 @@ def check_empty_groups(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield Use(group.name, "", group.source).told(GROUP_WITHOUT_JOINT, group=group.name)
 
 
-def check_end_effectors(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_end_effectors(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The parent group of an end effector is another group, and holds its parent link.
 
     Otherwise MoveIt ignores the parent group and takes the smallest group that holds the link, or none. The base
@@ -89,13 +89,13 @@ def check_end_effectors(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield use.told(PARENT_LINK_OUTSIDE_GROUP, link=effector.parent_link, group=effector.parent_group)
 
 
-def check_arms_of_end_effectors(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_arms_of_end_effectors(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """The parent link of an end effector is in a planning group: that of the arm which carries it.
 
     Otherwise MoveIt finds no parent group, says so in its log, and does not know which arm to move for this hand.
     Nothing is wrong with a hand on a robot without an arm. Silent while a group could not be read.
     """
-    if gaps or not robot.semantic.end_effectors:
+    if unresolved or not robot.semantic.end_effectors:
         return
     links = LinkSets(robot)
     moving = group_links(robot, links)

@@ -8,12 +8,12 @@ from linkforge_compile.checks.interfaces import COMMANDS, STATES, interfaces_of
 from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Code, Diagnostic, Gaps
+from linkforge_compile.diagnostics import Code, Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GAZEBO_REFERENCE, UNKNOWN_JOINT
 from linkforge_compile.diagnostics.codes.physics import COMMANDED_TWICE, FIXED_JOINT_CONTROLLED, READ_TWICE
 
 
-def check_transmission_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_transmission_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A transmission moves joints of this robot.
 
     Controllers refuse to load a transmission with a joint that is not there. Correct the name.
@@ -23,19 +23,19 @@ def check_transmission_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
         for transmission in robot.transmissions
         for joint in transmission.joints
     )
-    yield from unknown(joints, UNKNOWN_JOINT, robot.joints.names, gaps)
+    yield from unknown(joints, UNKNOWN_JOINT, robot.joints.names, unresolved)
 
 
-def check_ros2_control_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_ros2_control_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A ros2_control system drives joints of this robot.
 
     The controller manager refuses the whole robot for one unknown joint. Correct the name. Sensors and gpios of
     a system are names of the hardware, and need no counterpart in the robot.
     """
-    yield from unknown(_driven_joints(robot), UNKNOWN_JOINT, robot.joints.names, gaps)
+    yield from unknown(_driven_joints(robot), UNKNOWN_JOINT, robot.joints.names, unresolved)
 
 
-def check_fixed_joints_driven(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_fixed_joints_driven(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint under ros2_control moves.
 
     Current controller managers refuse a robot that lists a fixed joint. Leave the joint out of the system, or
@@ -47,7 +47,7 @@ def check_fixed_joints_driven(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield use.told(FIXED_JOINT_CONTROLLED, joint=joint.name)
 
 
-def check_interface_claims(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_interface_claims(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """Each command interface belongs to one ros2_control system, and so does each state interface.
 
     Of two systems that export one command interface the second is refused or never gets a command; of a state
@@ -58,7 +58,7 @@ def check_interface_claims(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     yield from _claimed_twice(robot, STATES, READ_TWICE)
 
 
-def check_gazebo_references(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_gazebo_references(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A Gazebo block with a reference is about a link or joint of this robot.
 
     Simulators drop other blocks in silence, and with them what they were to set. Correct the reference, or
@@ -70,7 +70,7 @@ def check_gazebo_references(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
         if element.reference is not None
     )
     known = (*robot.links.names, *robot.joints.names) if robot.gazebo_elements else ()
-    yield from unknown(references, UNKNOWN_GAZEBO_REFERENCE, known, gaps)
+    yield from unknown(references, UNKNOWN_GAZEBO_REFERENCE, known, unresolved)
 
 
 def _driven_joints(robot: Robot) -> Iterator[Use]:

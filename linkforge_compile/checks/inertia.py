@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from linkforge_compile.core.models.link import InertiaTensor
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Code, Diagnostic, Gaps
+from linkforge_compile.diagnostics import Code, Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.physics import (
     IMPOSSIBLE_INERTIA,
     INDEFINITE_INERTIA,
@@ -24,7 +24,7 @@ TURNS = 60
 """Enough turns of the axes for any tensor; five rounds of three do for most."""
 
 
-def check_inertia(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_inertia(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A body with mass resists turning about every axis, and about none more than about the other two together.
 
     The principal moments of any body are above 0 [kg·m²], and the largest is at most the sum of the other

@@ -10,7 +10,7 @@ from linkforge_compile.checks.ranges import WITHIN_LIMITS, missed_range
 from linkforge_compile.checks.references import Use
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.physics import (
     MIMIC_APART,
     MIMIC_COMMANDED,
@@ -80,7 +80,7 @@ def exported(control: Ros2Control, part: Exporter, key: str) -> Iterator[Exporte
         yield Exported(str(interface), use, parameters)
 
 
-def check_interface_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_interface_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """An interface of a joint that is nearly called as one of ros2_control's is called so.
 
     Controllers ask for `position`, `velocity`, `acceleration` or `effort`, and refuse to start where hardware
@@ -95,7 +95,7 @@ def check_interface_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
                         yield use.told(UNKNOWN_INTERFACE, name=name, near=MOTIONS)
 
 
-def check_interface_parameters(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_interface_parameters(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """`min`, `max` and `initial_value` of an interface are numbers that go with one another and with the joint.
 
     ros2_control reads plain numbers in SI units, [rad] or [m] and their rates: the parameters of hardware are
@@ -194,7 +194,7 @@ def _number(text: str) -> float | None:
         return None
 
 
-def check_mimics_in_hardware(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_mimics_in_hardware(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint that mimics another is read by ros2_control, beside its leader, and not commanded.
 
     Since ROS 2 Jazzy the controller manager takes the mimic from the robot's description, and refuses the robot
@@ -226,7 +226,7 @@ def _lost(control: Ros2Control) -> bool:
     return isinstance(written, Sized) and len(written) > len(control.joints)
 
 
-def check_hardware_is_used(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_hardware_is_used(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A sensor, a gpio or a whole system in ros2_control has an interface.
 
     Controllers reach hardware by its interfaces alone. Add `state_interfaces` or `command_interfaces`; nothing

@@ -10,7 +10,7 @@ from linkforge_compile.checks.ranges import is_known, measured, passed_range, sa
 from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointMimic, JointSafetyController, JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     EMPTY_RANGE,
     FAST_JOINT,
@@ -41,16 +41,16 @@ ROUNDING = 1e-4
 """How far a soft limit may pass a limit [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
 
 
-def check_mimic_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_mimic_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint mimics a joint of this robot.
 
     Readers refuse the robot or leave the joint free to dangle. Correct the name; a joint of a module bears
     the module's prefix.
     """
-    yield from unknown(_mimics(robot).values(), UNKNOWN_JOINT, robot.joints.names, gaps)
+    yield from unknown(_mimics(robot).values(), UNKNOWN_JOINT, robot.joints.names, unresolved)
 
 
-def check_mimic_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_mimic_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint may mimic one that mimics another, but at the end of the row one must be free.
 
     In a circle none leads: MoveIt drops every mimic of the robot, other readers never end. Let one joint of
@@ -59,7 +59,7 @@ def check_mimic_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     yield from report_cycles({name: (use,) for name, use in _mimics(robot).items()}, MIMIC_CIRCLE)
 
 
-def check_mimic_freedom(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_mimic_freedom(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """Both joints of a mimic move along or about one axis.
 
     A mimic multiplies one number. A fixed joint has none, a planar or floating one several, and readers drop
@@ -74,7 +74,7 @@ def check_mimic_freedom(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield use.told(MIMIC_FREEDOM, joint=joint.name, type=joint.type, leader=leader.name, led=leader.type)
 
 
-def check_mimic_motion(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_mimic_motion(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint that mimics another moves when that one does.
 
     With a `multiplier` of 0 it stands at its `offset` whatever its leader does. Write the ratio of the two, below 0
@@ -86,7 +86,7 @@ def check_mimic_motion(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield MIMIC_STANDS_STILL.at(joint.source, "mimic", "multiplier", joint=joint.name, leader=leader)
 
 
-def check_mimic_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_mimic_range(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint that mimics another can follow it as far as it goes.
 
     Where the leader's range, times `multiplier` plus `offset`, passes a limit of the follower, simulators stop one of
@@ -114,7 +114,7 @@ def _driven_range(mimic: JointMimic, leader: Joint) -> tuple[float, float] | Non
     return min(ends) + 0.0, max(ends) + 0.0  # no -0, which a person would not write
 
 
-def check_joint_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_joint_range(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A revolute or prismatic joint has a range to move in.
 
     URDF takes an unsaid `lower` or `upper` for 0, so a joint that says neither, or one on the wrong side of 0,
@@ -134,7 +134,7 @@ def check_joint_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield EMPTY_RANGE.at(joint.source, "limits", "upper", joint=joint.name, found=found)
 
 
-def check_endless_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_endless_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A continuous joint turns without end, so it has no `lower` and `upper`.
 
     Simulators and planners let it turn beyond them. Make it `revolute` if it stops there, or leave them out; `effort`
@@ -149,7 +149,7 @@ def check_endless_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield RANGE_OF_ENDLESS_JOINT.at(joint.source, "limits", said[0], joint=joint.name, said=" and ".join(said))
 
 
-def check_joint_power(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_joint_power(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """What moves a joint may push and turn it: its `effort` and `velocity` are above 0.
 
     A limit of 0 is a limit: Gazebo, Bullet and ros2_control hold such a joint still, whatever it is told to do.
@@ -166,7 +166,7 @@ def check_joint_power(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield POWERLESS_JOINT.at(joint.source, "limits", none[0], joint=joint.name, fields=" and ".join(none))
 
 
-def check_joint_speed(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_joint_speed(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint that stops at its ends is not faster than joints are: ten turns a second, or 20 m/s.
 
     Data sheets give degrees a second and millimetres a second; a bare number is in rad/s or m/s, and only that is told.
@@ -195,7 +195,7 @@ def check_joint_speed(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         )
 
 
-def check_soft_limits(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_soft_limits(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The soft limits of a safety controller lie within the limits of its joint, the lower one below the upper one.
 
     A controller begins to brake there. A soft limit beyond the stop never acts; with the two crossed, or an unsaid

@@ -12,7 +12,7 @@ from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.physics import inertial_of_shapes, rotated
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.physics import (
     DENSE_LINK,
     FAR_CENTRE,
@@ -128,7 +128,7 @@ def check_centre_of_mass(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnost
             )
 
 
-def check_signs_of_products(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_signs_of_products(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The products of inertia have the signs of the tensor's entries, as URDF wants them: ixy = -∫ x·y dm.
 
     Some CAD programs give ∫ x·y dm. Told where the tensor is that of the link's shapes but for the signs of

@@ -19,7 +19,7 @@ from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from linkforge_compile.roots import exists, is_file
 
 HEADER, TRIANGLE, SAMPLES = 84, 50, 128
@@ -78,9 +78,9 @@ class Effort:
 class RobotMeshes:
     """The meshes of one robot, and the room of its links: each looked for and looked at once, when somebody asks."""
 
-    def __init__(self, robot: Robot, gaps: Gaps) -> None:
+    def __init__(self, robot: Robot, unresolved: UnresolvedNames) -> None:
         self.uses: Sequence[MeshUse] = tuple(_uses(robot))
-        self.finder = MeshFinder(robot, gaps)
+        self.finder = MeshFinder(robot, unresolved)
         self._looked_at: dict[Path, MeshFile] = {}
         self._rooms: dict[str, Room | None] = {}
         self._effort = Effort()
@@ -117,12 +117,12 @@ class RobotMeshes:
 class MeshFinder:
     """Finds the mesh files of a robot: relative ones beside its spec, those of packages as its resolver does."""
 
-    def __init__(self, robot: Robot, gaps: Gaps) -> None:
+    def __init__(self, robot: Robot, unresolved: UnresolvedNames) -> None:
         self.unseen: set[str] = set()
         """Paths of meshes, as written, that lead to where a check may not look."""
         self.unsought: dict[str, str] = {}
         """The package of each mesh, as written, whose package was not looked for: too many others are nowhere."""
-        self._may_look = gaps.may_look
+        self._may_look = unresolved.may_look
         resolver = robot.resource_resolver
         self._resolver: IResourceResolver = resolver
         self._declared = frozenset(resolver.packages if isinstance(resolver, FileSystemResolver) else ())

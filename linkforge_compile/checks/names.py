@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator
 
 from linkforge_compile.checks.references import Use
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME, FRAME_WITH_SLASH, LINK_AND_JOINT, RESERVED_NAME
 
 
-def check_duplicates(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """No two sensors bear one name, and no two transmissions or ros2_control systems.
 
     Who loads the robot takes the first, the last or none of them. Rename one. Two modules keep apart what is in
@@ -21,7 +21,7 @@ def check_duplicates(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     yield from _borne_twice("ros2_control system", (Use(each.name, "", each.source) for each in robot.ros2_controls))
 
 
-def check_semantic_duplicates(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_semantic_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """No two planning groups bear one name, and no two end effectors, virtual joints or states of a group.
 
     MoveIt takes the first group of a name and the last state, and says so in its log at best. Rename one.
@@ -38,7 +38,7 @@ def check_semantic_duplicates(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         yield from _borne_twice("group state", uses)
 
 
-def check_link_and_joint_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_link_and_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """No joint bears the name of a link.
 
     URDF and ROS keep links and joints apart. In Gazebo both are frames of one model: it refuses the second, and
@@ -50,7 +50,7 @@ def check_link_and_joint_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield Use(joint.name, "", joint.source).told(LINK_AND_JOINT, name=joint.name, notes=notes)
 
 
-def check_reserved_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_reserved_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """No link or joint bears a name that Gazebo keeps for itself.
 
     Those are `world`, unless it is the root link, which Gazebo takes for the world itself, and all that begin and
@@ -69,7 +69,7 @@ def _is_reserved(name: str) -> bool:
     return name == "world" or (len(name) >= len("____") and name.startswith("__") and name.endswith("__"))
 
 
-def check_frame_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_frame_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """No link and no frame of a sensor begins with a slash.
 
     Each is a frame to tf2, which strips the slash where a transform is published and refuses it where one is

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_PLUGIN_JOINT
 from linkforge_compile.diagnostics.codes.physics import NO_SIMULATOR_PLUGIN
 
@@ -25,7 +25,7 @@ SIMULATED_HARDWARE = {
 """The file of the Gazebo plugin in which the hardware of a package runs, by the package."""
 
 
-def check_plugin_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_plugin_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """What a plugin is told by `joint_name`, `left_joint` and the like is a joint of this robot.
 
     A plugin that finds no such joint does nothing, or stops the simulator. Correct the name; a joint of a module
@@ -36,7 +36,9 @@ def check_plugin_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     below = _joints_below(robot) if plugins else {}
     for plugin in plugins:
         uses, offered = _named_joints(plugin), below.get(_trail(plugin), ())
-        yield from unknown(uses, UNKNOWN_PLUGIN_JOINT, robot.joints.names, gaps, offered=offered, plugin=plugin.name)
+        yield from unknown(
+            uses, UNKNOWN_PLUGIN_JOINT, robot.joints.names, unresolved, offered=offered, plugin=plugin.name
+        )
 
 
 def _joints_below(robot: Robot) -> Mapping[tuple[Span, ...], Sequence[str]]:
@@ -84,7 +86,7 @@ def _named(plugin: GazeboPlugin, text: str, path: tuple[str | int, ...]) -> Iter
         yield Use(name, f"plugin '{plugin.name}'", plugin.source, path)
 
 
-def check_simulated_hardware(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_simulated_hardware(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """Hardware of ros2_control that is Gazebo's has its plugin in the robot.
 
     `gz_ros2_control/GazeboSimSystem` and its like are no hardware to a controller manager of its own: the plugin
@@ -93,7 +95,7 @@ def check_simulated_hardware(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """
     raw = [*robot.extra_elements, *(text for each in robot.gazebo_elements for text in each.extra_elements)]
     is_loaded = any("ros2_control" in plugin.filename for plugin in _plugins(robot))
-    if gaps or is_loaded or any("ros2_control" in text for text in raw):
+    if unresolved or is_loaded or any("ros2_control" in text for text in raw):
         return
     for control in robot.ros2_controls:
         needed = SIMULATED_HARDWARE.get(control.hardware_plugin.partition("/")[0])

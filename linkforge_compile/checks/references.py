@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.diagnostics import Code, Diagnostic, Gaps, Note
+from linkforge_compile.diagnostics import Code, Diagnostic, Note, UnresolvedNames
 from linkforge_compile.source import Key, SourceRef, Span
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def unknown(
     uses: Iterable[Use],
     code: Code,
     known: Iterable[str],
-    gaps: Gaps,
+    unresolved: UnresolvedNames,
     *,
     offered: Iterable[str] | None = None,
     **facts: object,
@@ -96,9 +96,9 @@ def unknown(
     names = dict.fromkeys(known)
     candidates = names if offered is None else dict.fromkeys(offered)
     for use in uses:
-        if use.name not in names and use.name not in gaps:
+        if use.name not in names and use.name not in unresolved:
             prefix = use.prefix
-            why = gaps.removed.why(use.name)
+            why = unresolved.deleted.notes(use.name)
             is_offered = not why and told < MOST_OFFERED
             near = [name.removeprefix(prefix) for name in candidates if name.startswith(prefix)] if is_offered else []
             yield use.told(code, name=use.name.removeprefix(prefix), near=near, notes=why, **facts)

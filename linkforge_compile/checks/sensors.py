@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from linkforge_compile.checks.references import Use, unknown
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import (
     REFUSED_TOPIC,
     SHARED_TOPIC,
@@ -22,16 +22,16 @@ _BRACE = re.compile(r"[{}]")
 _NUMBERED = re.compile(r"(?:^|/)([0-9][^/]*)")
 
 
-def check_sensor_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_sensor_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A sensor sits on a link of this robot.
 
     A simulator never makes a sensor whose link it does not know, and mostly says nothing. Correct the `link`.
     """
     links = (Use(sensor.link_name, f"sensor '{sensor.name}'", sensor.source, ("link",)) for sensor in robot.sensors)
-    yield from unknown(links, UNKNOWN_LINK, robot.links.names, gaps)
+    yield from unknown(links, UNKNOWN_LINK, robot.links.names, unresolved)
 
 
-def check_sensor_frames(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_sensor_frames(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """The frame of a sensor's messages is a link of this robot.
 
     robot_state_publisher tells tf2 of links and of nothing else, so what is measured in another frame cannot be
@@ -43,10 +43,10 @@ def check_sensor_frames(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
         for sensor in robot.sensors
         if sensor.frame
     )
-    yield from unknown(frames, UNKNOWN_FRAME, robot.links.names, gaps)
+    yield from unknown(frames, UNKNOWN_FRAME, robot.links.names, unresolved)
 
 
-def check_contacts(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_contacts(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A contact sensor watches a collision of the robot, by that collision's name.
 
     Gazebo makes a sensor for a collision that it does not know, and it never reports a contact. On loading a URDF it
@@ -59,7 +59,7 @@ def check_contacts(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
         for sensor in robot.sensors
         if sensor.contact_info and not _may_be_made(sensor.contact_info.collision, robot)
     )
-    yield from unknown(contacts, UNKNOWN_COLLISION, names, gaps)
+    yield from unknown(contacts, UNKNOWN_COLLISION, names, unresolved)
 
 
 def _may_be_made(name: str, robot: Robot) -> bool:
@@ -67,7 +67,7 @@ def _may_be_made(name: str, robot: Robot) -> bool:
     return "_lump__" in name or bool(made and link in robot.links)
 
 
-def check_topics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_topics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A topic of a sensor is one that ROS 2 takes.
 
     Names between slashes hold ASCII letters, digits and `_`, and do not begin with a digit; `~` stands at the
@@ -94,7 +94,7 @@ def _refusal(topic: str) -> str | None:
     return f"'{numbered[1]}' begins with a digit" if numbered else None
 
 
-def check_shared_topics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_shared_topics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """No two sensors publish on one topic.
 
     Readers get the messages of both in turn and cannot tell them apart; of two kinds of message one is lost.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.references import Use, own_positions, unknown
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     ENABLED_ANYWAY,
     PAIR_BOTH_WAYS,
@@ -22,37 +22,37 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import GroupState
 
 
-def check_semantic_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_semantic_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """The semantic part names links of this robot.
 
     MoveIt drops what names another link: a chain and with it the group, an end effector, a collision pair that
     then costs time or stops the robot for no reason. Correct the name, or remove the entry.
     """
-    yield from unknown(_links(robot), UNKNOWN_LINK, robot.links.names, gaps)
+    yield from unknown(_links(robot), UNKNOWN_LINK, robot.links.names, unresolved)
 
 
-def check_semantic_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_semantic_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """The semantic part names joints of this robot, or its own virtual joints.
 
     MoveIt drops what names another joint: it is missing from its group, or its position from the state.
     """
     known = (*robot.joints.names, *(joint.name for joint in robot.semantic.virtual_joints))
-    yield from unknown(_joints(robot), UNKNOWN_JOINT, known, gaps)
+    yield from unknown(_joints(robot), UNKNOWN_JOINT, known, unresolved)
 
 
-def check_semantic_groups(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_semantic_groups(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """Subgroups, states and end effectors name planning groups of this robot.
 
     MoveIt drops a group with an unknown subgroup, and states and end effectors of unknown groups.
     """
     groups = _names_of_groups(robot)
     for state in robot.semantic.group_states:
-        if state.group not in gaps and (meant := _turned_round(state, groups)):
+        if state.group not in unresolved and (meant := _turned_round(state, groups)):
             use = _group_of(state)
             names = [name.removeprefix(use.prefix) for name in meant]
             hint = f"; the group comes first: write '{': {'.join(names)}: …{'}' * (len(names) - 1)}'"
             yield use.told(UNKNOWN_GROUP, name=state.group.removeprefix(use.prefix), hint=hint)
-    yield from unknown(_groups(robot, groups), UNKNOWN_GROUP, groups, gaps, hint="")
+    yield from unknown(_groups(robot, groups), UNKNOWN_GROUP, groups, unresolved, hint="")
 
 
 def _turned_round(state: GroupState, groups: Collection[str]) -> tuple[str, ...]:
@@ -65,7 +65,7 @@ def _turned_round(state: GroupState, groups: Collection[str]) -> tuple[str, ...]
     return (group, state.name, state.group) if group else ()
 
 
-def check_virtual_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_virtual_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A virtual joint places the root link in the world.
 
     MoveIt skips one that holds any other link. Name the root as `child_link`, or leave the virtual joint out.
@@ -73,7 +73,7 @@ def check_virtual_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     """
     children = {joint.child for joint in robot.joints}
     roots = [link.name for link in robot.links if link.name not in children]
-    if gaps or len(roots) != 1:
+    if unresolved or len(roots) != 1:
         return
     for joint in robot.semantic.virtual_joints:
         if robot.has_link(joint.child_link) and joint.child_link != roots[0]:
@@ -81,7 +81,7 @@ def check_virtual_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
             yield use.told(VIRTUAL_JOINT_NOT_AT_ROOT, link=joint.child_link, root=roots[0])
 
 
-def check_virtual_joint_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_virtual_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A virtual joint bears a name that no joint of the robot has.
 
     MoveIt keeps both under one name and takes the one for the other, in groups and states too. Rename it.
@@ -92,7 +92,7 @@ def check_virtual_joint_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield Use(virtual.name, "", virtual.source).told(VIRTUAL_NAME_TAKEN, name=virtual.name, notes=notes)
 
 
-def check_collision_pairs(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_collision_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A pair of links is listed once, under either of its links.
 
     The second entry says nothing new, or gives another reason that nobody reads. Remove one.
@@ -107,7 +107,7 @@ def check_collision_pairs(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
                 yield PAIR_TWICE.at(pair.source, link1=pair.link1, link2=pair.link2, notes=notes)
 
 
-def check_enabled_pairs(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_enabled_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """An enabled pair makes an exception from `no_default_collision_links`, and is not disabled.
 
     MoveIt looks at every pair of links that nobody disables; an enabled pair brings back one of a link whose
@@ -127,7 +127,7 @@ def check_enabled_pairs(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield ENABLED_ANYWAY.at(pair.source, link1=pair.link1, link2=pair.link2)
 
 
-def check_passive_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_passive_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """What is passive is not commanded.
 
     MoveIt never plans for a passive joint, so its command interface in ros2_control waits for ever. Drop the

@@ -11,7 +11,7 @@ from linkforge_compile.checks.ranges import ROUNDING, in_unit, is_known, missed_
 from linkforge_compile.checks.references import SHOWN, Use, listed, own_positions
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     STATE_AGAINST_MIMIC,
     STATE_INCOMPLETE,
@@ -40,7 +40,7 @@ MIMIC_ROUNDING = 1e-3
 """How far a follower may be from where its leader puts it [rad] or [m]: states are written with few digits."""
 
 
-def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_group_states(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A state gives positions to joints of its group, within their limits.
 
     MoveIt ignores the value of a joint that is not in the group, and one with the wrong count of numbers; to a
@@ -68,7 +68,7 @@ def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
                 yield from _faults_of_values(use, joint, values)
 
 
-def check_states_taken_over(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_states_taken_over(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A state takes over what its own group can do.
 
     A position that comes from the state of another group is written into this one, and MoveIt ignores it where the
@@ -126,7 +126,7 @@ def _counted(values: tuple[object, ...]) -> str:
     )
 
 
-def check_states_of_mimics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_states_of_mimics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A state puts a joint that mimics another where the other puts it.
 
     MoveIt takes the one or the other value, as their names are sorted, and a robot can take only one of the two
@@ -149,7 +149,7 @@ def check_states_of_mimics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
                 yield use.told(STATE_AGAINST_MIMIC, joint=name, leader=leader, expected=shown, found=written)
 
 
-def check_states_are_whole(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_states_are_whole(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A state says where every joint of its group goes.
 
     MoveIt warns of a joint that a state leaves out, and leaves it where it happens to be, so that one name stands
@@ -158,7 +158,7 @@ def check_states_are_whole(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     with a joint that is not in its group, which may be the one that is missed.
     """
     semantic = robot.semantic
-    if gaps or not semantic.group_states:
+    if unresolved or not semantic.group_states:
         return
     links, moved = LinkSets(robot), moved_links(robot)
     moving = group_links(robot, links)

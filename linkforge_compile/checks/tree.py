@@ -12,7 +12,7 @@ from linkforge_compile.core.models.graph import find_tree_root
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps, Note, Where
+from linkforge_compile.diagnostics import Diagnostic, Note, UnresolvedNames, Where
 from linkforge_compile.diagnostics.codes.model import LINK_CIRCLE, NO_LINKS, SECOND_PARENT, SEVERAL_ROOTS
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
 
@@ -20,16 +20,16 @@ if TYPE_CHECKING:
     from networkx import DiGraph
 
 
-def check_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A robot has at least one link.
 
     No reader of URDF takes a robot without links. Declare one under `links`, or use a module that has some.
     """
-    if not robot.links and not gaps:
+    if not robot.links and not unresolved:
         yield NO_LINKS.at(robot.source, "links", robot=robot.name)
 
 
-def check_joint_ends(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_joint_ends(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint joins two links of this robot.
 
     URDF readers refuse the whole robot when one link is missing. Declare the link, or correct the name;
@@ -39,16 +39,16 @@ def check_joint_ends(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     # Nearly all are known, and to look a name up takes less than to make the use of it.
     without_parent = [joint for joint in robot.joints if joint.parent not in known]
     parents = (Use(joint.parent, f"joint '{joint.name}'", joint.source, ("parent",)) for joint in without_parent)
-    yield from unknown(parents, UNKNOWN_LINK, known, gaps)
+    yield from unknown(parents, UNKNOWN_LINK, known, unresolved)
     without_child = [joint for joint in robot.joints if joint.child not in known]
     if without_child:
         # A link that hangs on a joint already can be no other's child, however like its name.
         taken = {joint.child for joint in robot.joints}
         offered = [name for name in known if name not in taken]
-        yield from unknown(map(hanging, without_child), UNKNOWN_LINK, known, gaps, offered=offered)
+        yield from unknown(map(hanging, without_child), UNKNOWN_LINK, known, unresolved, offered=offered)
 
 
-def check_second_parents(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_second_parents(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A link hangs on one joint only.
 
     URDF describes trees: readers refuse a link with two parents, or keep one of them in silence. Where a
@@ -76,7 +76,7 @@ def _way_to_one_parent(joint: Joint, first: Joint) -> str:
     return "correct the 'child' of one"
 
 
-def check_link_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_link_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """No link hangs on itself, not even by way of others.
 
     Such links have no place in the world, and readers that walk the tree never end. One joint of the circle
@@ -86,7 +86,7 @@ def check_link_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         yield from report_cycles(joint_graph(robot), LINK_CIRCLE)
 
 
-def check_single_root(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_single_root(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """All links but one hang on joints; that one is the root.
 
     URDF readers refuse a robot in several pieces. Add the missing joint, or give a module the `parent` that
@@ -97,7 +97,7 @@ def check_single_root(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     roots = [link for link in robot.links if link.name not in children]
     raw = sum(text.lstrip().startswith("<joint") for text in robot.extra_elements)
     astray = len(robot.joints) - len(children) + raw
-    if gaps or len(roots) - 1 <= astray:
+    if unresolved or len(roots) - 1 <= astray:
         return
     from networkx import descendants
 

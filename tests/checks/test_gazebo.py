@@ -1,6 +1,6 @@
 from linkforge_compile.checks import check
 from linkforge_compile.core import GazeboElement, GazeboPlugin, Joint, JointType, Link, Robot
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import X, body, fixed, robot, told, turning
 
 
@@ -33,7 +33,7 @@ def test_frames_that_carry_nothing_are_fine():
 def test_mass_is_not_missed_while_parts_of_the_robot_are_missing():
     subject = robot("base hand", turning("pan", "base", "head"), turning("tilt", "head", "hand"))
     subject.add_link(Link("head"))
-    assert told(subject, Gaps(frozenset({"counterweight"}))) == []
+    assert told(subject, UnresolvedNames(frozenset({"counterweight"}))) == []
 
 
 def test_a_chain_of_moving_frames_is_told_at_its_first_with_the_joints_that_are_lost():
@@ -42,7 +42,7 @@ def test_a_chain_of_moving_frames_is_told_at_its_first_with_the_joints_that_are_
     )
     subject.links += (Link("roll"), Link("pitch"))
     subject.joints += (fixed("glue", "hand", "tip"),)
-    (diagnostic,) = check(subject, Gaps())
+    (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.message == (
         "joint 'z' moves link 'roll', which has no mass: Gazebo leaves it out with all below it, joints 'y' and 'x' too"
     )

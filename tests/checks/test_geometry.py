@@ -1,5 +1,5 @@
 from linkforge_compile.core import Box, Collision, Inertial, InertiaTensor, Link, Robot, Vector3, Visual
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import fixed, told
 
 CUBE = Box(Vector3(0.1, 0.1, 0.1))
@@ -19,7 +19,7 @@ def test_all_links_that_nothing_touches_are_told_together():
     whole = link("base", seen=True, touched=True)
     subject = of(whole, *(link(name, seen=True, touched=False) for name in ("a", "b")))
     assert told(subject) == ["LF6050 links 'a' and 'b' have a visual and no collision, so everything passes through"]
-    assert told(subject, Gaps(frozenset({"c"}))) == []
+    assert told(subject, UnresolvedNames(frozenset({"c"}))) == []
 
 
 def test_a_robot_only_to_be_seen_is_fine():

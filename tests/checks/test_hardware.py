@@ -10,7 +10,7 @@ from linkforge_compile.core import (
     SensorType,
     Transmission,
 )
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import fixed, robot, told, turning
 
 
@@ -55,7 +55,7 @@ def test_two_systems_may_share_a_joint_but_not_an_interface():
             system("second", Ros2ControlJoint("shoulder", ("velocity", "position"), ("velocity",))),
         ]
     )
-    (diagnostic,) = check(subject, Gaps())
+    (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.code.id == "LF6101"
     assert diagnostic.message == (
         "ros2_control 'second': interface 'shoulder/position' is commanded by ros2_control 'first' already"
@@ -84,4 +84,4 @@ def test_what_is_known_to_be_missing_is_not_told_again():
         ros2_controls=[system("hw", Ros2ControlJoint("lost", ("position",)))],
         gazebo_elements=[GazeboElement("lost")],
     )
-    assert told(subject, Gaps(frozenset({"lost"}))) == []
+    assert told(subject, UnresolvedNames(frozenset({"lost"}))) == []

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from linkforge_compile.checks import check
 from linkforge_compile.checks.inertia import principal_moments
 from linkforge_compile.core import Inertial, InertiaTensor, Link, Robot
-from linkforge_compile.diagnostics import Gaps, Severity
+from linkforge_compile.diagnostics import Severity, UnresolvedNames
 from tests.checks.robots import body, told
 
 FLAT_PLATE = InertiaTensor(0.001, 0.002, 0.003)
@@ -42,7 +42,7 @@ def test_a_moment_rounded_to_six_digits_is_fine():
 def test_what_no_body_can_have_is_a_warning(inertia: InertiaTensor, message: str):
     subject = Robot("r", links=[body("a", 2.0, inertia=inertia)])
     assert told(subject) == [message]
-    assert next(check(subject, Gaps())).severity is Severity.WARNING
+    assert next(check(subject, UnresolvedNames())).severity is Severity.WARNING
 
 
 def test_a_frame_without_mass_may_have_any_tensor():

@@ -9,7 +9,7 @@ from linkforge_compile.checks import check, mesh_files
 from linkforge_compile.checks.mesh_files import SAMPLES, Effort, MeshFile, look_at
 from linkforge_compile.checks.meshes import MOST_ALONE
 from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import told
 
 UNSCALED = Vector3(1.0, 1.0, 1.0)
@@ -73,7 +73,7 @@ def test_a_resolver_that_does_not_mind_capitals_changes_nothing(meshes: Path):
 
 def test_all_files_of_a_folder_that_is_not_there_are_one_fault(meshes: Path):
     subject = of(meshes, *(f"package://arm/mesh/{name}.stl" for name in "abc"), as_collision=True)
-    (diagnostic,) = check(subject, Gaps())
+    (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.message == "there is no mesh 'package://arm/mesh/a.stl'; did you mean 'meshes'?"
     assert [note.message for note in diagnostic.notes] == [
         f"looked for it at {meshes.parent / 'mesh'}",
@@ -89,7 +89,7 @@ def test_behind_a_hundred_missing_files_those_of_a_folder_are_told_together_and_
     folder = "meshes" if is_there else "mesh"
     (meshes / "b100.STL").touch()
     subject = of(meshes, *(f"package://arm/{folder}/b{number}.stl" for number in range(131)))
-    diagnostics = list(check(subject, Gaps()))
+    diagnostics = list(check(subject, UnresolvedNames()))
     alone, together = diagnostics[:-1], diagnostics[-1]
     assert len(alone) == (MOST_ALONE if is_there else 0)
     names = [note.message for note in together.notes if note.message.startswith("nor ")]
@@ -115,7 +115,7 @@ def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looke
     ]
     resolver = FileSystemResolver([meshes], packages={"p": meshes})
     subject = Robot("r", links=links, resource_resolver=resolver)
-    codes = [one.code.id for one in check(subject, Gaps()) if one.code.id in ("LF6021", "LF3403")]
+    codes = [one.code.id for one in check(subject, UnresolvedNames()) if one.code.id in ("LF6021", "LF3403")]
     assert codes == ["LF6021"] * 4 + ["LF3403"]
     assert "in 2 packages that nobody looked for" in next(one for one in told(subject) if "LF3403" in one)
 

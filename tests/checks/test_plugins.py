@@ -1,7 +1,7 @@
 import pytest
 
 from linkforge_compile.core import GazeboElement, GazeboPlugin, Robot, Ros2Control, Ros2ControlJoint
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import robot, told, turning
 
 DRIVEN = Ros2ControlJoint("shoulder", ("position",))
@@ -40,7 +40,7 @@ def test_what_may_be_anything_else_is_not_judged(parameters: dict[str, object]):
 
 
 def test_a_joint_that_is_known_to_be_missing_is_not_told_again():
-    assert told(arm(plugin(joint_name="lost")), Gaps(frozenset({"lost"}))) == []
+    assert told(arm(plugin(joint_name="lost")), UnresolvedNames(frozenset({"lost"}))) == []
 
 
 def simulated(package: str, *plugins: GazeboPlugin, **parts: object) -> list[str]:

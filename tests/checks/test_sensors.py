@@ -1,7 +1,7 @@
 import pytest
 
 from linkforge_compile.core import IMUInfo, Robot, Sensor, SensorType
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import robot, told, turning
 
 
@@ -22,7 +22,7 @@ def test_a_frame_that_no_link_has_is_told():
     assert told(arm(imu("tilt", frame="arms"))) == [
         "LF4202 sensor 'tilt': no link named 'arms', so tf2 cannot tell where this frame is; did you mean 'arm'?"
     ]
-    assert told(arm(imu("tilt", frame="arms")), Gaps(frozenset({"arms"}))) == []
+    assert told(arm(imu("tilt", frame="arms")), UnresolvedNames(frozenset({"arms"}))) == []
 
 
 @pytest.mark.parametrize("topic", ["imu", "/imu", "~", "~/imu", "a/b_2/C", "/{node}/imu", "x{robot}_imu", "a__b", "_2"])

@@ -15,7 +15,7 @@ from linkforge_compile.core import (
     SemanticRobotDescription,
     VirtualJoint,
 )
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import robot, told, turning
 
 
@@ -69,7 +69,7 @@ def test_a_name_that_nothing_bears_is_told_once(message: str, semantic: dict[str
 
 @pytest.mark.parametrize("semantic", NAMES_NOTHING.values(), ids=NAMES_NOTHING)
 def test_a_name_that_is_known_to_be_missing_is_not_told_again(semantic: dict[str, object]):
-    assert told(arm(**semantic), Gaps(frozenset({"lost"}))) == []
+    assert told(arm(**semantic), UnresolvedNames(frozenset({"lost"}))) == []
 
 
 def test_groups_and_states_may_name_virtual_joints():

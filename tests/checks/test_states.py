@@ -13,7 +13,7 @@ from linkforge_compile.core import (
     SemanticRobotDescription,
     VirtualJoint,
 )
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import LEFT, chain, robot, told, turning, two_arms
 
 
@@ -77,7 +77,7 @@ RIGHT = chain("right", "torso", "right_hand")
 def test_a_state_that_leaves_a_joint_open_is_noted():
     subject = two_arms(groups=(LEFT, RIGHT, BOTH), group_states=(GroupState("up", "both", {"left_shoulder": 0}),))
     assert told(subject) == ["LF5613 state 'up' of group 'both' does not place 'right_shoulder'"]
-    assert told(subject, Gaps(frozenset({"lost"}))) == []
+    assert told(subject, UnresolvedNames(frozenset({"lost"}))) == []
 
 
 def test_fixed_and_passive_joints_need_no_place():

@@ -2,7 +2,7 @@ import pytest
 
 from linkforge_compile.checks import check
 from linkforge_compile.core import Robot
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import body, fixed, robot, told
 
 
@@ -27,13 +27,13 @@ def test_two_joints_with_one_missing_link_are_two_faults():
 
 def test_what_is_known_to_be_missing_is_not_told_again():
     subject = robot("base", fixed("elbow", "base", "lost"), fixed("wrist", "base", "left_hand"))
-    assert told(subject, Gaps(frozenset({"lost"}), ("left_",))) == []
+    assert told(subject, UnresolvedNames(frozenset({"lost"}), ("left_",))) == []
 
 
 def test_a_second_parent_is_told_at_the_second_joint():
     subject = robot("base left right hand", fixed("l", "base", "left"), fixed("r", "base", "right"))
     subject.joints += (fixed("first", "left", "hand"), fixed("second", "right", "hand"))
-    (diagnostic,) = check(subject, Gaps())
+    (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.message == (
         "joint 'second': link 'hand' has two parents: joint 'second' hangs it on 'right', joint 'first' on 'left' "
         "already; correct the 'child' of one"
@@ -50,7 +50,7 @@ def test_a_joint_back_up_the_tree_is_one_circle_and_no_second_parent(closing_joi
 
 def test_a_circle_without_a_root_is_told_once_with_all_its_joints():
     subject = robot("a b c", fixed("ab", "a", "b"), fixed("bc", "b", "c"), fixed("ca", "c", "a"))
-    (diagnostic,) = check(subject, Gaps())
+    (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.message == "joint 'ca': links hang on one another in a circle: a → b → c → a"
     assert [note.message for note in diagnostic.notes] == ["joint 'ab' leads to 'b'", "joint 'bc' leads to 'c'"]
 
@@ -75,13 +75,13 @@ def test_the_root_is_the_world_or_what_was_written_first(links: str, root: str):
     """Of two trees the larger one is the arm, whose joint to its base was lost."""
     base = "world" if root == "world" else "mount"
     joints = (fixed("a", base, "bracket"), fixed("b", "arm", "elbow"), fixed("c", "elbow", "hand"))
-    (diagnostic,) = check(robot(links, *joints), Gaps())
+    (diagnostic,) = check(robot(links, *joints), UnresolvedNames())
     assert diagnostic.message.endswith(f" on '{root}'")
 
 
 def test_several_roots_are_told_once_and_a_link_that_stands_alone_is_none():
     subject = robot("camera base arm lidar", fixed("shoulder", "base", "arm"))
-    (diagnostic,) = check(subject, Gaps())
+    (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.message == (
         "3 links are no joint's child: 'camera', 'base' and 'lidar'; "
         "only one may be the root, so hang 'camera' and 'lidar' on 'base'"
@@ -110,8 +110,8 @@ def test_a_link_that_a_copied_child_left_alone_is_no_second_fault():
 
 
 def test_the_tree_is_not_judged_while_parts_of_it_are_missing():
-    assert told(robot("base camera"), Gaps(frozenset({"mount"}))) == []
-    assert told(Robot("r"), Gaps(prefixes=("",))) == []
+    assert told(robot("base camera"), UnresolvedNames(frozenset({"mount"}))) == []
+    assert told(Robot("r"), UnresolvedNames(prefixes=("",))) == []
 
 
 def test_a_chain_of_10000_links_is_checked_without_recursion():
