@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from itertools import takewhile
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.checks.references import SHOWN, Use, listed
-from linkforge_compile.checks.tree import hanging
+from linkforge_compile.checks.references import SHOWN, Reference, join_names
+from linkforge_compile.checks.tree import child_reference
 from linkforge_compile.core.constants import WORLD
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
 from linkforge_compile.core.models.joint import Joint, JointType
@@ -66,8 +66,8 @@ def check_massless_bodies(robot: Robot, unresolved: UnresolvedNames) -> Iterator
 
 
 def _lost(link: Link, joint: Joint | None, moving: Sequence[Joint]) -> Diagnostic:
-    also = f", joint{'s' if len(moving) > 1 else ''} {listed([one.name for one in moving])} too" if moving else ""
-    notes = [hanging(one).note(f"joint '{one.name}' is lost") for one in moving[:SHOWN]]
+    also = f", joint{'s' if len(moving) > 1 else ''} {join_names([one.name for one in moving])} too" if moving else ""
+    notes = [child_reference(one).note(f"joint '{one.name}' is lost") for one in moving[:SHOWN]]
     if joint is None:
         return MASSLESS_ROOT.at(link.source, "inertial", "mass", link=link.name, also=also, notes=notes)
     where = ("inertial", "mass")
@@ -113,8 +113,8 @@ def check_merged_links(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]
     for block, plugin in plugins if merged else ():
         for path, name in _named_links(plugin.parameters):
             if joint := merged.get(name):
-                use = Use(name, f"plugin '{plugin.name}'", plugin.source or block.source, ("parameters", *path))
-                yield use.told(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
+                ref = Reference(name, f"plugin '{plugin.name}'", plugin.source or block.source, ("parameters", *path))
+                yield ref.report(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
 
 
 class _Tag(NamedTuple):

@@ -1,13 +1,13 @@
-"""How far joints go, and joints that follow other joints."""
+"""Ranges of joints, and joints that mimic other joints."""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 
-from linkforge_compile.checks.cycles import report_cycles
-from linkforge_compile.checks.ranges import is_known, measured, passed_range, says_unit, unit_at
-from linkforge_compile.checks.references import Use, unknown
+from linkforge_compile.checks.references import Reference, report_cycles, report_unknown
+from linkforge_compile.core.constants import UNKNOWN
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointMimic, JointSafetyController, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
@@ -25,6 +25,90 @@ from linkforge_compile.diagnostics.codes.model import (
     SOFT_LIMITS_CROSSED,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT
+from linkforge_compile.source import Key
+
+WITHIN_LIMITS: dict[str, str] = {JointType.REVOLUTE: "rad", JointType.PRISMATIC: "m"}
+"""The joints whose limits bound their position, and its unit."""
+
+ROUNDING = 1e-4
+"""How far a position may pass a limit [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
+
+
+_SIZES = {"deg": math.pi / 180, "°": math.pi / 180, "mm": 0.001, "cm": 0.01}
+"""What a unit in which positions are often written is in [rad] or [m]."""
+
+_UNIT = re.compile(r"[0-9.]\s*(?P<unit>deg|°|mm|cm)['\"]?")
+
+_SAYS_UNIT = re.compile(r"[0-9]\.?\s*(?![eE][-+]?[0-9])[^\W\d_]|°|\$\(")
+
+
+def says_unit(text: str | None) -> bool:
+    """Whether a number is written with a unit, or computed, which may have one; False for no text."""
+    return bool(text and _SAYS_UNIT.search(text))
+
+
+def unit_in(text: str | None) -> str | None:
+    """Return the unit in which a position is written; None for one in SI units, for an expression, and for no text."""
+    found = _UNIT.search(text) if text and "$(" not in text else None
+    return found["unit"] if found else None
+
+
+def in_unit(position: float, unit: str | None) -> str:
+    """Return a position [rad] or [m] as a person who uses that unit reads it; None is SI, without the unit's name."""
+    return f"{position:.6g}" if unit is None else f"{position / _SIZES[unit]:.6g} {unit}"
+
+
+def is_known(*numbers: float | None) -> bool:
+    """Whether none of these stands in for a number whose fault was told."""
+    return all(number is None or abs(number) < UNKNOWN for number in numbers)
+
+
+def unit_at(joint: Joint, *paths: tuple[str | Key, ...]) -> str | None:
+    """Return the unit in which the first of some positions that says one is written."""
+    places = (joint.source.at(*path) for path in paths) if joint.source else ()
+    return next((unit for place in places if (unit := unit_in(place.text))), None)
+
+
+def measured(joint: Joint, position: float, unit: str | None) -> str:
+    """Return a position [rad] or [m] with its unit, the SI one for None."""
+    return in_unit(position, unit) if unit else f"{in_unit(position, None)} {WITHIN_LIMITS[joint.type]}"
+
+
+def missed_range(joint: Joint, lowest: float, highest: float, unit: str | None = None) -> str | None:
+    """Return "from -1 to 1 rad" if the joint can be nowhere between two positions [rad] or [m]; None if it can.
+
+    In another `unit` it says "from -90 deg to 90 deg".
+    """
+    limits = joint.limits
+    if limits is None or joint.type not in WITHIN_LIMITS:
+        return None
+    lower, upper = limits.lower, limits.upper
+    below = lower is not None and highest < lower - ROUNDING
+    above = upper is not None and lowest > upper + ROUNDING
+    return _range(joint, lower, upper, unit) if below or above else None
+
+
+def passed_range(joint: Joint, lowest: float, highest: float) -> tuple[str, str] | None:
+    """Return the range of a joint and the one in which it is driven [rad] or [m], in words, if that is not within.
+
+    Both are in the unit in which the joint's limits are written.
+    """
+    limits = joint.limits
+    if limits is None or joint.type not in WITHIN_LIMITS:
+        return None
+    below = limits.lower is not None and lowest < limits.lower - ROUNDING
+    above = limits.upper is not None and highest > limits.upper + ROUNDING
+    if not (below or above):
+        return None
+    unit = unit_at(joint, ("limits", "lower"), ("limits", "upper"))
+    return _range(joint, limits.lower, limits.upper, unit), _range(joint, lowest, highest, unit)
+
+
+def _range(joint: Joint, lower: float | None, upper: float | None, unit: str | None) -> str:
+    ends = (("from", lower), ("to", upper))
+    bounds = [f"{way} {in_unit(end, unit)}" for way, end in ends if end is not None and is_known(end)]
+    return " ".join((*bounds, *(() if unit else (WITHIN_LIMITS[joint.type],))))
+
 
 AXIS_JOINTS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 """The types whose position is one number, which is all that a mimic can multiply."""
@@ -47,7 +131,7 @@ def check_mimic_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Di
     Readers refuse the robot or leave the joint free to dangle. Correct the name; a joint of a module bears
     the module's prefix.
     """
-    yield from unknown(_mimics(robot).values(), UNKNOWN_JOINT, robot.joints.names, unresolved)
+    yield from report_unknown(_mimics(robot).values(), UNKNOWN_JOINT, robot.joints.names, unresolved)
 
 
 def check_mimic_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -70,8 +154,8 @@ def check_mimic_freedom(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
             continue
         leader = robot.joints.get(joint.mimic.joint)
         if leader and leader is not joint and not {joint.type, leader.type}.issubset(AXIS_JOINTS):
-            use = _mimic(joint, joint.mimic)
-            yield use.told(MIMIC_FREEDOM, joint=joint.name, type=joint.type, leader=leader.name, led=leader.type)
+            ref = _mimic(joint, joint.mimic)
+            yield ref.report(MIMIC_FREEDOM, joint=joint.name, type=joint.type, leader=leader.name, led=leader.type)
 
 
 def check_mimic_motion(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -238,9 +322,9 @@ def _idle_soft_limits(joint: Joint, safety: JointSafetyController, limits: Joint
             )
 
 
-def _mimics(robot: Robot) -> dict[str, Use]:
+def _mimics(robot: Robot) -> dict[str, Reference]:
     return {joint.name: _mimic(joint, joint.mimic) for joint in robot.joints if joint.mimic}
 
 
-def _mimic(joint: Joint, mimic: JointMimic) -> Use:
-    return Use(mimic.joint, f"joint '{joint.name}'", joint.source, ("mimic", "joint"))
+def _mimic(joint: Joint, mimic: JointMimic) -> Reference:
+    return Reference(mimic.joint, f"joint '{joint.name}'", joint.source, ("mimic", "joint"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.references import Use, own_positions, unknown
+from linkforge_compile.checks.references import Reference, own_positions, report_unknown
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
@@ -28,7 +28,7 @@ def check_semantic_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[
     MoveIt drops what names another link: a chain and with it the group, an end effector, a collision pair that
     then costs time or stops the robot for no reason. Correct the name, or remove the entry.
     """
-    yield from unknown(_links(robot), UNKNOWN_LINK, robot.links.names, unresolved)
+    yield from report_unknown(_links(robot), UNKNOWN_LINK, robot.links.names, unresolved)
 
 
 def check_semantic_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -37,7 +37,7 @@ def check_semantic_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator
     MoveIt drops what names another joint: it is missing from its group, or its position from the state.
     """
     known = (*robot.joints.names, *(joint.name for joint in robot.semantic.virtual_joints))
-    yield from unknown(_joints(robot), UNKNOWN_JOINT, known, unresolved)
+    yield from report_unknown(_joints(robot), UNKNOWN_JOINT, known, unresolved)
 
 
 def check_semantic_groups(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -48,11 +48,11 @@ def check_semantic_groups(robot: Robot, unresolved: UnresolvedNames) -> Iterator
     groups = _names_of_groups(robot)
     for state in robot.semantic.group_states:
         if state.group not in unresolved and (meant := _turned_round(state, groups)):
-            use = _group_of(state)
-            names = [name.removeprefix(use.prefix) for name in meant]
+            ref = _group_of(state)
+            names = [name.removeprefix(ref.prefix) for name in meant]
             hint = f"; the group comes first: write '{': {'.join(names)}: …{'}' * (len(names) - 1)}'"
-            yield use.told(UNKNOWN_GROUP, name=state.group.removeprefix(use.prefix), hint=hint)
-    yield from unknown(_groups(robot, groups), UNKNOWN_GROUP, groups, unresolved, hint="")
+            yield ref.report(UNKNOWN_GROUP, name=state.group.removeprefix(ref.prefix), hint=hint)
+    yield from report_unknown(_groups(robot, groups), UNKNOWN_GROUP, groups, unresolved, hint="")
 
 
 def _turned_round(state: GroupState, groups: Collection[str]) -> tuple[str, ...]:
@@ -77,8 +77,8 @@ def check_virtual_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[
         return
     for joint in robot.semantic.virtual_joints:
         if robot.has_link(joint.child_link) and joint.child_link != roots[0]:
-            use = Use(joint.child_link, f"virtual joint '{joint.name}'", joint.source, ("child_link",))
-            yield use.told(VIRTUAL_JOINT_NOT_AT_ROOT, link=joint.child_link, root=roots[0])
+            ref = Reference(joint.child_link, f"virtual joint '{joint.name}'", joint.source, ("child_link",))
+            yield ref.report(VIRTUAL_JOINT_NOT_AT_ROOT, link=joint.child_link, root=roots[0])
 
 
 def check_virtual_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -88,8 +88,12 @@ def check_virtual_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diag
     """
     for virtual in robot.semantic.virtual_joints:
         if joint := robot.joints.get(virtual.name):
-            notes = Use(joint.name, "", joint.source).notes(f"joint '{joint.name}' stands here") if joint.source else ()
-            yield Use(virtual.name, "", virtual.source).told(VIRTUAL_NAME_TAKEN, name=virtual.name, notes=notes)
+            notes = (
+                Reference(joint.name, "", joint.source).notes(f"joint '{joint.name}' stands here")
+                if joint.source
+                else ()
+            )
+            yield Reference(virtual.name, "", virtual.source).report(VIRTUAL_NAME_TAKEN, name=virtual.name, notes=notes)
 
 
 def check_collision_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -98,11 +102,11 @@ def check_collision_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnost
     The second entry says nothing new, or gives another reason that nobody reads. Remove one.
     """
     for pairs in (robot.semantic.disabled_collisions, robot.semantic.enabled_collisions):
-        first: dict[frozenset[str], Use] = {}
+        first: dict[frozenset[str], Reference] = {}
         for pair in pairs:
-            use = Use(pair.link2, "collision pair", pair.source)
-            earlier = first.setdefault(frozenset((pair.link1, pair.link2)), use)
-            if earlier is not use:
+            ref = Reference(pair.link2, "collision pair", pair.source)
+            earlier = first.setdefault(frozenset((pair.link1, pair.link2)), ref)
+            if earlier is not ref:
                 notes = earlier.notes("the first entry") if earlier.source else []
                 yield PAIR_TWICE.at(pair.source, link1=pair.link1, link2=pair.link2, notes=notes)
 
@@ -121,7 +125,7 @@ def check_enabled_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
         if not all(map(robot.has_link, ends)):
             continue
         if other := disabled.get(ends):
-            notes = Use("", "", other.source).notes("disabled here") if other.source else ()
+            notes = Reference("", "", other.source).notes("disabled here") if other.source else ()
             yield PAIR_BOTH_WAYS.at(pair.source, link1=pair.link1, link2=pair.link2, notes=notes)
         elif not ends & off:
             yield ENABLED_ANYWAY.at(pair.source, link1=pair.link1, link2=pair.link2)
@@ -138,66 +142,68 @@ def check_passive_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
         for driven in control.joints:
             joint = passive.get(driven.name)
             if joint and driven.command_interfaces:
-                command = Use(joint.name, f"ros2_control '{control.name}'", driven.source, ("command_interfaces",))
+                command = Reference(
+                    joint.name, f"ros2_control '{control.name}'", driven.source, ("command_interfaces",)
+                )
                 notes = [command.note(f"{command.user} commands it")]
                 yield PASSIVE_COMMANDED.at(joint.source, joint=joint.name, control=control.name, notes=notes)
 
 
-def _links(robot: Robot) -> Iterator[Use]:
+def _links(robot: Robot) -> Iterator[Reference]:
     semantic = robot.semantic
     for virtual in semantic.virtual_joints:
-        yield Use(virtual.child_link, f"virtual joint '{virtual.name}'", virtual.source, ("child_link",))
+        yield Reference(virtual.child_link, f"virtual joint '{virtual.name}'", virtual.source, ("child_link",))
     for group in semantic.groups:
         user = f"planning group '{group.name}'"
         for place, link in enumerate(group.links):
-            yield Use(link, user, group.source, ("links", place))
+            yield Reference(link, user, group.source, ("links", place))
         for chain in group.chains:
-            yield Use(chain.base_link, user, chain.source or group.source, ("base_link",))
-            yield Use(chain.tip_link, user, chain.source or group.source, ("tip_link",))
+            yield Reference(chain.base_link, user, chain.source or group.source, ("base_link",))
+            yield Reference(chain.tip_link, user, chain.source or group.source, ("tip_link",))
     for effector in semantic.end_effectors:
-        yield Use(effector.parent_link, f"end effector '{effector.name}'", effector.source, ("parent_link",))
+        yield Reference(effector.parent_link, f"end effector '{effector.name}'", effector.source, ("parent_link",))
     for pair in (*semantic.disabled_collisions, *semantic.enabled_collisions):
         user = f"collision pair '{pair.link1}', '{pair.link2}'"
-        yield Use(pair.link1, user, pair.source, ("link1",))
-        yield Use(pair.link2, user, pair.source, ("link2",))
+        yield Reference(pair.link1, user, pair.source, ("link1",))
+        yield Reference(pair.link2, user, pair.source, ("link2",))
     for place, link in enumerate(semantic.no_default_collision_links):
         path = ("no_default_collision_links", place)
-        yield Use(link, "no_default_collision_links", semantic.source, path)
+        yield Reference(link, "no_default_collision_links", semantic.source, path)
     for approximation in semantic.link_sphere_approximations:
-        yield Use(approximation.link, "link_sphere_approximations", approximation.source, ("link",))
+        yield Reference(approximation.link, "link_sphere_approximations", approximation.source, ("link",))
 
 
-def _joints(robot: Robot) -> Iterator[Use]:
+def _joints(robot: Robot) -> Iterator[Reference]:
     semantic, groups = robot.semantic, _names_of_groups(robot)
     for group in semantic.groups:
         for place, joint in enumerate(group.joints):
-            yield Use(joint, f"planning group '{group.name}'", group.source, ("joints", place))
+            yield Reference(joint, f"planning group '{group.name}'", group.source, ("joints", place))
     for state in semantic.group_states:
         for joint, key in own_positions(state).items() if not _turned_round(state, groups) else ():
-            yield Use(joint, f"state '{state.name}' of group '{state.group}'", state.source, (key,))
+            yield Reference(joint, f"state '{state.name}' of group '{state.group}'", state.source, (key,))
     for passive in semantic.passive_joints:
-        yield Use(passive.name, "passive_joints", passive.source)
+        yield Reference(passive.name, "passive_joints", passive.source)
     for remark in semantic.joint_properties:
-        yield Use(remark.joint_name, f"joint property '{remark.property_name}'", remark.source, ("joint_name",))
+        yield Reference(remark.joint_name, f"joint property '{remark.property_name}'", remark.source, ("joint_name",))
 
 
 def _names_of_groups(robot: Robot) -> Collection[str]:
     return dict.fromkeys(group.name for group in robot.semantic.groups)
 
 
-def _group_of(state: GroupState) -> Use:
-    return Use(state.group, f"group state '{state.name}'", state.source, ("group",))
+def _group_of(state: GroupState) -> Reference:
+    return Reference(state.group, f"group state '{state.name}'", state.source, ("group",))
 
 
-def _groups(robot: Robot, known: Collection[str]) -> Iterator[Use]:
+def _groups(robot: Robot, known: Collection[str]) -> Iterator[Reference]:
     """Yield the uses of groups, but for states that have their names in another order."""
     semantic = robot.semantic
     for group in semantic.groups:
         for place, subgroup in enumerate(group.subgroups):
-            yield Use(subgroup, f"planning group '{group.name}'", group.source, ("subgroups", place))
+            yield Reference(subgroup, f"planning group '{group.name}'", group.source, ("subgroups", place))
     yield from (_group_of(state) for state in semantic.group_states if not _turned_round(state, known))
     for effector in semantic.end_effectors:
         user = f"end effector '{effector.name}'"
-        yield Use(effector.group, user, effector.source, ("group",))
+        yield Reference(effector.group, user, effector.source, ("group",))
         if effector.parent_group:
-            yield Use(effector.parent_group, user, effector.source, ("parent_group",))
+            yield Reference(effector.parent_group, user, effector.source, ("parent_group",))

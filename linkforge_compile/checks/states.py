@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.link_sets import LinkSets, group_links, moved_links
-from linkforge_compile.checks.ranges import ROUNDING, in_unit, is_known, missed_range, unit_in
-from linkforge_compile.checks.references import SHOWN, Use, listed, own_positions
+from linkforge_compile.checks.groups import LinkSets, group_links, moved_links
+from linkforge_compile.checks.joints import ROUNDING, in_unit, is_known, missed_range, unit_in
+from linkforge_compile.checks.references import SHOWN, Reference, join_names, own_positions
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
@@ -58,14 +58,14 @@ def check_group_states(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]
             joint = robot.joints.get(name) or virtual.get(name)
             if joint is None:
                 continue
-            use = _at_value(state, name, key)
+            ref = _at_value(state, name, key)
             members = moving.get(state.group)
             if members and not members & links.bit(_moved_link(joint)):
-                yield use._replace(path=(key,)).told(
+                yield ref._replace(path=(key,)).report(
                     STATE_OUTSIDE_GROUP, joint=name, group=state.group, state=state.name
                 )
             elif isinstance(values, tuple):
-                yield from _faults_of_values(use, joint, values)
+                yield from _faults_of_values(ref, joint, values)
 
 
 def check_states_taken_over(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -86,26 +86,26 @@ def check_states_taken_over(robot: Robot, _: UnresolvedNames) -> Iterator[Diagno
         if outside:
             them = "it" if len(outside) == 1 else "them"
             yield STATE_TAKES_OTHERS_ALONG.at(
-                state.source, state=state.name, group=state.group, joints=listed(outside), them=them
+                state.source, state=state.name, group=state.group, joints=join_names(outside), them=them
             )
 
 
-def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[object, ...]) -> Iterator[Diagnostic]:
+def _faults_of_values(ref: Reference, joint: Joint | VirtualJoint, values: tuple[object, ...]) -> Iterator[Diagnostic]:
     count, expected = VALUES_IN_A_STATE.get(joint.type, (len(values), ""))
     if len(values) != count:
         found = _counted(values) + ("" if count else "; leave it out")
-        yield use.told(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=found)
+        yield ref.report(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=found)
     elif isinstance(joint, Joint) and values and isinstance(position := values[0], int | float):
-        yield from _fault_of_position(use, joint, position)
+        yield from _fault_of_position(ref, joint, position)
 
 
-def _fault_of_position(use: Use, joint: Joint, position: float) -> Iterator[Diagnostic]:
+def _fault_of_position(ref: Reference, joint: Joint, position: float) -> Iterator[Diagnostic]:
     # Few are outside, and to know in which unit a value is written takes longer than to compare it.
-    if missed_range(joint, position, position) is None or _is_doubted(position, joint, use.place):
+    if missed_range(joint, position, position) is None or _is_doubted(position, joint, ref.place):
         return
-    unit = unit_in(use.place.text) if use.place else None
+    unit = unit_in(ref.place.text) if ref.place else None
     span = missed_range(joint, position, position, unit)
-    yield use.told(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=in_unit(position, unit))
+    yield ref.report(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=in_unit(position, unit))
 
 
 def _is_doubted(position: float, joint: Joint, place: Span | None) -> bool:
@@ -143,10 +143,10 @@ def check_states_of_mimics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnos
                 continue
             expected = joint.mimic.multiplier * led + joint.mimic.offset
             if not math.isclose(found, expected, rel_tol=ROUNDING, abs_tol=MIMIC_ROUNDING):
-                use, leader = _at_value(state, name, key), joint.mimic.joint
-                unit = unit_in(use.place.text) if use.place else None
+                ref, leader = _at_value(state, name, key), joint.mimic.joint
+                unit = unit_in(ref.place.text) if ref.place else None
                 shown, written = in_unit(expected, unit), in_unit(found, unit)
-                yield use.told(STATE_AGAINST_MIMIC, joint=name, leader=leader, expected=shown, found=written)
+                yield ref.report(STATE_AGAINST_MIMIC, joint=name, leader=leader, expected=shown, found=written)
 
 
 def check_states_are_whole(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -173,13 +173,13 @@ def check_states_are_whole(robot: Robot, unresolved: UnresolvedNames) -> Iterato
         members, placed = moving.get(state.group, 0), links.of(moved.get(name, "") for name in state.joint_values)
         left = 0 if placed is None or placed & ~members else members & movable & ~placed
         if left:
-            use = Use(state.name, "", state.source)
-            joints = listed([free[link] for link in links.first(left, SHOWN)], left.bit_count())
-            yield use.told(STATE_INCOMPLETE, state=state.name, group=state.group, joints=joints)
+            ref = Reference(state.name, "", state.source)
+            joints = join_names([free[link] for link in links.first(left, SHOWN)], left.bit_count())
+            yield ref.report(STATE_INCOMPLETE, state=state.name, group=state.group, joints=joints)
 
 
-def _at_value(state: GroupState, joint: str, key: Key) -> Use:
-    return Use(joint, f"state '{state.name}' of group '{state.group}'", state.source, (str(key),))
+def _at_value(state: GroupState, joint: str, key: Key) -> Reference:
+    return Reference(joint, f"state '{state.name}' of group '{state.group}'", state.source, (str(key),))
 
 
 def _position(positions: Mapping[str, object], joint: str) -> float | None:

@@ -5,8 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.cycles import Graph, cycles, report_cycles
-from linkforge_compile.checks.references import SHOWN, Use, listed, unknown
+from linkforge_compile.checks.references import (
+    SHOWN,
+    Graph,
+    Reference,
+    find_reference_cycles,
+    join_names,
+    report_cycles,
+    report_unknown,
+)
 from linkforge_compile.core.constants import WORLD
 from linkforge_compile.core.models.graph import find_tree_root
 from linkforge_compile.core.models.joint import Joint
@@ -38,14 +45,14 @@ def check_joint_ends(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diag
     known = dict.fromkeys(robot.links.names)
     # Nearly all are known, and to look a name up takes less than to make the use of it.
     without_parent = [joint for joint in robot.joints if joint.parent not in known]
-    parents = (Use(joint.parent, f"joint '{joint.name}'", joint.source, ("parent",)) for joint in without_parent)
-    yield from unknown(parents, UNKNOWN_LINK, known, unresolved)
+    parents = (Reference(joint.parent, f"joint '{joint.name}'", joint.source, ("parent",)) for joint in without_parent)
+    yield from report_unknown(parents, UNKNOWN_LINK, known, unresolved)
     without_child = [joint for joint in robot.joints if joint.child not in known]
     if without_child:
         # A link that hangs on a joint already can be no other's child, however like its name.
         taken = {joint.child for joint in robot.joints}
         offered = [name for name in known if name not in taken]
-        yield from unknown(map(hanging, without_child), UNKNOWN_LINK, known, unresolved, offered=offered)
+        yield from report_unknown(map(child_reference, without_child), UNKNOWN_LINK, known, unresolved, offered=offered)
 
 
 def check_second_parents(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -59,14 +66,14 @@ def check_second_parents(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
     for joint in robot.joints:
         joints_above.setdefault(joint.child, []).append(joint)
     shared = [joints for child, joints in joints_above.items() if len(joints) > 1 and robot.has_link(child)]
-    closing = {cycle[-1].user for cycle in cycles(joint_graph(robot))} if shared else set()
+    closing = {cycle[-1].user for cycle in find_reference_cycles(joint_graph(robot))} if shared else set()
     for joints in shared:
-        first, *others = [joint for joint in joints if hanging(joint).user not in closing] or joints[:1]
-        note = hanging(first).note(f"joint '{first.name}' hangs '{first.child}' on '{first.parent}'")
+        first, *others = [joint for joint in joints if child_reference(joint).user not in closing] or joints[:1]
+        note = child_reference(first).note(f"joint '{first.name}' hangs '{first.child}' on '{first.parent}'")
         for joint in others:
             facts = {"link": joint.child, "joint": joint.name, "parent": joint.parent, "first": first.name}
             facts |= {"other": first.parent, "way_out": _way_to_one_parent(joint, first)}
-            yield hanging(joint).told(SECOND_PARENT, notes=[note], **facts)
+            yield child_reference(joint).report(SECOND_PARENT, notes=[note], **facts)
 
 
 def _way_to_one_parent(joint: Joint, first: Joint) -> str:
@@ -112,8 +119,8 @@ def check_single_root(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Dia
             *(_beginning(link, len(descendants(graph, link.name))) for link in (root, *strays)[:SHOWN]),
         ],
         count=len(roots),
-        roots=listed([link.name for link in roots]),
-        strays=listed([link.name for link in strays]),
+        roots=join_names([link.name for link in roots]),
+        strays=join_names([link.name for link in strays]),
         root=root.name,
     )
 
@@ -150,17 +157,17 @@ def _beginning(link: Link, links_below: int) -> Note:
     return Note(what, link.source.span if link.source else None)
 
 
-def hanging(joint: Joint) -> Use:
+def child_reference(joint: Joint) -> Reference:
     """Return the joint as that which leads from its parent to its child."""
-    return Use(joint.child, f"joint '{joint.name}'", joint.source, ("child",))
+    return Reference(joint.child, f"joint '{joint.name}'", joint.source, ("child",))
 
 
 def joint_graph(robot: Robot) -> Graph:
     """Return which joints lead down from each link; links that are nobody's child come first."""
     children = {joint.child for joint in robot.joints}
-    graph: dict[str, list[Use]] = {link.name: [] for link in robot.links if link.name not in children}
+    graph: dict[str, list[Reference]] = {link.name: [] for link in robot.links if link.name not in children}
     graph.update((link.name, []) for link in robot.links if link.name in children)
     for joint in robot.joints:
         if joint.parent in graph:
-            graph[joint.parent].append(hanging(joint))
+            graph[joint.parent].append(child_reference(joint))
     return graph

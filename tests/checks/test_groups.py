@@ -1,7 +1,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkforge_compile.checks.link_sets import LinkSets
+from linkforge_compile.checks.groups import LinkSets
 from linkforge_compile.core import Chain, EndEffector, GroupState, PlanningGroup, SemanticRobotDescription
 from tests.checks.robots import LEFT, chain, fixed, robot, told, two_arms
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkforge_compile.checks.extents import room_of
+from linkforge_compile.checks.bounding import bounding_volume
 from linkforge_compile.core import (
     Box,
     Collision,
@@ -103,13 +103,13 @@ def test_small_parts_of_the_whole_are_not_judged():
 
 def test_the_box_around_shapes_holds_them_turned_and_moved():
     shapes = [Collision(BEAM, Transform(Vector3(1, 0, 0), Vector3(0, 0, math.pi / 2))), Collision(Sphere(0.1))]
-    room = room_of(Link("base", collisions=shapes), lambda _: None)
-    assert room is not None
-    extent = room.box
-    assert extent.low == pytest.approx((-0.1, -0.15, -0.1))
-    assert extent.high == pytest.approx((1.02, 0.15, 0.1))
-    assert extent.distance((1.02, 0.15, 0.5)) == pytest.approx(0.4)
-    assert extent.distance((0, 0, 0)) == 0
+    volume = bounding_volume(Link("base", collisions=shapes), lambda _: None)
+    assert volume is not None
+    box = volume.box
+    assert box.low == pytest.approx((-0.1, -0.15, -0.1))
+    assert box.high == pytest.approx((1.02, 0.15, 0.1))
+    assert box.distance((1.02, 0.15, 0.5)) == pytest.approx(0.4)
+    assert box.distance((0, 0, 0)) == 0
 
 
 def of_meshes(folder: Path, inertial: Inertial, scale: float = 1.0) -> Robot:

@@ -6,8 +6,8 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.checks import check, mesh_files
-from linkforge_compile.checks.mesh_files import SAMPLES, Effort, MeshFile, look_at
-from linkforge_compile.checks.meshes import MOST_ALONE
+from linkforge_compile.checks.mesh_files import MAX_SAMPLES, MeshScan, ScanBudget, scan_mesh
+from linkforge_compile.checks.shapes import MAX_SINGLE_FILES
 from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
 from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import told
@@ -91,7 +91,7 @@ def test_behind_a_hundred_missing_files_those_of_a_folder_are_told_together_and_
     subject = of(meshes, *(f"package://arm/{folder}/b{number}.stl" for number in range(131)))
     diagnostics = list(check(subject, UnresolvedNames()))
     alone, together = diagnostics[:-1], diagnostics[-1]
-    assert len(alone) == (MOST_ALONE if is_there else 0)
+    assert len(alone) == (MAX_SINGLE_FILES if is_there else 0)
     names = [note.message for note in together.notes if note.message.startswith("nor ")]
     *_, rest = [note.message for note in together.notes]
     assert rest == f"and {131 - len(alone) - 1 - len(names)} more in this folder"
@@ -105,7 +105,7 @@ def test_behind_a_hundred_missing_files_those_of_a_folder_are_told_together_and_
 def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looked_for_and_the_rest_noted(
     meshes: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    monkeypatch.setattr(mesh_files, "MOST_NOWHERE", 2)
+    monkeypatch.setattr(mesh_files, "MAX_MISSING_PACKAGES", 2)
     found = [f"package://here{number}/a.stl" for number in range(3)]
     for number in range(3):
         (meshes / f"here{number}").mkdir()
@@ -145,10 +145,10 @@ def test_millimetres_are_told_unless_they_are_scaled(meshes: Path):
 
 def test_a_few_triangles_from_all_over_the_file_tell_its_size(meshes: Path):
     (meshes / "a.stl").write_bytes(strip(100_000, 1.0))
-    look = look_at(meshes / "a.stl", Effort())
+    look = scan_mesh(meshes / "a.stl", ScanBudget())
     assert look.triangles == 100_000
     assert look.box is not None
-    assert look.box.sides[0] > 1 - 2 / SAMPLES
+    assert look.box.sides[0] > 1 - 2 / MAX_SAMPLES
 
 
 @pytest.mark.parametrize(
@@ -191,7 +191,7 @@ OBJ = "# a\no part\n" + "".join(f"v {x} -2 0.5\nv {x + 1}. 0 0 1 1 1\n" for x in
 @pytest.mark.parametrize(("name", "text"), [("a.stl", ASCII_STL), ("a.STL", ASCII_STL), ("a.obj", OBJ)])
 def test_a_few_pieces_of_a_mesh_of_text_tell_its_box(meshes: Path, name: str, text: str):
     (meshes / name).write_text(text)
-    box = look_at(meshes / name, Effort()).box
+    box = scan_mesh(meshes / name, ScanBudget()).box
     assert box is not None
     assert box.low[1:] == (-2.0, 0.0)
     assert box.high[1:] == (0.0, 0.5)
@@ -201,18 +201,18 @@ def test_a_few_pieces_of_a_mesh_of_text_tell_its_box(meshes: Path, name: str, te
 
 def test_a_mesh_of_text_is_read_whole_where_it_is_short(meshes: Path):
     (meshes / "a.obj").write_text("v 1 2 3\nv 4 5 6\nv x y z\nv 1")
-    assert look_at(meshes / "a.obj", Effort()).box == ((1, 2, 3), (4, 5, 6))
+    assert scan_mesh(meshes / "a.obj", ScanBudget()).box == ((1, 2, 3), (4, 5, 6))
 
 
 def test_each_file_is_looked_at_once(meshes: Path, monkeypatch: pytest.MonkeyPatch):
     (meshes / "a.stl").write_bytes(strip(12_000, 1.0))
     looks: list[Path] = []
 
-    def counted(path: Path, effort: Effort) -> MeshFile:
+    def counted(path: Path, budget: ScanBudget) -> MeshScan:
         looks.append(path)
-        return look_at(path, effort)
+        return scan_mesh(path, budget)
 
-    monkeypatch.setattr(mesh_files, "look_at", counted)
+    monkeypatch.setattr(mesh_files, "scan_mesh", counted)
     subject = of(meshes, "package://arm/meshes/a.stl", "package://arm/meshes/a.stl", as_collision=True)
     assert len(told(subject)) == 1
     assert len(looks) == 1

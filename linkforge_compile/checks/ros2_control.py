@@ -1,4 +1,4 @@
-"""What ros2_control is told of each joint, sensor and gpio: interfaces, their ranges, and joints that mimic others."""
+"""ros2_control and transmissions: the joints that they drive, and interfaces with their ranges."""
 
 from __future__ import annotations
 
@@ -6,12 +6,15 @@ import math
 from collections.abc import Iterator, Mapping, Sized
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.checks.ranges import WITHIN_LIMITS, missed_range
-from linkforge_compile.checks.references import Use
+from linkforge_compile.checks.joints import WITHIN_LIMITS, missed_range
+from linkforge_compile.checks.references import Reference, report_unknown
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
+from linkforge_compile.diagnostics import Code, Diagnostic, UnresolvedNames
+from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT
 from linkforge_compile.diagnostics.codes.physics import (
+    COMMANDED_TWICE,
+    FIXED_JOINT_CONTROLLED,
     MIMIC_APART,
     MIMIC_COMMANDED,
     NO_INTERFACE,
@@ -20,6 +23,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     RANGE_CROSSED,
     RANGE_FAR_BEYOND,
     RANGE_OUTSIDE_LIMITS,
+    READ_TWICE,
     STARTS_OUTSIDE_LIMITS,
     UNKNOWN_INTERFACE,
 )
@@ -35,7 +39,70 @@ if TYPE_CHECKING:
         Ros2ControlSensor,
     )
 
-    Exporter: TypeAlias = Ros2ControlJoint | Ros2ControlGpio | Ros2ControlSensor
+    Component: TypeAlias = Ros2ControlJoint | Ros2ControlGpio | Ros2ControlSensor
+
+
+def check_transmission_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A transmission moves joints of this robot.
+
+    Controllers refuse to load a transmission with a joint that is not there. Correct the name.
+    """
+    joints = (
+        Reference(joint.name, f"transmission '{transmission.name}'", joint.source or transmission.source)
+        for transmission in robot.transmissions
+        for joint in transmission.joints
+    )
+    yield from report_unknown(joints, UNKNOWN_JOINT, robot.joints.names, unresolved)
+
+
+def check_ros2_control_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A ros2_control system drives joints of this robot.
+
+    The controller manager refuses the whole robot for one unknown joint. Correct the name. Sensors and gpios of
+    a system are names of the hardware, and need no counterpart in the robot.
+    """
+    yield from report_unknown(_driven_joints(robot), UNKNOWN_JOINT, robot.joints.names, unresolved)
+
+
+def check_fixed_joints_driven(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A joint under ros2_control moves.
+
+    Current controller managers refuse a robot that lists a fixed joint. Leave the joint out of the system, or
+    give it the type that it has.
+    """
+    for ref in _driven_joints(robot):
+        joint = robot.joints.get(ref.name)
+        if joint and joint.type == JointType.FIXED:
+            yield ref.report(FIXED_JOINT_CONTROLLED, joint=joint.name)
+
+
+def check_interface_claims(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """Each command interface belongs to one ros2_control system, and so does each state interface.
+
+    Of two systems that export one command interface the second is refused or never gets a command; of a state
+    interface the second is refused or never read. Take the joint's interface out of one of them; different
+    interfaces of one joint may belong to different systems.
+    """
+    yield from _claimed_twice(robot, COMMANDS, COMMANDED_TWICE)
+    yield from _claimed_twice(robot, STATES, READ_TWICE)
+
+
+def _driven_joints(robot: Robot) -> Iterator[Reference]:
+    for control in robot.ros2_controls:
+        for joint in control.joints:
+            yield Reference(joint.name, f"ros2_control '{control.name}'", joint.source or control.source)
+
+
+def _claimed_twice(robot: Robot, key: str, code: Code) -> Iterator[Diagnostic]:
+    first: dict[str, Reference] = {}
+    for control in robot.ros2_controls:
+        for interface in _interfaces_of_system(control, key):
+            ref = interface.ref
+            earlier = first.setdefault(ref.name, ref)
+            if earlier.user != ref.user:
+                notes = earlier.notes(f"{earlier.user} has it here")
+                yield ref.report(code, interface=ref.name, first=earlier.user, notes=notes)
+
 
 MOTIONS = ("position", "velocity", "acceleration", "effort")
 """The interfaces of joints that controllers ask for by these names."""
@@ -52,32 +119,29 @@ FAR, UNBOUNDED = 10.0, 1e4
 COMMANDS, STATES = "command_interfaces", "state_interfaces"
 
 
-class Exported(NamedTuple):
-    """An interface of a joint, a sensor or a gpio, with its place and its parameters, texts by name."""
+class Interface(NamedTuple):
+    """An interface of a joint, a sensor or a gpio with its parameters, texts by name."""
 
     name: str
-    use: Use
+    ref: Reference
     parameters: Mapping[str, str]
 
 
-def interfaces_of(control: Ros2Control, key: str) -> Iterator[Exported]:
+def _interfaces_of_system(control: Ros2Control, key: str) -> Iterator[Interface]:
     """Yield the command or the state interfaces of a system, as `key` says: joints, gpios, sensors."""
-    for joint in control.joints:
-        yield from exported(control, joint, key)
-    for gpio in control.gpios:
-        yield from exported(control, gpio, key)
-    for sensor in control.sensors:
-        yield from exported(control, sensor, key)
+    parts: tuple[Component, ...] = (*control.joints, *control.gpios, *control.sensors)
+    for part in parts:
+        yield from _interfaces_of(control, part, key)
 
 
-def exported(control: Ros2Control, part: Exporter, key: str) -> Iterator[Exported]:
-    """Yield the command or the state interfaces of a part; each use has its full name: `shoulder/position`."""
+def _interfaces_of(control: Ros2Control, part: Component, key: str) -> Iterator[Interface]:
+    """Yield the command or the state interfaces of a part, referred to by their full names: `shoulder/position`."""
     for interface in getattr(part, key, ()):
-        written: SourceRef | None = getattr(interface, "source", None)  # a plain string has neither
+        source: SourceRef | None = getattr(interface, "source", None)  # a plain string has neither
         parameters: Mapping[str, str] = getattr(interface, "parameters", {})
         full = f"{part.name}/{interface}"
-        use = Use(full, f"ros2_control '{control.name}'", written or part.source, () if written else (key,))
-        yield Exported(str(interface), use, parameters)
+        ref = Reference(full, f"ros2_control '{control.name}'", source or part.source, () if source else (key,))
+        yield Interface(str(interface), ref, parameters)
 
 
 def check_interface_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -90,9 +154,9 @@ def check_interface_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnost
     for control in robot.ros2_controls:
         for joint in control.joints:
             for key in (COMMANDS, STATES):
-                for name, use, _parameters in exported(control, joint, key):
+                for name, ref, _parameters in _interfaces_of(control, joint, key):
                     if name.isalpha() and name not in KNOWN_INTERFACES and nearest(name, MOTIONS):
-                        yield use.told(UNKNOWN_INTERFACE, name=name, near=MOTIONS)
+                        yield ref.report(UNKNOWN_INTERFACE, name=name, near=MOTIONS)
 
 
 def check_interface_parameters(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -108,12 +172,12 @@ def check_interface_parameters(robot: Robot, _: UnresolvedNames) -> Iterator[Dia
         for driven in control.joints:
             joint = robot.joints.get(driven.name)
             for key in (COMMANDS, STATES):
-                for interface in exported(control, driven, key):
+                for interface in _interfaces_of(control, driven, key):
                     if interface.parameters and interface.name in MOTIONS:
                         yield from _faults_of_parameters(interface, joint)
 
 
-def _faults_of_parameters(interface: Exported, joint: Joint | None) -> Iterator[Diagnostic]:
+def _faults_of_parameters(interface: Interface, joint: Joint | None) -> Iterator[Diagnostic]:
     numbers: dict[str, float] = {}
     for parameter in ("min", "max", "initial_value"):
         text = interface.parameters.get(parameter, "").strip()
@@ -121,22 +185,22 @@ def _faults_of_parameters(interface: Exported, joint: Joint | None) -> Iterator[
         if number is not None:
             numbers[parameter] = number
         elif text:
-            yield _at(interface, parameter).told(PARAMETER_NO_NUMBER, parameter=parameter, found=text)
+            yield _at(interface, parameter).report(PARAMETER_NO_NUMBER, parameter=parameter, found=text)
     lowest, highest, start = (numbers.get(parameter) for parameter in ("min", "max", "initial_value"))
     if lowest is not None and highest is not None and interface.name in BOUNDED_BOTH_WAYS:
         place, low, high = _at(interface, "min"), f"{lowest:.6g}", f"{highest:.6g}"
         if lowest > highest:
-            yield place.told(RANGE_CROSSED, min=low, max=high)
+            yield place.report(RANGE_CROSSED, min=low, max=high)
         elif joint and interface.name == "position" and (span := missed_range(joint, lowest, highest)):
-            yield place.told(RANGE_OUTSIDE_LIMITS, joint=joint.name, range=span, min=low, max=high)
+            yield place.report(RANGE_OUTSIDE_LIMITS, joint=joint.name, range=span, min=low, max=high)
         elif joint:
             yield from _far_beyond(interface, joint, lowest, highest)
     if joint and start is not None and interface.name == "position" and (span := missed_range(joint, start, start)):
         place = _at(interface, "initial_value")
-        yield place.told(STARTS_OUTSIDE_LIMITS, joint=joint.name, range=span, found=f"{start:.6g}")
+        yield place.report(STARTS_OUTSIDE_LIMITS, joint=joint.name, range=span, found=f"{start:.6g}")
 
 
-def _far_beyond(interface: Exported, joint: Joint, lowest: float, highest: float) -> Iterator[Diagnostic]:
+def _far_beyond(interface: Interface, joint: Joint, lowest: float, highest: float) -> Iterator[Diagnostic]:
     """Tell of a range that the joint's limit makes idle, and that a wrong unit explains."""
     reach, units = max(abs(lowest), abs(highest)), _SI.get(joint.type)
     limit = _limit(interface.name, joint)
@@ -152,7 +216,7 @@ def _far_beyond(interface: Exported, joint: Joint, lowest: float, highest: float
     else:
         remedy = f"write '$(radians({shown}))' if degrees are meant"
         in_si = f"write '{math.radians(found):.6g}' if degrees are meant"
-    yield _at(interface, parameter).told(
+    yield _at(interface, parameter).report(
         RANGE_FAR_BEYOND,
         interface=f"interface '{interface.name}'",
         joint=joint.name,
@@ -183,8 +247,8 @@ def _limit(interface: str, joint: Joint) -> float | None:
     return max((abs(end) for end in ends if end is not None), default=None)
 
 
-def _at(interface: Exported, parameter: str) -> Use:
-    return interface.use._replace(path=(*interface.use.path, parameter))
+def _at(interface: Interface, parameter: str) -> Reference:
+    return interface.ref._replace(path=(*interface.ref.path, parameter))
 
 
 def _number(text: str) -> float | None:
@@ -207,17 +271,20 @@ def check_mimics_in_hardware(robot: Robot, _: UnresolvedNames) -> Iterator[Diagn
         for driven in control.joints:
             joint = robot.joints.get(driven.name)
             said = dict(driven.extra_attributes).get("mimic")
-            is_said, use = said in {"true", "True"}, Use(driven.name, f"ros2_control '{control.name}'", driven.source)
+            is_said, ref = (
+                said in {"true", "True"},
+                Reference(driven.name, f"ros2_control '{control.name}'", driven.source),
+            )
             if joint is None or (said is not None and not is_said):
                 continue
             if joint.mimic is None:
                 if is_said:
-                    yield use._replace(path=("extra_attributes", "mimic")).told(NO_MIMIC, joint=joint.name)
+                    yield ref._replace(path=("extra_attributes", "mimic")).report(NO_MIMIC, joint=joint.name)
             elif driven.command_interfaces:
-                use = use._replace(path=(COMMANDS,))
-                yield use.told(MIMIC_COMMANDED, joint=joint.name, leader=joint.mimic.joint)
+                ref = ref._replace(path=(COMMANDS,))
+                yield ref.report(MIMIC_COMMANDED, joint=joint.name, leader=joint.mimic.joint)
             elif joint.mimic.joint not in listed and robot.has_joint(joint.mimic.joint) and not _lost(control):
-                yield use.told(MIMIC_APART, joint=joint.name, leader=joint.mimic.joint)
+                yield ref.report(MIMIC_APART, joint=joint.name, leader=joint.mimic.joint)
 
 
 def _lost(control: Ros2Control) -> bool:
@@ -240,7 +307,7 @@ def check_hardware_is_used(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnos
             *((f"sensor '{each.name}'", each.source) for each in control.sensors if _lacks(each, STATES)),
         ]
         for owner, source in idle:
-            yield Use("", f"ros2_control '{control.name}'", source).told(NO_INTERFACE, owner=owner)
+            yield Reference("", f"ros2_control '{control.name}'", source).report(NO_INTERFACE, owner=owner)
 
 
 def _lacks(part: Ros2Control | Ros2ControlGpio | Ros2ControlSensor, *keys: str) -> bool:
