@@ -46,8 +46,8 @@ def check_chains(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The chain of a group leads from its `base_link` down to its `tip_link`.
 
     With the two swapped MoveIt takes the joints between them and the one above as well, and kinematics solvers
-    find no chain. Between two branches (from one hand to the other, say) it takes the joints of both: that is
-    allowed, but solvers for a single arm refuse it.
+    find no chain. Between two branches (such as two hands) it takes the joints of both: that is allowed, but
+    solvers for a single arm refuse it.
     """
     links = LinkSets(robot)
     for group in robot.semantic.groups:
@@ -98,8 +98,8 @@ def check_end_effectors(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
 def check_arms_of_end_effectors(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """The parent link of an end effector is in a planning group: that of the arm which carries it.
 
-    Otherwise MoveIt finds no parent group, says so in its log, and does not know which arm to move for this hand.
-    Nothing is wrong with a hand on a robot without an arm. Silent while a group could not be read.
+    Otherwise MoveIt finds no parent group, writes that to its log, and does not know which arm to move for this hand.
+    Nothing is wrong with a hand on a robot without an arm. Not checked while a group could not be read.
     """
     if unresolved or not robot.semantic.end_effectors:
         return
@@ -181,9 +181,9 @@ def _key(links: int) -> bytes:
 
 
 def group_links(robot: Robot, links: LinkSets) -> Mapping[str, int]:
-    """Return the set of links that each group moves, which says its joints as well: a link hangs on one joint.
+    """Return the set of links that each group moves, and with them its joints: a link hangs on one joint.
 
-    Without the groups that name something unknown, and without any while they contain one another in a circle.
+    Groups with an unknown name are left out, and all groups while they contain one another in a circle.
     """
     from graphlib import CycleError, TopologicalSorter
 

@@ -28,20 +28,20 @@ from linkforge_compile.diagnostics.codes.physics import (
 from linkforge_compile.units import UNITS, Dimension, units_of
 
 ROUNDING = 1e-6
-"""How far a moment may pass its bound, as a part of the largest: tensors are often written with six digits."""
+"""The tolerance on moments, relative to the largest: tensors are often written with six digits."""
 
 ROUNDED_AWAY = 1e-12
-"""What part of the largest moment the arithmetic may leave where there is none."""
+"""A moment below this part of the largest one is a rounding error of 0."""
 
-TURNS = 60
-"""Enough turns of the axes for any tensor; five rounds of three do for most."""
+MAX_ROTATIONS = 60
+"""Enough Jacobi rotations for any tensor; most need fifteen."""
 
 
 def check_inertia(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A body with mass resists turning about every axis, and about none more than about the other two together.
+    """The principal moments of inertia of a link with mass are above 0, and none exceeds the sum of the other two.
 
-    The principal moments of any body are above 0 [kg·m²], and the largest is at most the sum of the other
-    two: it reaches that for a flat plate. Physics engines refuse other tensors, change them or blow up.
+    The moments [kg·m²] of any rigid body are so; the largest equals that sum for a flat plate. Physics engines refuse
+    other tensors, change them or blow up.
     Leave `inertia` out to have it computed from the shapes, or take the tensor from CAD in kg·m² about the
     centre of mass: products with the wrong sign and millimetres or grams are the usual causes.
     A frame without mass may have any tensor.
@@ -67,17 +67,17 @@ def _inertia_fault(moments: tuple[float, float, float]) -> Code | None:
 
 
 def principal_moments(inertia: InertiaTensor) -> tuple[float, float, float]:
-    """Return the eigenvalues of the tensor, smallest first [kg·m²]; exactly 0 for what only rounding left over.
+    """Return the eigenvalues of the tensor, smallest first [kg·m²]; exactly 0 for rounding errors.
 
-    Turns the axes until the products vanish (Jacobi), which keeps small moments exact where a closed formula
-    loses them in the rounding of the large ones.
+    Jacobi rotations keep small moments exact where a closed formula loses them to the rounding of the large ones, and
+    numpy is not always installed.
     """
     xx, yy, zz = inertia.ixx, inertia.iyy, inertia.izz
     xy, xz, yz = inertia.ixy, inertia.ixz, inertia.iyz
-    for _ in range(TURNS):
+    for _ in range(MAX_ROTATIONS):
         if abs(xy) + abs(xz) + abs(yz) <= 1e-15 * (abs(xx) + abs(yy) + abs(zz)):
             break
-        # One turn about z removes xy; then the axes change places, so that each product has its turn.
+        # A rotation about z removes xy; then the axes change places, for the next product.
         angle = math.atan2(math.copysign(2 * xy, xy * (xx - yy)), abs(xx - yy)) / 2
         sine, cosine = math.sin(angle), math.cos(angle)
         xx, yy = (
@@ -122,11 +122,10 @@ FARTHEST = 10.0
 def check_density(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     """A link is neither lighter than the air around it nor denser than any metal.
 
-    Told where its mass, spread over its shapes, is less than 1 kg/m³, or more than 25,000 kg/m³ though it filled the
-    whole box around them. Shapes in millimetres or a mass in grams or tonnes are the usual causes: write the units.
-    Of meshes, as far as they are .stl, .obj or .dae files at hand, a few corners are looked at: with them less than a
-    hundredth of the one bound, or ten times the other, is told. Links with less than a hundredth of the robot's mass
-    are not judged.
+    Reported if its mass over the volume of its shapes is less than 1 kg/m³, or over the box around them more than
+    25,000 kg/m³. Shapes in millimetres or a mass in grams or tonnes are the usual causes: write the units.
+    Meshes are measured by some of their corners, if they are .stl, .obj or .dae files on this machine: for them the
+    bounds are a hundredth and ten times of these. Links with less than a hundredth of the robot's mass are not checked.
     """
     for link, inertial in _bodies(robot):
         bounds = meshes.bounds(link)
@@ -144,11 +143,11 @@ def check_density(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
 def check_inertia_scale(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     """An inertia is about that of a body of the link's mass and size.
 
-    Told where it is a hundred times, or a thousandth, of that of the box around the link's shapes filled with its
-    mass, a thousand times where meshes are measured; where meshes cannot be, where it is that of a body 30 m wide. CAD
+    Reported if it is more than a hundred times, or less than a thousandth, of that of a box around the link's shapes
+    with its mass (a thousand times for meshes); if meshes cannot be measured, if it is that of a body 30 m wide. CAD
     programs give g·mm² or kg·mm², which are 1e9 and 1e6 times the number in kg·m²: write the unit, such as
     '350 kg*mm^2', or leave `inertia` out to have it computed. Links with less than a hundredth of the robot's mass are
-    not judged.
+    not checked.
     """
     for link, inertial in _bodies_with_a_tensor(robot):
         moment = (inertial.inertia.ixx + inertial.inertia.iyy + inertial.inertia.izz) / 2
@@ -174,7 +173,7 @@ def _power(factor: float) -> str:
 
 
 def _unit_hint(part: float) -> str:
-    """Return which unit the number is probably in, if any."""
+    """Return a hint at the unit that the number is probably in, "" without one."""
     factor = min(TOO_LARGE, key=lambda factor: abs(math.log10(part / USUAL / factor)))
     return f"; write the unit if it is in {TOO_LARGE[factor]}" if 0.3 < part / USUAL / factor < 3 else ""
 
@@ -182,9 +181,9 @@ def _unit_hint(part: float) -> str:
 def check_centre_of_mass(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     """The centre of mass lies in or near the shapes of its link.
 
-    Told where it is ten times the size of the shapes away from them: millimetres instead of metres, or a pose in
+    Reported if it is ten times the size of the shapes away from them: millimetres instead of metres, or a pose in
     the frame of another link. `origin` is in the frame of the link. Meshes are measured as far as they are .stl,
-    .obj or .dae files at hand.
+    .obj or .dae files on this machine.
     """
     for link, inertial in _bodies_with_a_tensor(robot):
         box = bounds.box if (bounds := meshes.bounds(link)) else None
@@ -198,8 +197,8 @@ def check_centre_of_mass(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnost
 def check_signs_of_products(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The products of inertia have the signs of the tensor's entries, as URDF wants them: ixy = -∫ x·y dm.
 
-    Some CAD programs give ∫ x·y dm. Told where the tensor is that of the link's shapes but for the signs of
-    its products: turn all three. Links with meshes are not judged.
+    Some CAD programs give ∫ x·y dm. Reported if the tensor is that of the link's shapes but for the signs of
+    its products: change all three. Links with meshes are not checked.
     """
     for link, inertial in _bodies_with_a_tensor(robot):
         shapes = [(shape.geometry, shape.origin) for shape in link.collisions or link.visuals]
@@ -207,12 +206,12 @@ def check_signs_of_products(robot: Robot, _: UnresolvedNames) -> Iterator[Diagno
         if not shapes or not any(_products(tensor)) or any(isinstance(geometry, Mesh) for geometry, _ in shapes):
             continue
         computed = inertial_of_shapes(shapes, mass=inertial.mass).inertia
-        if _is_turned(rotated(tensor, inertial.origin.rpy), computed):
+        if _has_negated_products(rotated(tensor, inertial.origin.rpy), computed):
             yield TURNED_PRODUCTS.at(link.source, "inertial", "inertia", link=link.name)
 
 
-def _is_turned(tensor: InertiaTensor, computed: InertiaTensor) -> bool:
-    """Whether two tensors are alike but for the signs of their products, and these are no trifle."""
+def _has_negated_products(tensor: InertiaTensor, computed: InertiaTensor) -> bool:
+    """Return whether two tensors agree but for the signs of their products, which are not negligible."""
     moments = [getattr(tensor, name) - getattr(computed, name) for name in ("ixx", "iyy", "izz")]
     sums = [one + other for one, other in zip(_products(tensor), _products(computed), strict=True)]
     size = math.hypot(*_products(computed))
@@ -225,7 +224,7 @@ def _products(tensor: InertiaTensor) -> tuple[float, float, float]:
 
 
 def _bodies(robot: Robot) -> Iterator[tuple[Link, Inertial]]:
-    """Yield the links that matter and state their mass, without those whose inertial stands in for a faulty one."""
+    """Yield the links whose mass is not negligible, without those whose inertial replaces a faulty one."""
     least = LEAST_SHARE * robot.total_mass
     for link in robot.links:
         inertial = link.inertial

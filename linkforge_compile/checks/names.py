@@ -1,4 +1,4 @@
-"""No two things of one kind bear one name, and none bears one that ROS or Gazebo refuses."""
+"""Names: unique within a kind, and accepted by ROS and Gazebo."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ class NamedPart(Protocol):
 
 
 def check_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """No two sensors bear one name, and no two transmissions or ros2_control systems.
+    """Sensors have unique names, and so have transmissions and ros2_control systems.
 
-    Who loads the robot takes the first, the last or none of them. Rename one. Two modules keep apart what is in
-    them by their prefixes. Links and joints of one name never get as far as this.
+    Of two with one name readers take the first, the last or none. Rename one. The prefixes of modules keep their
+    names apart. Lowering has reported links and joints of one name.
     """
     yield from _report_duplicates("sensor", robot.sensors)
     yield from _report_duplicates("transmission", robot.transmissions)
@@ -36,9 +36,9 @@ def check_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
 
 
 def check_semantic_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """No two planning groups bear one name, and no two end effectors, virtual joints or states of a group.
+    """Planning groups have unique names, and so have end effectors, virtual joints and the states of a group.
 
-    MoveIt takes the first group of a name and the last state, and says so in its log at best. Rename one.
+    MoveIt takes the first group of a name and the last state, with a line in its log at best. Rename one.
     """
     semantic = robot.semantic
     yield from _report_duplicates("planning group", semantic.groups)
@@ -53,10 +53,10 @@ def check_semantic_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diag
 
 
 def check_link_and_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """No joint bears the name of a link.
+    """No joint has the name of a link.
 
     URDF and ROS keep links and joints apart. In Gazebo both are frames of one model: it refuses the second, and
-    with it all that hangs below. Rename the joint: `wrist_joint` beside the link `wrist`.
+    with it all that hangs below. Rename the joint: `wrist_joint` for the link `wrist`.
     """
     for joint in robot.joints:
         if link := robot.links.get(joint.name):
@@ -65,9 +65,9 @@ def check_link_and_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Dia
 
 
 def check_reserved_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """No link or joint bears a name that Gazebo keeps for itself.
+    """No link or joint has a name that Gazebo reserves.
 
-    Those are `world`, unless it is the root link, which Gazebo takes for the world itself, and all that begin and
+    Those are `world`, unless it is the root link, which Gazebo identifies with its world, and all that begin and
     end with two underscores, such as `__model__`.
     """
     children = {joint.child for joint in robot.joints}
@@ -84,10 +84,10 @@ def _is_reserved(name: str) -> bool:
 
 
 def check_frame_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """No link and no frame of a sensor begins with a slash.
+    """The names of links and of frames of sensors do not begin with a slash.
 
     Each is a frame to tf2, which strips the slash where a transform is published and refuses it where one is
-    asked for. Leave it out.
+    looked up. Leave it out.
     """
     for link in robot.links:
         if link.name.startswith("/"):

@@ -114,7 +114,7 @@ BOUNDED_BOTH_WAYS = ("position", "velocity", "effort")
 """The interfaces whose `min` and `max` are the ends of one range; of an acceleration they are two amounts."""
 
 FAR, UNBOUNDED = 10.0, 1e4
-"""How many times the limit of its joint a range reaches that is in another unit; beyond, it says that it is none."""
+"""How many times the limit of its joint a range reaches that is in another unit; beyond, it is no limit."""
 
 COMMANDS, STATES = "command_interfaces", "state_interfaces"
 
@@ -145,11 +145,11 @@ def _interfaces_of(control: Ros2Control, part: Component, key: str) -> Iterator[
 
 
 def check_interface_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """An interface of a joint that is nearly called as one of ros2_control's is called so.
+    """The interface of a joint has one of ros2_control's names, if its own name is similar.
 
     Controllers ask for `position`, `velocity`, `acceleration` or `effort`, and refuse to start where hardware
     offers a `postion`. Correct the name. What is like none of these is an interface of the hardware's own, and
-    nothing is said of it.
+    is not reported.
     """
     for control in robot.ros2_controls:
         for joint in control.joints:
@@ -201,7 +201,7 @@ def _faults_of_parameters(interface: Interface, joint: Joint | None) -> Iterator
 
 
 def _far_beyond(interface: Interface, joint: Joint, lowest: float, highest: float) -> Iterator[Diagnostic]:
-    """Tell of a range that the joint's limit makes idle, and that a wrong unit explains."""
+    """Report a range that is far wider than the joint's limit, probably in a wrong unit."""
     reach, units = max(abs(lowest), abs(highest)), _SI.get(joint.type)
     limit = _limit(interface.name, joint)
     if not units or not limit or not FAR <= reach / limit < UNBOUNDED:
@@ -239,7 +239,7 @@ _SI: dict[str, Mapping[str, str]] = {
 
 
 def _limit(interface: str, joint: Joint) -> float | None:
-    """Return how far, how fast or how hard a joint moves at most [SI]; None where it does not say."""
+    """Return how far, how fast or how hard a joint moves at most [SI]; None without such a limit."""
     limits = joint.limits
     if limits is None or interface != "position":
         return getattr(limits, interface, None)
@@ -259,36 +259,40 @@ def _number(text: str) -> float | None:
 
 
 def check_mimics_in_hardware(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A joint that mimics another is read by ros2_control, beside its leader, and not commanded.
+    """A joint in ros2_control that mimics another has no command interface, and its leader is in the same system.
 
     Since ROS 2 Jazzy the controller manager takes the mimic from the robot's description, and refuses the robot
     if such a joint has a command interface, or if its leader is not in the same system. Where the hardware drives
-    both joints by itself, say so: `extra_attributes: {mimic: "false"}` on the joint in `ros2_control`. In turn
-    `mimic: "true"` wants a joint with `mimic`. Silent about a leader while a joint of the system is lost.
+    both joints by itself, write `extra_attributes: {mimic: "false"}` on the joint in `ros2_control`. In turn
+    `mimic: "true"` wants a joint with `mimic`. A leader is not reported while a joint of the system could not be read.
     """
     for control in robot.ros2_controls:
         listed = {joint.name for joint in control.joints}
         for driven in control.joints:
             joint = robot.joints.get(driven.name)
-            said = dict(driven.extra_attributes).get("mimic")
-            is_said, ref = (
-                said in {"true", "True"},
+            mimic = dict(driven.extra_attributes).get("mimic")
+            has_mimic, ref = (
+                mimic in {"true", "True"},
                 Reference(driven.name, f"ros2_control '{control.name}'", driven.source),
             )
-            if joint is None or (said is not None and not is_said):
+            if joint is None or (mimic is not None and not has_mimic):
                 continue
             if joint.mimic is None:
-                if is_said:
+                if has_mimic:
                     yield ref._replace(path=("extra_attributes", "mimic")).report(NO_MIMIC, joint=joint.name)
             elif driven.command_interfaces:
                 ref = ref._replace(path=(COMMANDS,))
                 yield ref.report(MIMIC_COMMANDED, joint=joint.name, leader=joint.mimic.joint)
-            elif joint.mimic.joint not in listed and robot.has_joint(joint.mimic.joint) and not _lost(control):
+            elif (
+                joint.mimic.joint not in listed
+                and robot.has_joint(joint.mimic.joint)
+                and not _has_dropped_joint(control)
+            ):
                 yield ref.report(MIMIC_APART, joint=joint.name, leader=joint.mimic.joint)
 
 
-def _lost(control: Ros2Control) -> bool:
-    """Tell whether a joint was written in a system that did not come to be, which has been told."""
+def _has_dropped_joint(control: Ros2Control) -> bool:
+    """Return whether a joint of a system was dropped because of an error."""
     written = control.source.node.child("joints") if control.source else None
     return isinstance(written, Sized) and len(written) > len(control.joints)
 
@@ -311,6 +315,6 @@ def check_hardware_is_used(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnos
 
 
 def _lacks(part: Ros2Control | Ros2ControlGpio | Ros2ControlSensor, *keys: str) -> bool:
-    """Tell whether nothing is said under the keys: what was written there and is lost has been told."""
+    """Return whether nothing is written under the keys, not even what was dropped because of an error."""
     node = part.source.node if part.source else None
     return not any(getattr(part, key) or (node and node.child(key)) for key in keys)

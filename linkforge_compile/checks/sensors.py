@@ -34,9 +34,9 @@ _NUMBERED = re.compile(r"(?:^|/)([0-9][^/]*)")
 
 
 def check_sensor_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A sensor sits on a link of this robot.
+    """The link of a sensor is a link of this robot.
 
-    A simulator never makes a sensor whose link it does not know, and mostly says nothing. Correct the `link`.
+    A simulator drops a sensor whose link it does not know, mostly without a message. Correct the `link`.
     """
     links = (
         Reference(sensor.link_name, f"sensor '{sensor.name}'", sensor.source, ("link",)) for sensor in robot.sensors
@@ -47,8 +47,8 @@ def check_sensor_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Di
 def check_sensor_frames(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """The frame of a sensor's messages is a link of this robot.
 
-    robot_state_publisher tells tf2 of links and of nothing else, so what is measured in another frame cannot be
-    shown or used, unless somebody else publishes where that frame is. Correct the name, or add the frame under
+    robot_state_publisher publishes the frames of links only, so measurements in another frame cannot be shown or
+    used, unless another node publishes that frame. Correct the name, or add the frame under
     `frames`.
     """
     frames = (
@@ -60,30 +60,29 @@ def check_sensor_frames(robot: Robot, unresolved: UnresolvedNames) -> Iterator[D
 
 
 def check_contacts(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A contact sensor watches a collision of the robot, by that collision's name.
+    """The collision of a contact sensor is the name of a collision of the robot.
 
-    Gazebo makes a sensor for a collision that it does not know, and it never reports a contact. On loading a URDF it
-    also makes names of its own, of the link and `_collision`, and others where it merges fixed joints: names that may
-    be such are not told.
+    The sensor of an unknown collision never reports a contact. Gazebo also generates names from a URDF, of the link and
+    `_collision`, and others where it merges fixed joints: names that may be generated are not reported.
     """
     names = [collision.name for link in robot.links for collision in link.collisions if collision.name]
     contacts = (
         Reference(sensor.contact_info.collision, f"sensor '{sensor.name}'", sensor.contact_info.source, ("collision",))
         for sensor in robot.sensors
-        if sensor.contact_info and not _may_be_made(sensor.contact_info.collision, robot)
+        if sensor.contact_info and not _may_be_generated(sensor.contact_info.collision, robot)
     )
     yield from report_unknown(contacts, UNKNOWN_COLLISION, names, unresolved)
 
 
-def _may_be_made(name: str, robot: Robot) -> bool:
-    link, made, _ = name.partition("_collision")
-    return "_lump__" in name or bool(made and link in robot.links)
+def _may_be_generated(name: str, robot: Robot) -> bool:
+    link, suffix, _ = name.partition("_collision")
+    return "_lump__" in name or bool(suffix and link in robot.links)
 
 
 def check_topics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A topic of a sensor is one that ROS 2 takes.
+    """The topic of a sensor is a valid ROS 2 topic name.
 
-    Names between slashes hold ASCII letters, digits and `_`, and do not begin with a digit; `~` stands at the
+    Names between slashes hold ASCII letters, digits and `_`, and do not begin with a digit; `~` is at the
     very start, before a `/`; `{name}` is a substitution. Gazebo takes more (`front-camera`), but the bridge to
     ROS 2 then fails. A prefix that begins with a digit spoils the topics of its module.
     """
@@ -108,11 +107,11 @@ def _refusal(topic: str) -> str | None:
 
 
 def check_shared_topics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """No two sensors publish on one topic.
+    """Sensors publish on different topics.
 
     Readers get the messages of both in turn and cannot tell them apart; of two kinds of message one is lost.
     Give each sensor a topic of its own. A relative topic in a module takes the prefix of its use, an absolute
-    one (`/camera`) does not, and is told as such where a module is used.
+    one (`/camera`) does not, and is reported for each import of the module.
     """
     first: dict[str, Reference] = {}
     for sensor in robot.sensors:
@@ -134,7 +133,7 @@ SIMULATED_HARDWARE = {
 
 
 def check_plugin_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
-    """What a plugin is told by `joint_name`, `left_joint` and the like is a joint of this robot.
+    """The `joint_name`, `left_joint` and similar parameters of a plugin name joints of this robot.
 
     A plugin that finds no such joint does nothing, or stops the simulator. Correct the name; a joint of a module
     bears the module's prefix, which `$(joint('name'))` adds. Nothing is wrong if the joint is one of another

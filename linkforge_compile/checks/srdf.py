@@ -1,4 +1,4 @@
-"""What the semantic part names is there: links, joints and groups."""
+"""The semantic part refers to links, joints and groups of the robot, and does not contradict itself."""
 
 from __future__ import annotations
 
@@ -47,16 +47,16 @@ def check_semantic_groups(robot: Robot, unresolved: UnresolvedNames) -> Iterator
     """
     groups = _names_of_groups(robot)
     for state in robot.semantic.group_states:
-        if state.group not in unresolved and (meant := _turned_round(state, groups)):
+        if state.group not in unresolved and (reordered := _reordered(state, groups)):
             ref = _group_of(state)
-            names = [name.removeprefix(ref.prefix) for name in meant]
+            names = [name.removeprefix(ref.prefix) for name in reordered]
             hint = f"; the group comes first: write '{': {'.join(names)}: …{'}' * (len(names) - 1)}'"
             yield ref.report(UNKNOWN_GROUP, name=state.group.removeprefix(ref.prefix), hint=hint)
     yield from report_unknown(_groups(robot, groups), UNKNOWN_GROUP, groups, unresolved, hint="")
 
 
-def _turned_round(state: GroupState, groups: Collection[str]) -> tuple[str, ...]:
-    """Return group, state and perhaps joint of a state that has them in another order; () for any other state."""
+def _reordered(state: GroupState, groups: Collection[str]) -> tuple[str, ...]:
+    """Return group, state and joint of a state that has them in another order; () for any other state."""
     if state.group in groups:
         return ()
     if state.name in groups:
@@ -66,10 +66,10 @@ def _turned_round(state: GroupState, groups: Collection[str]) -> tuple[str, ...]
 
 
 def check_virtual_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A virtual joint places the root link in the world.
+    """The child link of a virtual joint is the root link.
 
-    MoveIt skips one that holds any other link. Name the root as `child_link`, or leave the virtual joint out.
-    Silent while part of the robot could not be read, or while it has several roots.
+    MoveIt skips one with any other link. Name the root as `child_link`, or leave the virtual joint out.
+    Not checked while part of the robot could not be read, or while it has several roots.
     """
     children = {joint.child for joint in robot.joints}
     roots = [link.name for link in robot.links if link.name not in children]
@@ -82,7 +82,7 @@ def check_virtual_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[
 
 
 def check_virtual_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A virtual joint bears a name that no joint of the robot has.
+    """A virtual joint does not have the name of a joint.
 
     MoveIt keeps both under one name and takes the one for the other, in groups and states too. Rename it.
     """
@@ -99,7 +99,7 @@ def check_virtual_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diag
 def check_collision_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A pair of links is listed once, under either of its links.
 
-    The second entry says nothing new, or gives another reason that nobody reads. Remove one.
+    The second entry adds nothing, or another reason that is never read. Remove one.
     """
     for pairs in (robot.semantic.disabled_collisions, robot.semantic.enabled_collisions):
         first: dict[frozenset[str], Reference] = {}
@@ -114,7 +114,7 @@ def check_collision_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnost
 def check_enabled_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """An enabled pair makes an exception from `no_default_collision_links`, and is not disabled.
 
-    MoveIt looks at every pair of links that nobody disables; an enabled pair brings back one of a link whose
+    MoveIt checks every pair of links that is not disabled; an enabled pair brings back one of a link whose
     collisions are off by default. Of a pair that is enabled and disabled it reads the latter last.
     """
     semantic = robot.semantic
@@ -132,7 +132,7 @@ def check_enabled_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
 
 
 def check_passive_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """What is passive is not commanded.
+    """A passive joint has no command interface.
 
     MoveIt never plans for a passive joint, so its command interface in ros2_control waits for ever. Drop the
     command interface, or the joint from `passive_joints`.
@@ -179,7 +179,7 @@ def _joints(robot: Robot) -> Iterator[Reference]:
         for place, joint in enumerate(group.joints):
             yield Reference(joint, f"planning group '{group.name}'", group.source, ("joints", place))
     for state in semantic.group_states:
-        for joint, key in own_positions(state).items() if not _turned_round(state, groups) else ():
+        for joint, key in own_positions(state).items() if not _reordered(state, groups) else ():
             yield Reference(joint, f"state '{state.name}' of group '{state.group}'", state.source, (key,))
     for passive in semantic.passive_joints:
         yield Reference(passive.name, "passive_joints", passive.source)
@@ -201,7 +201,7 @@ def _groups(robot: Robot, known: Collection[str]) -> Iterator[Reference]:
     for group in semantic.groups:
         for place, subgroup in enumerate(group.subgroups):
             yield Reference(subgroup, f"planning group '{group.name}'", group.source, ("subgroups", place))
-    yield from (_group_of(state) for state in semantic.group_states if not _turned_round(state, known))
+    yield from (_group_of(state) for state in semantic.group_states if not _reordered(state, known))
     for effector in semantic.end_effectors:
         user = f"end effector '{effector.name}'"
         yield Reference(effector.group, user, effector.source, ("group",))

@@ -1,4 +1,4 @@
-"""Named poses of planning groups: within their group, within the limits, and leaving nothing open."""
+"""Named states of planning groups: joints of their group, positions within the limits, and completeness."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ VALUES_IN_A_STATE: dict[str, tuple[int, str]] = {
     JointType.PLANAR: (3, "3 values: x, y and angle"),
     JointType.FLOATING: (7, "7 values: x, y, z and a quaternion"),
 }
-"""What MoveIt takes for a joint in a state; it counts more than the degrees of freedom."""
+"""The count of values that MoveIt reads for a joint in a state, which can exceed the degrees of freedom."""
 
 MIMIC_ROUNDING = 1e-3
-"""How far a follower may be from where its leader puts it [rad] or [m]: states are written with few digits."""
+"""The tolerance on positions of followers [rad] or [m]: states are written with few digits."""
 
 
 def check_group_states(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A state gives positions to joints of its group, within their limits.
+    """The positions of a state are of joints of its group, and within their limits.
 
     MoveIt ignores the value of a joint that is not in the group, and one with the wrong count of numbers; to a
     pose outside the limits it never plans. Correct the value, or the group.
@@ -69,7 +69,7 @@ def check_group_states(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]
 
 
 def check_states_taken_over(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A state takes over what its own group can do.
+    """A position that a state takes from another group's state is of a joint of its own group.
 
     A position that comes from the state of another group is written into this one, and MoveIt ignores it where the
     joint is not in the group. Put the other group among the `subgroups` of this one, or take the name out.
@@ -100,16 +100,16 @@ def _faults_of_values(ref: Reference, joint: Joint | VirtualJoint, values: tuple
 
 
 def _fault_of_position(ref: Reference, joint: Joint, position: float) -> Iterator[Diagnostic]:
-    # Few are outside, and to know in which unit a value is written takes longer than to compare it.
-    if missed_range(joint, position, position) is None or _is_doubted(position, joint, ref.place):
+    # Few are outside, and reading the unit of a value takes longer than comparing it.
+    if missed_range(joint, position, position) is None or _is_reported_as_degrees(position, joint, ref.place):
         return
     unit = unit_in(ref.place.text) if ref.place else None
     span = missed_range(joint, position, position, unit)
     yield ref.report(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=in_unit(position, unit))
 
 
-def _is_doubted(position: float, joint: Joint, place: Span | None) -> bool:
-    """Whether a position was told already as one that is likely meant in degrees: a bare number of a spec."""
+def _is_reported_as_degrees(position: float, joint: Joint, place: Span | None) -> bool:
+    """Return whether lowering has reported a position as probably in degrees: a bare number of a spec."""
     if place is None or place.text is None or place.file.is_xml or joint.type is not JointType.REVOLUTE:
         return False
     is_bare = place.text.lstrip("+-")[:1].isdigit() and unit_in(place.text) is None
@@ -127,7 +127,7 @@ def _counted(values: tuple[object, ...]) -> str:
 
 
 def check_states_of_mimics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A state puts a joint that mimics another where the other puts it.
+    """A state gives a joint that mimics another the position that follows from the other.
 
     MoveIt takes the one or the other value, as their names are sorted, and a robot can take only one of the two
     poses. Leave the follower out of the state: its position follows from that of its leader, times `multiplier`
@@ -150,12 +150,12 @@ def check_states_of_mimics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnos
 
 
 def check_states_are_whole(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A state says where every joint of its group goes.
+    """A state has a position for every joint of its group.
 
     MoveIt warns of a joint that a state leaves out, and leaves it where it happens to be, so that one name stands
     for many poses. That may be what you want: open fingers whatever the wrist does. Fixed and passive joints and
-    those that mimic others need no value. Silent while part of the robot could not be read, and about a state
-    with a joint that is not in its group, which may be the one that is missed.
+    those that mimic others need no value. Not checked while part of the robot could not be read, nor for a state
+    with a joint that is not in its group, which may be the missing one.
     """
     semantic = robot.semantic
     if unresolved or not semantic.group_states:

@@ -1,4 +1,4 @@
-"""Links and joints make one tree: every joint joins two links, every link but the root hangs on one joint."""
+"""Links and joints form one tree: every joint connects two links, every link but the root is the child of one joint."""
 
 from __future__ import annotations
 
@@ -37,30 +37,30 @@ def check_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnosti
 
 
 def check_joint_ends(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A joint joins two links of this robot.
+    """A joint connects two links of this robot.
 
     URDF readers refuse the whole robot when one link is missing. Declare the link, or correct the name;
     a link of a module bears the module's prefix.
     """
     known = dict.fromkeys(robot.links.names)
-    # Nearly all are known, and to look a name up takes less than to make the use of it.
+    # Nearly all are known, and a look-up is cheaper than a reference.
     without_parent = [joint for joint in robot.joints if joint.parent not in known]
     parents = (Reference(joint.parent, f"joint '{joint.name}'", joint.source, ("parent",)) for joint in without_parent)
     yield from report_unknown(parents, UNKNOWN_LINK, known, unresolved)
     without_child = [joint for joint in robot.joints if joint.child not in known]
     if without_child:
-        # A link that hangs on a joint already can be no other's child, however like its name.
+        # A link that is a child already cannot be that of another joint, however similar its name.
         taken = {joint.child for joint in robot.joints}
         offered = [name for name in known if name not in taken]
         yield from report_unknown(map(child_reference, without_child), UNKNOWN_LINK, known, unresolved, offered=offered)
 
 
 def check_second_parents(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """A link hangs on one joint only.
+    """A link is the child of one joint only.
 
     URDF describes trees: readers refuse a link with two parents, or keep one of them in silence. Where a
-    mechanism closes a loop, cut it at one joint and tell the simulator of the loop there; where a joint was
-    copied, correct the child. A joint that leads back up the tree is a circle and told as one.
+    mechanism closes a loop, cut it at one joint and describe the loop to the simulator; where a joint was
+    copied, correct the child. A joint that leads back up the tree is reported as a circle.
     """
     joints_above: dict[str, list[Joint]] = {}
     for joint in robot.joints:
@@ -84,7 +84,7 @@ def _way_to_one_parent(joint: Joint, first: Joint) -> str:
 
 
 def check_link_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """No link hangs on itself, not even by way of others.
+    """No link is its own ancestor.
 
     Such links have no place in the world, and readers that walk the tree never end. One joint of the circle
     has the wrong parent or child, or the two were swapped.
@@ -94,11 +94,11 @@ def check_link_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]
 
 
 def check_single_root(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
-    """All links but one hang on joints; that one is the root.
+    """All links but one are children of joints; that one is the root.
 
     URDF readers refuse a robot in several pieces. Add the missing joint, or give a module the `parent` that
-    it hangs on. Silent while part of the robot could not be read, or while joints are raw XML, lead nowhere or to a
-    link that has a parent: each of these may be the joint that is missed here.
+    it hangs on. Not checked while part of the robot could not be read, or while joints are raw XML, have no
+    child or one with another parent: each of these may be the missing joint.
     """
     children = {joint.child for joint in robot.joints if robot.has_link(joint.child)}
     roots = [link for link in robot.links if link.name not in children]
@@ -109,7 +109,7 @@ def check_single_root(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Dia
     from networkx import descendants
 
     graph = _links_and_joints(robot)
-    # A link on which nothing hangs has lost its joint, wherever it stands; else the base is what people write first.
+    # A link without children lacks its joint, wherever it is written; else the base is usually written first.
     root = min(roots, key=lambda link: (link.name != WORLD, not graph[link.name]))
     strays = [link for link in roots if link is not root]
     yield SEVERAL_ROOTS.at(
@@ -126,7 +126,7 @@ def check_single_root(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Dia
 
 
 def _missing_joint(stray: Link, root: Link) -> Where:
-    """Return where the joint is to be added: at the stray link, or at the use of a module that brought it in alone."""
+    """Return where the joint is to be added: at the stray link, or at the import of the module that it came with."""
     trail = stray.source.trail if stray.source else ()
     of_root = root.source.trail if root.source else ()
     uses = [use for use in trail if use not in of_root]
@@ -134,7 +134,7 @@ def _missing_joint(stray: Link, root: Link) -> Where:
 
 
 def _base_by_omission(stray: Link, root: Link) -> Iterator[Note]:
-    """Yield the other way out where the root came with a module, which hangs on nothing."""
+    """Yield a note on the alternative if the root came with a module that has no parent."""
     of_stray = stray.source.trail if stray.source else ()
     uses = [use for use in (root.source.trail if root.source else ()) if use not in of_stray]
     if uses:
@@ -142,7 +142,7 @@ def _base_by_omission(stray: Link, root: Link) -> Iterator[Note]:
 
 
 def _links_and_joints(robot: Robot) -> DiGraph[str]:
-    """Return the graph of the joints whose links are both there."""
+    """Return the graph of the joints whose links both exist."""
     from networkx import DiGraph
 
     graph: DiGraph[str] = DiGraph()
@@ -158,12 +158,12 @@ def _beginning(link: Link, links_below: int) -> Note:
 
 
 def child_reference(joint: Joint) -> Reference:
-    """Return the joint as that which leads from its parent to its child."""
+    """Return the reference of a joint to its child."""
     return Reference(joint.child, f"joint '{joint.name}'", joint.source, ("child",))
 
 
 def joint_graph(robot: Robot) -> Graph:
-    """Return which joints lead down from each link; links that are nobody's child come first."""
+    """Return the references of joints from each link to its children; links without a parent come first."""
     children = {joint.child for joint in robot.joints}
     graph: dict[str, list[Reference]] = {link.name: [] for link in robot.links if link.name not in children}
     graph.update((link.name, []) for link in robot.links if link.name in children)
