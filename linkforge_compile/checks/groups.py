@@ -119,7 +119,11 @@ def check_arms_of_end_effectors(robot: Robot, unresolved: UnresolvedNames) -> It
 
 
 class LinkSets:
-    """The bits of a robot's links, in the order of the joints on which they hang, and the sets that chains are."""
+    """Sets of the links of a robot as integers with a bit for each link, in the order of the joints above them.
+
+    A spec may have thousands of groups with chains of thousands of links: 5,000 sets of 5,000 names take 1.3 GB, as
+    integers 3 MB.
+    """
 
     def __init__(self, robot: Robot) -> None:
         self._known = frozenset(robot.links.names)

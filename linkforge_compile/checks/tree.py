@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.references import (
     SHOWN,
@@ -15,16 +14,13 @@ from linkforge_compile.checks.references import (
     report_unknown,
 )
 from linkforge_compile.core.constants import WORLD
-from linkforge_compile.core.models.graph import find_tree_root
+from linkforge_compile.core.models.graph import child_joints, find_tree_root, walk_down
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Note, UnresolvedNames, Where
 from linkforge_compile.diagnostics.codes.model import LINK_CIRCLE, NO_LINKS, SECOND_PARENT, SEVERAL_ROOTS
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
-
-if TYPE_CHECKING:
-    from networkx import DiGraph
 
 
 def check_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -100,23 +96,24 @@ def check_single_root(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Dia
     it hangs on. Not checked while part of the robot could not be read, or while joints are raw XML, have no
     child or one with another parent: each of these may be the missing joint.
     """
-    children = {joint.child for joint in robot.joints if robot.has_link(joint.child)}
+    known = frozenset(robot.links.names)
+    children = {joint.child for joint in robot.joints} & known
     roots = [link for link in robot.links if link.name not in children]
     raw = sum(text.lstrip().startswith("<joint") for text in robot.extra_elements)
     astray = len(robot.joints) - len(children) + raw
     if unresolved or len(roots) - 1 <= astray:
         return
-    from networkx import descendants
-
-    graph = _links_and_joints(robot)
+    below = child_joints(
+        joint for joint in robot.joints if robot.has_link(joint.parent) and robot.has_link(joint.child)
+    )
     # A link without children lacks its joint, wherever it is written; else the base is usually written first.
-    root = min(roots, key=lambda link: (link.name != WORLD, not graph[link.name]))
+    root = min(roots, key=lambda link: (link.name != WORLD, link.name not in below))
     strays = [link for link in roots if link is not root]
     yield SEVERAL_ROOTS.at(
         _missing_joint(strays[0], root),
         notes=[
             *_base_by_omission(strays[0], root),
-            *(_beginning(link, len(descendants(graph, link.name))) for link in (root, *strays)[:SHOWN]),
+            *(_describe_tree(link, sum(1 for _ in walk_down([link.name], below))) for link in (root, *strays)[:SHOWN]),
         ],
         count=len(roots),
         roots=join_names([link.name for link in roots]),
@@ -141,18 +138,7 @@ def _base_by_omission(stray: Link, root: Link) -> Iterator[Note]:
         yield Note(f"or hang this module, which has no 'parent' and so is the base: 'parent: {stray.name}'", uses[-1])
 
 
-def _links_and_joints(robot: Robot) -> DiGraph[str]:
-    """Return the graph of the joints whose links both exist."""
-    from networkx import DiGraph
-
-    graph: DiGraph[str] = DiGraph()
-    graph.add_nodes_from(robot.links.names)
-    graph.add_edges_from((joint.parent, joint.child) for joint in robot.joints)
-    graph.remove_nodes_from([name for name in graph if not robot.has_link(name)])
-    return graph
-
-
-def _beginning(link: Link, links_below: int) -> Note:
+def _describe_tree(link: Link, links_below: int) -> Note:
     what = f"'{link.name}' begins a tree of {links_below + 1} links" if links_below else f"'{link.name}' stands alone"
     return Note(what, link.source.span if link.source else None)
 

@@ -1,4 +1,4 @@
-"""Small robots for the checks, and what is told about them."""
+"""Small robots for the checks, and the messages about them."""
 
 from linkforge_compile.checks import check
 from linkforge_compile.core import (
@@ -41,8 +41,8 @@ def robot(links: str, *joints: Joint, **parts: object) -> Robot:
     return Robot("r", links=[body(name) for name in links.split()], joints=joints, **parts)  # type: ignore[arg-type]
 
 
-def told(subject: Robot, unresolved: UnresolvedNames | None = None) -> list[str]:
-    """Return what the checks tell, each as "LFnnnn message"."""
+def messages_of(subject: Robot, unresolved: UnresolvedNames | None = None) -> list[str]:
+    """Return the diagnostics of the checks, each as "LFnnnn message"."""
     return [f"{one.code.id} {one.message}" for one in check(subject, unresolved or UnresolvedNames())]
 
 

@@ -73,7 +73,7 @@ def test_of_long_arrays_the_ends_are_looked_at():
         b'<?xml version="1.0" encoding="foo"?>' + collada(f"<node>{GEOMETRY}</node>").partition(b"?>")[2],
     ],
 )
-def test_of_what_cannot_be_told_at_a_look_there_is_no_box(tmp_path: Path, content: bytes):
+def test_of_what_cannot_be_reported_at_a_look_there_is_no_box(tmp_path: Path, content: bytes):
     (tmp_path / "a.dae").write_bytes(content)
     assert scan_mesh(tmp_path / "a.dae", ScanBudget()) == MeshScan()
 

@@ -10,7 +10,7 @@ from linkforge_compile.checks.mesh_files import MAX_SAMPLES, MeshScan, ScanBudge
 from linkforge_compile.checks.shapes import MAX_SINGLE_FILES
 from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
 from linkforge_compile.diagnostics import UnresolvedNames
-from tests.checks.robots import told
+from tests.checks.robots import messages_of
 
 UNSCALED = Vector3(1.0, 1.0, 1.0)
 
@@ -54,12 +54,12 @@ def of(meshes: Path, *resources: str, scale: Vector3 = UNSCALED, as_collision: b
 )
 def test_what_is_there_or_not_to_be_found_from_here_is_fine(meshes: Path, resource: str):
     (meshes / "a.stl").write_bytes(strip(2, 0.1))
-    assert told(of(meshes, resource)) == []
+    assert messages_of(of(meshes, resource)) == []
 
 
 def test_a_name_in_other_capitals_is_missing_and_offered(meshes: Path):
     (meshes / "Base.STL").write_bytes(strip(2, 0.1))
-    assert told(of(meshes, "package://arm/meshes/base.stl")) == [
+    assert messages_of(of(meshes, "package://arm/meshes/base.stl")) == [
         "LF6021 there is no mesh 'package://arm/meshes/base.stl'; did you mean 'Base.STL'?"
     ]
 
@@ -68,7 +68,7 @@ def test_a_resolver_that_does_not_mind_capitals_changes_nothing(meshes: Path):
     """As the file systems of Windows and macOS do not."""
     (meshes / "Base.STL").write_bytes(strip(2, 0.1))
     (meshes / "link.stl").symlink_to(meshes / "Base.STL")
-    assert told(of(meshes, "package://arm/meshes/link.stl", f"file://{meshes}/Base.STL")) == []
+    assert messages_of(of(meshes, "package://arm/meshes/link.stl", f"file://{meshes}/Base.STL")) == []
 
 
 def test_all_files_of_a_folder_that_is_not_there_are_one_fault(meshes: Path):
@@ -83,7 +83,7 @@ def test_all_files_of_a_folder_that_is_not_there_are_one_fault(meshes: Path):
 
 
 @pytest.mark.parametrize("is_there", [True, False])
-def test_behind_a_hundred_missing_files_those_of_a_folder_are_told_together_and_none_is_lost(
+def test_behind_a_hundred_missing_files_those_of_a_folder_are_reported_together_and_none_is_lost(
     meshes: Path, is_there: bool
 ):
     folder = "meshes" if is_there else "mesh"
@@ -117,7 +117,7 @@ def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looke
     subject = Robot("r", links=links, resource_resolver=resolver)
     codes = [one.code.id for one in check(subject, UnresolvedNames()) if one.code.id in ("LF6021", "LF3403")]
     assert codes == ["LF6021"] * 4 + ["LF3403"]
-    assert "in 2 packages that nobody looked for" in next(one for one in told(subject) if "LF3403" in one)
+    assert "in 2 packages that nobody looked for" in next(one for one in messages_of(subject) if "LF3403" in one)
 
 
 @pytest.mark.parametrize(
@@ -129,17 +129,17 @@ def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looke
         (b"version https://git-lfs.github.com/spec/v1\n", "it is a pointer of Git LFS; run 'git lfs pull'"),
     ],
 )
-def test_a_file_without_a_shape_is_told(meshes: Path, content: bytes, reason: str):
+def test_a_file_without_a_shape_is_reported(meshes: Path, content: bytes, reason: str):
     (meshes / "a.stl").write_bytes(content)
-    assert told(of(meshes, "package://arm/meshes/a.stl")) == [
+    assert messages_of(of(meshes, "package://arm/meshes/a.stl")) == [
         f"LF6022 mesh 'package://arm/meshes/a.stl' holds no shape: {reason}"
     ]
 
 
-def test_millimetres_are_told_unless_they_are_scaled(meshes: Path):
+def test_millimetres_are_reported_unless_they_are_scaled(meshes: Path):
     (meshes / "a.stl").write_bytes(strip(1000, 250.0))
-    assert told(of(meshes, "package://arm/meshes/a.stl", scale=Vector3(0.001, 0.001, 0.001))) == []
-    (message,) = told(of(meshes, "package://arm/meshes/a.stl"))
+    assert messages_of(of(meshes, "package://arm/meshes/a.stl", scale=Vector3(0.001, 0.001, 0.001))) == []
+    (message,) = messages_of(of(meshes, "package://arm/meshes/a.stl"))
     assert message.startswith("LF6020 mesh 'package://arm/meshes/a.stl' is 2.5e+02 metres wide")
 
 
@@ -156,29 +156,31 @@ def test_a_few_triangles_from_all_over_the_file_tell_its_size(meshes: Path):
 )
 def test_a_file_that_is_no_sound_binary_stl_is_not_judged(meshes: Path, content: bytes):
     (meshes / "a.stl").write_bytes(content)
-    assert told(of(meshes, "package://arm/meshes/a.stl"))[1:] == []
+    assert messages_of(of(meshes, "package://arm/meshes/a.stl"))[1:] == []
 
 
 def test_a_folder_is_no_mesh(meshes: Path):
     (meshes / "a.stl").mkdir()
-    assert [one[:6] for one in told(of(meshes, "package://arm/meshes/a.stl"))] == ["LF6021"]
+    assert [one[:6] for one in messages_of(of(meshes, "package://arm/meshes/a.stl"))] == ["LF6021"]
 
 
-def test_collisions_as_fine_as_what_is_seen_are_told_together(meshes: Path):
+def test_collisions_as_fine_as_what_is_seen_are_reported_together(meshes: Path):
     (meshes / "fine.stl").write_bytes(strip(12_000, 1.0))
     (meshes / "coarse.stl").write_bytes(strip(100, 1.0))
     names = [f"package://arm/meshes/{name}.stl" for name in ("fine", "coarse")]
-    assert told(of(meshes, *names)) == []
-    assert told(of(meshes, *names, as_collision=True)) == [
+    assert messages_of(of(meshes, *names)) == []
+    assert messages_of(of(meshes, *names, as_collision=True)) == [
         "LF6025 collisions of 'a' are the meshes that are seen, of 12,000 triangles; contacts will be slow"
     ]
 
 
 def test_a_collision_that_is_turned_by_its_scale_is_fine(meshes: Path):
     turned, mirrored = Vector3(-1.0, -1.0, 1.0), Vector3(1.0, -1.0, 1.0)
-    assert told(of(meshes, "package://b/a.stl", scale=turned, as_collision=True)) == []
-    assert told(of(meshes, "package://b/a.stl", scale=mirrored)) == []
-    assert [one[:6] for one in told(of(meshes, "package://b/a.stl", scale=mirrored, as_collision=True))] == ["LF6024"]
+    assert messages_of(of(meshes, "package://b/a.stl", scale=turned, as_collision=True)) == []
+    assert messages_of(of(meshes, "package://b/a.stl", scale=mirrored)) == []
+    assert [one[:6] for one in messages_of(of(meshes, "package://b/a.stl", scale=mirrored, as_collision=True))] == [
+        "LF6024"
+    ]
 
 
 ASCII_STL = "solid a\n" + "".join(
@@ -214,7 +216,7 @@ def test_each_file_is_looked_at_once(meshes: Path, monkeypatch: pytest.MonkeyPat
 
     monkeypatch.setattr(mesh_files, "scan_mesh", counted)
     subject = of(meshes, "package://arm/meshes/a.stl", "package://arm/meshes/a.stl", as_collision=True)
-    assert len(told(subject)) == 1
+    assert len(messages_of(subject)) == 1
     assert len(looks) == 1
 
 

@@ -1,8 +1,8 @@
 """Whether triangles are the surface of a solid, and the integrals over what they enclose.
 
-trimesh is not used for this, as measured on 766 meshes of real robots: of 480 that are solids here it accepts 306 (its
-bodies may not touch along an edge), of these its inertia differs in nine digits for 42, and it does not name the place
-of a fault. Its sums also depend on numpy's build, while outputs have to be the same on all machines.
+trimesh is not used for this. Of 733 meshes of real robots 468 are solids; trimesh finds 58 of them open, and computes
+moments of inertia with other digits for 143 of the rest. It does not name the place of a fault. Its sums depend on
+numpy's build, while outputs have to be the same on all machines.
 """
 
 from __future__ import annotations
