@@ -64,12 +64,12 @@ def check_empty_groups(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]
     """A planning group has a joint.
 
     MoveIt leaves out a group without one, with its states and end effectors: a chain from a link to itself, or
-    subgroups that have none either. Add a joint, or a link, which stands for the joint that it hangs on.
+    subgroups that have none either. Add a joint, or a link, which means the joint above it.
     """
     moving = group_links(robot, LinkSets(robot))
     for group in robot.semantic.groups:
         if moving.get(group.name) == 0:
-            yield Reference(group.name, "", group.source).report(GROUP_WITHOUT_JOINT, group=group.name)
+            yield GROUP_WITHOUT_JOINT.at(group.source, group=group.name)
 
 
 def check_end_effectors(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:

@@ -271,7 +271,9 @@ def check_joint_speed(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
         si, unit, units = ("rad/s", "deg/s", "degrees") if is_turning else ("m/s", "mm/s", "millimetres")
         in_other_unit = f"{math.radians(velocity) if is_turning else velocity / 1000:.6g}"
         yield FAST_JOINT.at(
-            *(joint.source, "limits", "velocity"),
+            joint.source,
+            "limits",
+            "velocity",
             joint=joint.name,
             found=found,
             also=also,

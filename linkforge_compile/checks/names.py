@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Protocol
 
-from linkforge_compile.checks.references import Reference
+from linkforge_compile.checks.references import Reference, notes_at
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME, FRAME_WITH_SLASH, LINK_AND_JOINT, RESERVED_NAME
@@ -60,8 +60,8 @@ def check_link_and_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Dia
     """
     for joint in robot.joints:
         if link := robot.links.get(joint.name):
-            notes = Reference(link.name, "", link.source).notes("the link stands here") if link.source else ()
-            yield Reference(joint.name, "", joint.source).report(LINK_AND_JOINT, name=joint.name, notes=notes)
+            notes = notes_at(link.source, "the link stands here")
+            yield LINK_AND_JOINT.at(joint.source, name=joint.name, notes=notes)
 
 
 def check_reserved_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -73,10 +73,10 @@ def check_reserved_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
     children = {joint.child for joint in robot.joints}
     for link in robot.links:
         if _is_reserved(link.name) and (link.name != "world" or "world" in children):
-            yield Reference(link.name, "", link.source).report(RESERVED_NAME, kind="link", name=link.name)
+            yield RESERVED_NAME.at(link.source, kind="link", name=link.name)
     for joint in robot.joints:
         if _is_reserved(joint.name):
-            yield Reference(joint.name, "", joint.source).report(RESERVED_NAME, kind="joint", name=joint.name)
+            yield RESERVED_NAME.at(joint.source, kind="joint", name=joint.name)
 
 
 def _is_reserved(name: str) -> bool:
@@ -91,17 +91,17 @@ def check_frame_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """
     for link in robot.links:
         if link.name.startswith("/"):
-            yield Reference(link.name, "", link.source).report(FRAME_WITH_SLASH, name=link.name)
+            yield FRAME_WITH_SLASH.at(link.source, name=link.name)
     for sensor in robot.sensors:
         if sensor.frame and sensor.frame.startswith("/"):
-            yield Reference(sensor.frame, "", sensor.source, ("frame",)).report(FRAME_WITH_SLASH, name=sensor.frame)
+            yield FRAME_WITH_SLASH.at(sensor.source, "frame", name=sensor.frame)
 
 
 def _report_duplicates(kind: str, parts: Iterable[NamedPart], user: str = "") -> Iterator[Diagnostic]:
-    first: dict[str, Reference] = {}
+    first: dict[str, NamedPart] = {}
     for part in parts:
-        ref = Reference(part.name, user, part.source)
-        earlier = first.setdefault(part.name, ref)
-        if earlier is not ref:
-            notes = earlier.notes(f"the first {kind} '{part.name}'") if earlier.source else []
-            yield ref.report(DUPLICATE_NAME, kind=kind, name=part.name, notes=notes)
+        if earlier := first.get(part.name):
+            notes = notes_at(earlier.source, f"the first {kind} '{part.name}'")
+            yield Reference(part.name, user, part.source).report(DUPLICATE_NAME, kind=kind, name=part.name, notes=notes)
+        else:
+            first[part.name] = part

@@ -66,6 +66,11 @@ class Reference(NamedTuple):
         return [self.note(message), *(Note("used here", span) for span in imports)]
 
 
+def notes_at(source: SourceRef | None, message: str) -> list[Note]:
+    """Return the note at a part and where its file was imported; none for a part built in Python."""
+    return Reference("", "", source).notes(message) if source else []
+
+
 def own_positions(state: GroupState) -> dict[str, Key]:
     """Return the joints that a state itself sets, with their keys; without positions taken from another state.
 

@@ -128,7 +128,7 @@ class Interface(NamedTuple):
 
 
 def _interfaces_of_system(control: Ros2Control, key: str) -> Iterator[Interface]:
-    """Yield the command or the state interfaces of a system, as `key` says: joints, gpios, sensors."""
+    """Yield the command or the state interfaces of a system, by `key`: those of joints, gpios, then sensors."""
     parts: tuple[Component, ...] = (*control.joints, *control.gpios, *control.sensors)
     for part in parts:
         yield from _interfaces_of(control, part, key)
@@ -271,10 +271,8 @@ def check_mimics_in_hardware(robot: Robot, _: UnresolvedNames) -> Iterator[Diagn
         for driven in control.joints:
             joint = robot.joints.get(driven.name)
             mimic = dict(driven.extra_attributes).get("mimic")
-            has_mimic, ref = (
-                mimic in {"true", "True"},
-                Reference(driven.name, f"ros2_control '{control.name}'", driven.source),
-            )
+            has_mimic = mimic in {"true", "True"}
+            ref = Reference(driven.name, f"ros2_control '{control.name}'", driven.source)
             if joint is None or (mimic is not None and not has_mimic):
                 continue
             if joint.mimic is None:

@@ -198,7 +198,7 @@ def check_simulated_hardware(robot: Robot, unresolved: UnresolvedNames) -> Itera
 
     `gz_ros2_control/GazeboSimSystem` and its like are no hardware to a controller manager of its own: the plugin
     starts one inside the simulator, which loads them. Add it to `gazebo` at top level, with its `filename`.
-    Silent where raw XML may hold it, and while part of the robot could not be read.
+    Not checked if raw XML may hold it, or while part of the robot could not be read.
     """
     raw = [*robot.extra_elements, *(text for each in robot.gazebo_elements for text in each.extra_elements)]
     is_loaded = any("ros2_control" in plugin.filename for plugin in _plugins(robot))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.references import Reference, own_positions, report_unknown
+from linkforge_compile.checks.references import Reference, notes_at, own_positions, report_unknown
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes.model import (
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP, UNKNOWN_JOINT, UNKNOWN_LINK
 
 if TYPE_CHECKING:
+    from linkforge_compile.core.models.collision_rules import CollisionPair
     from linkforge_compile.core.models.srdf import GroupState
 
 
@@ -88,12 +89,8 @@ def check_virtual_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diag
     """
     for virtual in robot.semantic.virtual_joints:
         if joint := robot.joints.get(virtual.name):
-            notes = (
-                Reference(joint.name, "", joint.source).notes(f"joint '{joint.name}' stands here")
-                if joint.source
-                else ()
-            )
-            yield Reference(virtual.name, "", virtual.source).report(VIRTUAL_NAME_TAKEN, name=virtual.name, notes=notes)
+            notes = notes_at(joint.source, f"joint '{joint.name}' stands here")
+            yield VIRTUAL_NAME_TAKEN.at(virtual.source, name=virtual.name, notes=notes)
 
 
 def check_collision_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -102,13 +99,14 @@ def check_collision_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnost
     The second entry adds nothing, or another reason that is never read. Remove one.
     """
     for pairs in (robot.semantic.disabled_collisions, robot.semantic.enabled_collisions):
-        first: dict[frozenset[str], Reference] = {}
+        first: dict[frozenset[str], CollisionPair] = {}
         for pair in pairs:
-            ref = Reference(pair.link2, "collision pair", pair.source)
-            earlier = first.setdefault(frozenset((pair.link1, pair.link2)), ref)
-            if earlier is not ref:
-                notes = earlier.notes("the first entry") if earlier.source else []
+            ends = frozenset((pair.link1, pair.link2))
+            if earlier := first.get(ends):
+                notes = notes_at(earlier.source, "the first entry")
                 yield PAIR_TWICE.at(pair.source, link1=pair.link1, link2=pair.link2, notes=notes)
+            else:
+                first[ends] = pair
 
 
 def check_enabled_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -125,7 +123,7 @@ def check_enabled_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
         if not all(map(robot.has_link, ends)):
             continue
         if other := disabled.get(ends):
-            notes = Reference("", "", other.source).notes("disabled here") if other.source else ()
+            notes = notes_at(other.source, "disabled here")
             yield PAIR_BOTH_WAYS.at(pair.source, link1=pair.link1, link2=pair.link2, notes=notes)
         elif not ends & off:
             yield ENABLED_ANYWAY.at(pair.source, link1=pair.link1, link2=pair.link2)

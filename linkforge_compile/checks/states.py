@@ -173,9 +173,8 @@ def check_states_are_whole(robot: Robot, unresolved: UnresolvedNames) -> Iterato
         members, placed = moving.get(state.group, 0), links.of(moved.get(name, "") for name in state.joint_values)
         left = 0 if placed is None or placed & ~members else members & movable & ~placed
         if left:
-            ref = Reference(state.name, "", state.source)
             joints = join_names([free[link] for link in links.first(left, SHOWN)], left.bit_count())
-            yield ref.report(STATE_INCOMPLETE, state=state.name, group=state.group, joints=joints)
+            yield STATE_INCOMPLETE.at(state.source, state=state.name, group=state.group, joints=joints)
 
 
 def _at_value(state: GroupState, joint: str, key: Key) -> Reference:

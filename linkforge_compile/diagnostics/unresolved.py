@@ -41,7 +41,7 @@ class UnresolvedNames:
     `prefixes` stand for modules that could not be read: every name that begins with one may be defined there, and the
     empty prefix covers all names. Truth means that something is missing, so that a check of the whole tree can skip it.
     `deleted` names are not unresolved; they explain an unknown name. Nor are `mounts`, the joint that a robot without a
-    parent lacks. `may_look` says whether a check may read a file, as a spec can name any file of this machine.
+    parent lacks. `may_look` tells whether a check may read a file, as a spec can name any file of this machine.
     """
 
     names: frozenset[str] = frozenset()
@@ -51,7 +51,7 @@ class UnresolvedNames:
     may_look: Callable[[Path], bool] = _everywhere
 
     def with_access(self, may_look: Callable[[Path], bool]) -> UnresolvedNames:
-        """Return the same unresolved for checks that look at other files."""
+        """Return the same names with another rule of which files a check may read."""
         return replace(self, may_look=may_look)
 
     def __contains__(self, name: object) -> bool:
@@ -61,7 +61,7 @@ class UnresolvedNames:
         return bool(self.names or self.prefixes)
 
     def with_prefix(self, prefix: str) -> UnresolvedNames:
-        """Return the same unresolved as seen from the file that uses this one under `prefix`."""
+        """Return the same names as seen from the file that imports this one under `prefix`."""
         names = frozenset(prefix + name for name in self.names)
         starts = tuple(prefix + start for start in self.prefixes)
         mounts = frozenset(prefix + name for name in self.mounts)
