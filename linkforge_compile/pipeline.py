@@ -326,9 +326,9 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
     lowered = lower(instance, sink, meshes)
     # Meshes are looked for in the user's packages, the spec's, and then those of its modules.
     resolver = FileSystemResolver(packages={**instance.packages_of_all, **loader.packages}, roots=loader.roots)
-    for robot, gaps in lowered.robots:
+    for robot, unresolved in lowered.robots:
         robot.resource_resolver = resolver
-        sink.report_all(check(robot, gaps.looking(loader.roots.hold)))
+        sink.report_all(check(robot, unresolved.with_access(loader.roots.hold)))
     if lowered.robot is not None:
         sink.report_all(urdf_limits(lowered.robot, gazebo=settings.gazebo))
         sink.report_all(srdf_limits(lowered.robot))

@@ -17,7 +17,7 @@ from jinja2.visitor import NodeTransformer
 from linkforge_compile.backends.environment import FILTERS, OPTIONS
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.core.exceptions import RobotModelError
-from linkforge_compile.core.models.index import Index
+from linkforge_compile.core.models.named_table import NamedTable
 from linkforge_compile.diagnostics.suggest import did_you_mean
 
 NAMES = ("robot", "urdf", "srdf", "banner")
@@ -47,7 +47,7 @@ class _StrictUndefined(StrictUndefined):
             return f"'{name}' is not defined{did_you_mean(str(name), NAMES)}"
         if owner is None:
             return f"this is None, which has no '{name}'; test it with '{{% if … %}}'"
-        whole = "this" if isinstance(owner, Index | Mapping) else f"a {type(owner).__name__}"
+        whole = "this" if isinstance(owner, NamedTable | Mapping) else f"a {type(owner).__name__}"
         return f"{whole} has no '{name}'{did_you_mean(str(name), _names_in(owner))}"
 
 
@@ -131,7 +131,7 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         try:
             return super().getattr(obj, attribute)
         except RobotModelError:
-            if not isinstance(obj, Index):
+            if not isinstance(obj, NamedTable):
                 raise
             return self.undefined(obj=obj, name=attribute)
 
@@ -140,7 +140,7 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         try:
             return super().getitem(obj, argument)
         except RobotModelError:
-            if not isinstance(obj, Index):
+            if not isinstance(obj, NamedTable):
                 raise
             return self.undefined(obj=obj, name=argument)
 
@@ -186,6 +186,6 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
             yield item
 
     def _measured(self, value: Any) -> Any:
-        if isinstance(value, str | list | tuple | range | Mapping | Index):
+        if isinstance(value, str | list | tuple | range | Mapping | NamedTable):
             self._budget.spend(Limit.TEMPLATE_CHARACTERS, len(value), None)
         return value

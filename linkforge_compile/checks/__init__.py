@@ -1,4 +1,4 @@
-"""Does the robot make sense? Pure functions that look at a finished Robot and yield what is wrong with it."""
+"""Checks of a finished robot: pure functions that yield diagnostics."""
 
 from __future__ import annotations
 
@@ -7,27 +7,26 @@ from typing import TypeAlias
 
 from linkforge_compile.checks import (
     gazebo,
-    geometry,
-    hardware,
+    groups,
     inertia,
-    interfaces,
     joints,
-    mass,
-    meshes,
     names,
-    plugins,
+    ros2_control,
     sensors,
+    shapes,
+    srdf,
+    states,
     tree,
 )
 from linkforge_compile.checks.mesh_files import RobotMeshes
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 
-Check: TypeAlias = Callable[[Robot, Gaps], Iterator[Diagnostic]]
-"""Looks at one question; its docstring is its manual page. It says nothing of names in the gaps."""
+Check: TypeAlias = Callable[[Robot, UnresolvedNames], Iterator[Diagnostic]]
+"""Checks one rule, which the first line of its docstring states; the rest is its manual page."""
 
 MeshCheck: TypeAlias = Callable[[Robot, RobotMeshes], Iterator[Diagnostic]]
-"""A check that looks at mesh files as well; all of them share what was seen."""
+"""A check that needs mesh files; all of them share what was read."""
 
 ROBOT_CHECKS: tuple[Check, ...] = (
     names.check_duplicates,
@@ -50,25 +49,25 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     joints.check_joint_speed,
     joints.check_soft_limits,
     inertia.check_inertia,
-    mass.check_signs_of_products,
-    geometry.check_untouched_visuals,
-    geometry.check_unseen_collisions,
+    inertia.check_signs_of_products,
+    shapes.check_untouched_visuals,
+    shapes.check_unseen_collisions,
     sensors.check_sensor_links,
     sensors.check_sensor_frames,
     sensors.check_contacts,
     sensors.check_topics,
     sensors.check_shared_topics,
-    hardware.check_transmission_joints,
-    hardware.check_ros2_control_joints,
-    hardware.check_fixed_joints_driven,
-    hardware.check_interface_claims,
-    interfaces.check_interface_names,
-    interfaces.check_interface_parameters,
-    interfaces.check_mimics_in_hardware,
-    interfaces.check_hardware_is_used,
-    hardware.check_gazebo_references,
-    plugins.check_plugin_joints,
-    plugins.check_simulated_hardware,
+    ros2_control.check_transmission_joints,
+    ros2_control.check_ros2_control_joints,
+    ros2_control.check_fixed_joints_driven,
+    ros2_control.check_interface_claims,
+    ros2_control.check_interface_names,
+    ros2_control.check_interface_parameters,
+    ros2_control.check_mimics_in_hardware,
+    ros2_control.check_hardware_is_used,
+    sensors.check_gazebo_references,
+    sensors.check_plugin_joints,
+    sensors.check_simulated_hardware,
     gazebo.check_massless_bodies,
     gazebo.check_tiny_masses,
     gazebo.check_merged_joints,
@@ -76,30 +75,45 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     gazebo.check_tags_of_several_blocks,
 )
 
+SEMANTIC_CHECKS: tuple[Check, ...] = (
+    names.check_semantic_duplicates,
+    srdf.check_semantic_links,
+    srdf.check_semantic_joints,
+    srdf.check_semantic_groups,
+    srdf.check_virtual_joints,
+    srdf.check_virtual_joint_names,
+    srdf.check_collision_pairs,
+    srdf.check_enabled_pairs,
+    srdf.check_passive_joints,
+    groups.check_group_circles,
+    groups.check_chains,
+    groups.check_empty_groups,
+    groups.check_end_effectors,
+    groups.check_arms_of_end_effectors,
+    states.check_group_states,
+    states.check_states_taken_over,
+    states.check_states_of_mimics,
+    states.check_states_are_whole,
+)
+
 MESH_CHECKS: tuple[MeshCheck, ...] = (
-    mass.check_density,
-    mass.check_inertia_scale,
-    mass.check_centre_of_mass,
-    meshes.check_mesh_files,
-    meshes.check_mesh_formats,
-    meshes.check_mirrored_collisions,
-    meshes.check_fine_collisions,
+    inertia.check_density,
+    inertia.check_inertia_scale,
+    inertia.check_centre_of_mass,
+    shapes.check_mesh_files,
+    shapes.check_mesh_formats,
+    shapes.check_mirrored_collisions,
+    shapes.check_fine_collisions,
 )
 
 
-def check(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
-    """Yield all that is wrong with the robot, each fault once, in the order of the checks.
-
-    `gaps` are the names that the author wrote and the robot lacks, which has been told.
-    """
-    for one in ROBOT_CHECKS:
-        yield from one(robot, gaps)
-    # To ask a robot for its semantic part makes one, and costs the import of its classes.
-    if robot.says_semantic:
-        from linkforge_compile.checks.semantic import SEMANTIC_CHECKS
-
-        for one in SEMANTIC_CHECKS:
-            yield from one(robot, gaps)
-    files = RobotMeshes(robot, gaps)
-    for looking in MESH_CHECKS:
-        yield from looking(robot, files)
+def check(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """Yield all faults of a robot in the order of the checks; nothing about names whose errors are already reported."""
+    for check_robot in ROBOT_CHECKS:
+        yield from check_robot(robot, unresolved)
+    # Reading the semantic part of a robot that has none creates one, and imports its classes.
+    for check_semantic in SEMANTIC_CHECKS if robot.says_semantic else ():
+        yield from check_semantic(robot, unresolved)
+    meshes = RobotMeshes(robot, unresolved)
+    for check_meshes in MESH_CHECKS:
+        yield from check_meshes(robot, meshes)

@@ -1,6 +1,6 @@
-"""COLLADA at a first look: the corners of a scene, as far as the ends of its arrays of numbers tell.
+"""Corners of a COLLADA scene, for a scan that reads the ends of its arrays of numbers.
 
-The long arrays are cut before anything is parsed, so that a look takes a few milliseconds for a file of megabytes.
+The long arrays are cut before anything is parsed, so that a scan takes a few milliseconds for a file of megabytes.
 """
 
 from __future__ import annotations
@@ -10,15 +10,15 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
-    from lxml.etree import _Element as Element
+    from lxml.etree import _Element
 
-    from linkforge_compile.checks.mesh_files import Effort
+    from linkforge_compile.checks.mesh_files import ScanBudget
 
 _END = 1024
-"""How much of each end of an array is looked at [bytes]."""
+"""How much of each end of an array is read [bytes]."""
 
-_DEEPEST = 50
-"""How deep in one another nodes are looked at; a node may be placed in itself."""
+_MAX_DEPTH = 50
+"""How deeply nodes may be nested; a node may place itself."""
 
 Corner: TypeAlias = tuple[float, float, float]
 Matrix: TypeAlias = tuple[tuple[float, float, float, float], ...]
@@ -27,15 +27,15 @@ Matrix: TypeAlias = tuple[tuple[float, float, float, float], ...]
 _IDENTITY: Matrix = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))
 
 
-class _UnknownError(Exception):
-    """The scene is made of what a first look does not understand, or has no time for."""
+class _UnsupportedError(Exception):
+    """The scene has elements that a scan does not read, or exceeds the budget."""
 
 
-def corners_of_scene(content: bytes, effort: Effort) -> Sequence[Corner]:
-    """Return corners of a scene where its nodes place them [m]; () where that cannot be told at a look.
+def corners_of_scene(content: bytes, budget: ScanBudget) -> Sequence[Corner]:
+    """Return corners of a scene where its nodes place them [m]; () where a scan cannot find them.
 
-    Small files can ask for much, as nodes place one shape again and again, so the effort is counted. `<unit meter>`
-    scales all of it, and `<up_axis>` turns nothing, as where meshes are read whole.
+    A small file can place one shape again and again, so every step spends some of the budget. `<unit meter>` scales
+    the scene, and `<up_axis>` turns nothing, as in core/meshes.
     """
     from lxml import etree
 
@@ -43,21 +43,19 @@ def corners_of_scene(content: bytes, effort: Effort) -> Sequence[Corner]:
 
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
         return ()
-    if not effort.takes(content.count(b"<")):
+    if not budget.try_spend(content.count(b"<")):
         return ()
     try:
         pieces = (piece if len(piece) <= 2 * _END else _shortened(piece) for piece in content.split(b"<"))
-        root = etree.fromstring(b"<".join(pieces), safe_parser(remove_comments=True))
-        corners = tuple(_Scene(root, effort).corners())
-    except (etree.XMLSyntaxError, ValueError, LookupError, _UnknownError):  # LookupError: of ids and encodings
+        return tuple(_Scene(etree.fromstring(b"<".join(pieces), safe_parser(remove_comments=True)), budget).corners())
+    except (etree.XMLSyntaxError, ValueError, LookupError, _UnsupportedError):  # LookupError: an unknown id
         return ()
-    return corners if all(math.isfinite(at) for corner in corners for at in corner) else ()
 
 
 def _shortened(piece: bytes) -> bytes:
-    """Return a tag and the long text behind it with the ends of that only, each of whole triples of numbers.
+    """Return a tag with the ends of the text after it, each of whole triples of numbers.
 
-    Indices go, as all corners are taken.
+    The text of other elements goes: all corners are taken, whatever the triangles.
     """
     tag, _, text = piece.partition(b">")
     if b"float_array" not in tag:
@@ -69,66 +67,65 @@ def _shortened(piece: bytes) -> bytes:
 class _Scene:
     """A document whose arrays are cut."""
 
-    def __init__(self, root: Element, effort: Effort) -> None:
-        self._root, self._effort = root, effort
-        for element in root.iter():
-            element.tag = element.tag.rpartition("}")[2]
+    def __init__(self, root: _Element, budget: ScanBudget) -> None:
+        self._root, self._budget = root, budget
         self._by_id = {name: element for element in root.iter() if (name := element.get("id"))}
 
     def corners(self) -> Iterator[Corner]:
-        unit = self._root.find("asset/unit")
+        unit = self._root.find("{*}asset/{*}unit")
         meter = float(unit.get("meter", "1")) if unit is not None else 1.0
-        scene = self._root.find("scene/instance_visual_scene")
+        scene = self._root.find("{*}scene/{*}instance_visual_scene")
         shapes: dict[str, Sequence[Corner]] = {}
-        for url, matrix in self._geometries(self._at(scene), _IDENTITY) if scene is not None else ():
+        for url, matrix in self._geometries(self._target(scene), _IDENTITY) if scene is not None else ():
             if url not in shapes:
                 shapes[url] = self._shape(url)
             self._spend(len(shapes[url]))
             for corner in shapes[url]:
-                yield _scaled(_moved(corner, matrix), meter)
+                x, y, z = (a * corner[0] + b * corner[1] + c * corner[2] + d for a, b, c, d in matrix)
+                yield x * meter, y * meter, z * meter
 
     def _spend(self, count: int) -> None:
-        if not self._effort.takes(count):
-            raise _UnknownError
+        if not self._budget.try_spend(count):
+            raise _UnsupportedError
 
-    def _at(self, instance: Element) -> Element:
+    def _target(self, instance: _Element) -> _Element:
         return self._by_id[instance.get("url", "").removeprefix("#")]
 
-    def _geometries(self, node: Element, around: Matrix, depth: int = 0) -> Iterator[tuple[str, Matrix]]:
+    def _geometries(self, node: _Element, around: Matrix, depth: int = 0) -> Iterator[tuple[str, Matrix]]:
         """Yield each geometry that a node places, with the matrix to the scene."""
-        if depth > _DEEPEST:
-            raise _UnknownError
+        if depth > _MAX_DEPTH:
+            raise _UnsupportedError
         self._spend(1 + len(node))
         matrix = around
         for part in node:
-            match part.tag:
-                case "matrix" | "translate" | "rotate" | "scale":
-                    matrix = _product(matrix, _transform(part))
+            match part.tag.rpartition("}")[2]:
+                case "matrix" | "translate" | "rotate" | "scale" as kind:
+                    matrix = _product(matrix, _transform(kind, part.text or ""))
                 case "node":
                     yield from self._geometries(part, matrix, depth + 1)
                 case "instance_node":
-                    yield from self._geometries(self._at(part), matrix, depth + 1)
+                    yield from self._geometries(self._target(part), matrix, depth + 1)
                 case "instance_geometry":
                     yield part.get("url", "").removeprefix("#"), matrix
                 case "instance_controller" | "lookat" | "skew":
-                    raise _UnknownError
+                    raise _UnsupportedError
 
     def _shape(self, url: str) -> Sequence[Corner]:
         """Return the corners of a geometry in its own frame; none of one without a mesh."""
-        given = self._by_id[url].find("mesh/vertices/input[@semantic='POSITION']")
-        if given is None:
+        position = self._by_id[url].find("{*}mesh/{*}vertices/{*}input[@semantic='POSITION']")
+        if position is None:
             return ()
-        source = self._by_id[given.get("source", "").removeprefix("#")]
-        accessor, array = source.find("technique_common/accessor"), source.find("float_array")
+        source = self._by_id[position.get("source", "").removeprefix("#")]
+        accessor, array = source.find("{*}technique_common/{*}accessor"), source.find("{*}float_array")
         if accessor is None or array is None or accessor.get("stride") != "3":
-            raise _UnknownError
+            raise _UnsupportedError
         numbers = [float(number) for number in (array.text or "").split()]
         return list(zip(numbers[::3], numbers[1::3], numbers[2::3], strict=True))
 
 
 def _matrix(*numbers: float) -> Matrix:
     if len(numbers) != 16:
-        raise _UnknownError
+        raise _UnsupportedError
     a, b, c, d, e, f, g, h, i, j, k, m = numbers[:12]
     return ((a, b, c, d), (e, f, g, h), (i, j, k, m))
 
@@ -141,8 +138,8 @@ def _scaling(x: float, y: float, z: float) -> Matrix:
     return ((x, 0, 0, 0), (0, y, 0, 0), (0, 0, z, 0))
 
 
-def _turn(x: float, y: float, z: float, degrees: float) -> Matrix:
-    """Return the turn about an axis, of any length (Rodrigues)."""
+def _rotation(x: float, y: float, z: float, degrees: float) -> Matrix:
+    """Return the rotation about an axis of any length (Rodrigues)."""
     length = math.hypot(x, y, z)
     if not length:
         return _IDENTITY
@@ -159,16 +156,16 @@ def _turn(x: float, y: float, z: float, degrees: float) -> Matrix:
 _TRANSFORMS: Mapping[str, Callable[..., Matrix]] = {
     "matrix": _matrix,
     "translate": _translation,
-    "rotate": _turn,
+    "rotate": _rotation,
     "scale": _scaling,
 }
 
 
-def _transform(part: Element) -> Matrix:
+def _transform(kind: str, text: str) -> Matrix:
     try:
-        return _TRANSFORMS[part.tag](*map(float, (part.text or "").split()))
-    except TypeError as error:  # of more numbers, or fewer
-        raise _UnknownError from error
+        return _TRANSFORMS[kind](*map(float, text.split()))
+    except TypeError as error:  # too many numbers, or too few
+        raise _UnsupportedError from error
 
 
 def _product(left: Matrix, right: Matrix) -> Matrix:
@@ -176,13 +173,3 @@ def _product(left: Matrix, right: Matrix) -> Matrix:
     columns = tuple(zip(*whole, strict=True))
     rows = [[sum(a * b for a, b in zip(row, column, strict=True)) for column in columns] for row in left]
     return tuple((a, b, c, d) for a, b, c, d in rows)
-
-
-def _moved(corner: Corner, matrix: Matrix) -> Corner:
-    x, y, z = (a * corner[0] + b * corner[1] + c * corner[2] + d for a, b, c, d in matrix)
-    return x, y, z
-
-
-def _scaled(corner: Corner, factor: float) -> Corner:
-    x, y, z = corner
-    return x * factor, y * factor, z * factor

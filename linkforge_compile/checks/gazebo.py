@@ -1,4 +1,4 @@
-"""What Gazebo makes of links when it reads URDF: it merges those that do not move and drops those without mass."""
+"""Gazebo's reading of URDF: links that it merges or drops, and blocks and tags that it loses with them."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from itertools import takewhile
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.checks.references import SHOWN, Use, listed
-from linkforge_compile.checks.tree import hanging
+from linkforge_compile.checks.references import SHOWN, Reference, join_names
+from linkforge_compile.checks.tree import child_reference
 from linkforge_compile.core.constants import WORLD
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps, Note
+from linkforge_compile.diagnostics import Diagnostic, Note, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import TAG_OF_TWO_BLOCKS
 from linkforge_compile.diagnostics.codes.physics import (
     BLOCK_OF_MERGED_JOINT,
@@ -30,22 +30,22 @@ if TYPE_CHECKING:
     from linkforge_compile.source import SourceRef
 
 NEGLIGIBLE_MASS = 1e-6
-"""What Gazebo takes for no mass [kg]."""
+"""A mass that Gazebo treats as none [kg]."""
 
 LOOKS_UP_A_LINK = frozenset(("link_name", "linkName", "body_name", "parent_link"))
-"""The tags by which plugins name a link that they look for in the simulation."""
+"""The tags by which plugins name a link that they search for in the simulation."""
 
 
-def check_massless_bodies(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
-    """What a joint moves has mass, if mass hangs on it; and so has the root.
+def check_massless_bodies(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A link that a joint moves has mass, if a link below it has; and so has the root.
 
     A link without mass is a frame, and normal. But Gazebo leaves out a link that moves, or is the root, and has no
     mass, nor anything fixed to it that has, and with it all that hangs below. Give it, or a link that is fixed to it,
-    an `inertial`; or make its joint fixed. A root named `world` is Gazebo's own. Told of the first link of a chain,
-    with the joints that are lost; of the root only where the robot says something to Gazebo or has sensors. Silent
+    an `inertial`; or make its joint fixed. A root named `world` is Gazebo's own. Reported for the first link of a
+    chain, with the joints that are dropped; for the root only if the robot has Gazebo blocks or sensors. Not checked
     while part of the robot could not be read.
     """
-    if gaps:
+    if unresolved:
         return
     above = parent_joints(robot.joints)
     weights = _merged_weights(robot, above)
@@ -54,33 +54,33 @@ def check_massless_bodies(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
     below, loaded = child_joints(robot.joints), _links_that_carry_mass(robot, above)
     is_for_gazebo = bool(robot.gazebo_elements or robot.sensors)
     roots = [link.name for link in robot.links if link.name not in above]
-    lost: set[str] = set()
+    dropped: set[str] = set()
     for name in (*roots, *(joint.child for joint in walk_down(roots, child_joints(above.values())))):
         joint = above.get(name)
-        if joint and joint.parent in lost:
-            lost.add(name)
+        if joint and joint.parent in dropped:
+            dropped.add(name)
         elif name in loaded and weights.get(name, 1.0) == 0 and (joint or is_for_gazebo) and name != WORLD:
-            lost.add(name)
+            dropped.add(name)
             moving = [one for one in walk_down([name], below) if one.type != JointType.FIXED]
-            yield _lost(robot.links[name], joint, moving)
+            yield _report_dropped(robot.links[name], joint, moving)
 
 
-def _lost(link: Link, joint: Joint | None, moving: Sequence[Joint]) -> Diagnostic:
-    also = f", joint{'s' if len(moving) > 1 else ''} {listed([one.name for one in moving])} too" if moving else ""
-    notes = [hanging(one).note(f"joint '{one.name}' is lost") for one in moving[:SHOWN]]
+def _report_dropped(link: Link, joint: Joint | None, moving: Sequence[Joint]) -> Diagnostic:
+    also = f", joint{'s' if len(moving) > 1 else ''} {join_names([one.name for one in moving])} too" if moving else ""
+    notes = [child_reference(one).note(f"joint '{one.name}' is lost") for one in moving[:SHOWN]]
     if joint is None:
         return MASSLESS_ROOT.at(link.source, "inertial", "mass", link=link.name, also=also, notes=notes)
     where = ("inertial", "mass")
     return MASSLESS_BODY.at(link.source, *where, joint=joint.name, link=link.name, also=also, notes=notes)
 
 
-def check_tiny_masses(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
-    """What a joint moves weighs more than a milligram, with all that is fixed to it.
+def check_tiny_masses(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A link that a joint moves, with all links fixed to it, weighs more than a milligram.
 
-    Gazebo takes 1e-6 kg and less for no mass and leaves the link out, with its joint and all that hangs below.
-    Write a mass that a solver can hold beside those of its neighbours, or make the joint fixed.
+    Gazebo treats 1e-6 kg and less as no mass and drops the link, with its joint and all that hangs below.
+    Write a mass that a solver can handle next to those of its neighbours, or make the joint fixed.
     """
-    if gaps:
+    if unresolved:
         return
     above = parent_joints(robot.joints)
     for name, weight in _merged_weights(robot, above).items():
@@ -90,37 +90,37 @@ def check_tiny_masses(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
             yield TINY_MASS.at(link.source, "inertial", "mass", joint=above[name].name, link=name, mass=mass)
 
 
-def check_merged_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_merged_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A Gazebo block is about a joint that Gazebo keeps.
 
-    It merges the links of a fixed joint into one, and what was to be set for the joint is lost with it. Say
-    `preserveFixedJoint: true` in the block, or take the block out.
+    It merges the links of a fixed joint into one, and the settings for the joint are lost with it. Write
+    `preserveFixedJoint: true` in the block, or remove the block.
     """
     merged = {joint.name for joint in _merged_joints(robot)} if robot.gazebo_elements else set()
     for block in robot.gazebo_elements:
-        if block.reference in merged and block.reference not in robot.links and _says_something(block):
+        if block.reference in merged and block.reference not in robot.links and _has_settings(block):
             yield BLOCK_OF_MERGED_JOINT.at(block.source, joint=block.reference)
 
 
-def check_merged_links(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """A Gazebo plugin that looks for a link names one that Gazebo keeps.
+def check_merged_links(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A link that a Gazebo plugin names is one that Gazebo keeps.
 
-    It merges a link that hangs on a fixed joint into the link above, and a plugin that looks for it by name finds
-    nothing. Name the link above, or say `preserveFixedJoint: true` in the `gazebo` of the joint.
+    It merges a link that hangs on a fixed joint into the link above, and a plugin that searches for it by name finds
+    nothing. Name the link above, or write `preserveFixedJoint: true` in the `gazebo` of the joint.
     """
     plugins = [(block, plugin) for block in robot.gazebo_elements for plugin in block.plugins]
     merged = {joint.child: joint for joint in _merged_joints(robot)} if plugins else {}
     for block, plugin in plugins if merged else ():
         for path, name in _named_links(plugin.parameters):
             if joint := merged.get(name):
-                use = Use(name, f"plugin '{plugin.name}'", plugin.source or block.source, ("parameters", *path))
-                yield use.told(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
+                ref = Reference(name, f"plugin '{plugin.name}'", plugin.source or block.source, ("parameters", *path))
+                yield ref.report(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
 
 
 class _Tag(NamedTuple):
-    """A tag of Gazebo that holds one value: what it is about, and the object and field that say it.
+    """A tag of Gazebo that holds one value: the link or joint that it applies to, and the field where it is written.
 
-    `told_in` is the object in which a tag that is said twice is an error, told when it was read.
+    `scope` is the object in which lowering has already reported a second tag of the same name.
     """
 
     reference: str
@@ -128,35 +128,35 @@ class _Tag(NamedTuple):
     text: str
     source: SourceRef | None
     path: tuple[str, ...]
-    told_in: SourceRef | None
+    scope: SourceRef | None
 
-    def is_as(self, other: _Tag) -> bool:
-        """Whether Gazebo reads the same value from both."""
+    def has_value_of(self, other: _Tag) -> bool:
+        """Return whether Gazebo reads the same value from both."""
         return _as_gazebo_reads(self.text) == _as_gazebo_reads(other.text)
 
-    def is_told_with(self, first: _Tag) -> bool:
-        whole = first.told_in.node.span if first.told_in else None
+    def is_reported_with(self, first: _Tag) -> bool:
+        whole = first.scope.node.span if first.scope else None
         return whole is not None and self.source is not None and self.source.node.span.lies_in(whole)
 
 
-def check_tags_of_several_blocks(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """The Gazebo blocks of a link or joint, and a link's `physics`, say a thing in one way.
+def check_tags_of_several_blocks(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """The Gazebo blocks of a link or joint, and a link's `physics`, do not contradict one another.
 
-    Of a tag that stands in two of them Gazebo takes the last, and says so in its log at best. Write it once.
+    Of a tag in two of them Gazebo takes the last one, with a line in its log at best. Write it once.
     """
     if not robot.gazebo_elements:
         return
-    said: dict[tuple[str, str], _Tag] = {}
+    first_tags: dict[tuple[str, str], _Tag] = {}
     for tag in (*_tags_of_physics(robot), *_tags_of_blocks(robot)):
-        first = said.setdefault((tag.reference, tag.name), tag)
-        if first is not tag and not tag.is_as(first) and not tag.is_told_with(first):
+        first = first_tags.setdefault((tag.reference, tag.name), tag)
+        if first is not tag and not tag.has_value_of(first) and not tag.is_reported_with(first):
             notes = [Note("the other block is here", first.source.at(*first.path))] if first.source else []
             facts = {"tag": tag.name, "owner": tag.reference, "found": tag.text, "first": first.text}
             yield TAG_OF_TWO_BLOCKS.at(tag.source, *tag.path, notes=notes, **facts)
 
 
 def _tags_of_physics(robot: Robot) -> Iterator[_Tag]:
-    """Yield what the physics of links with blocks say."""
+    """Yield the tags that the `physics` of links with blocks write."""
     from linkforge_compile.core.models.link import PHYSICS_TAGS
 
     with_blocks = {block.reference for block in robot.gazebo_elements}
@@ -168,7 +168,7 @@ def _tags_of_physics(robot: Robot) -> Iterator[_Tag]:
 
 
 def _tags_of_blocks(robot: Robot) -> Iterator[_Tag]:
-    """Yield the tags of the blocks; what holds elements, such as a sensor, may stand twice."""
+    """Yield the tags of the blocks that hold a value; one that holds elements, such as a sensor, may occur twice."""
     from linkforge_compile.core.models.gazebo import ELEMENT_TAGS
 
     for block in robot.gazebo_elements:
@@ -191,7 +191,7 @@ def _text(value: str | bool | float) -> str:
 
 
 def _as_gazebo_reads(text: str) -> str | float:
-    """Return a number for text that is one, 1 or 0 for a truth, to be compared: '1', '1.0' and 'true' are one."""
+    """Return a number for the text of a number or boolean, to compare them: '1', '1.0' and 'true' are equal."""
     word = text.strip().lower()
     try:
         return _TRUTHS[word] if word in _TRUTHS else float(word)
@@ -224,14 +224,14 @@ def _merged_weights(robot: Robot, above: Mapping[str, Joint]) -> Mapping[str, fl
     into = {joint.child: joint.parent for joint in _merged_joints(robot) if above[joint.child] is joint}
     weights = {link.name: 0.0 for link in robot.links if link.name not in into}
     for link in robot.links:
-        name = _end_of_way(link.name, into)
+        name = _merge_target(link.name, into)
         if name in weights:
             weights[name] += link.mass
     return weights
 
 
-def _end_of_way(link: str, into: dict[str, str]) -> str:
-    """Return what a link is merged into in the end, and record it for all on the way, so that none is walked twice."""
+def _merge_target(link: str, into: dict[str, str]) -> str:
+    """Return the link that a link is merged into in the end, and record it for all links between, to walk them once."""
     *way, end = walk_up(link, into)
     into.update(dict.fromkeys(way, end))
     return end
@@ -247,8 +247,8 @@ def _links_that_carry_mass(robot: Robot, above: Mapping[str, Joint]) -> set[str]
     return carriers
 
 
-def _says_something(block: GazeboElement) -> bool:
-    """Whether a block says more than what becomes of its joint."""
+def _has_settings(block: GazeboElement) -> bool:
+    """Return whether a block holds more than whether to keep its joint."""
     from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT
 
     fields = (block.material, block.static, block.stop_cfm, block.stop_erp, block.provide_feedback)
@@ -257,7 +257,7 @@ def _says_something(block: GazeboElement) -> bool:
 
 
 def _named_links(part: FreePart) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """Yield the names of links that plugins look for, each with its path."""
+    """Yield the names of links that plugins search for, each with its path."""
     if isinstance(part, Mapping):
         for tag, inner in part.items():
             if isinstance(inner, str):

@@ -1,14 +1,17 @@
-"""Planning groups: their chains lead somewhere, and end effectors fit them as MoveIt sees it."""
+"""Planning groups: the links and joints in them, their chains and end effectors as MoveIt reads them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from functools import reduce
+from itertools import takewhile
+from operator import or_
+from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.cycles import report_cycles
-from linkforge_compile.checks.link_sets import LinkSets, group_links
-from linkforge_compile.checks.references import Use
+from linkforge_compile.checks.references import Reference, report_cycles
+from linkforge_compile.core.models.graph import parent_joints, walk_up
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     CHAIN_ACROSS,
     CHAIN_UPWARD,
@@ -19,15 +22,18 @@ from linkforge_compile.diagnostics.codes.model import (
     PARENT_LINK_OUTSIDE_GROUP,
 )
 
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.srdf import Chain, PlanningGroup
 
-def check_group_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+
+def check_group_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A group may contain groups, but not itself, not even by way of others.
 
     MoveIt drops every group of such a circle. Take one of the subgroups out.
     """
     subgroups = {
         group.name: [
-            Use(name, f"planning group '{group.name}'", group.source, ("subgroups", place))
+            Reference(name, f"planning group '{group.name}'", group.source, ("subgroups", place))
             for place, name in enumerate(group.subgroups)
         ]
         for group in robot.semantic.groups
@@ -36,12 +42,12 @@ def check_group_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     yield from report_cycles(subgroups, GROUP_CIRCLE)
 
 
-def check_chains(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_chains(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The chain of a group leads from its `base_link` down to its `tip_link`.
 
     With the two swapped MoveIt takes the joints between them and the one above as well, and kinematics solvers
-    find no chain. Between two branches (from one hand to the other, say) it takes the joints of both: that is
-    allowed, but solvers for a single arm refuse it.
+    find no chain. Between two branches (such as two hands) it takes the joints of both: that is allowed, but
+    solvers for a single arm refuse it.
     """
     links = LinkSets(robot)
     for group in robot.semantic.groups:
@@ -50,23 +56,23 @@ def check_chains(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             if meeting is None or meeting == chain.base_link:
                 continue
             code, end = (CHAIN_UPWARD, "base_link") if meeting == chain.tip_link else (CHAIN_ACROSS, "tip_link")
-            use = Use(group.name, f"planning group '{group.name}'", chain.source or group.source, (end,))
-            yield use.told(code, base=chain.base_link, tip=chain.tip_link, meeting=meeting)
+            ref = Reference(group.name, f"planning group '{group.name}'", chain.source or group.source, (end,))
+            yield ref.report(code, base=chain.base_link, tip=chain.tip_link, meeting=meeting)
 
 
-def check_empty_groups(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_empty_groups(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A planning group has a joint.
 
     MoveIt leaves out a group without one, with its states and end effectors: a chain from a link to itself, or
-    subgroups that have none either. Add a joint, or a link, which stands for the joint that it hangs on.
+    subgroups that have none either. Add a joint, or a link, which means the joint above it.
     """
     moving = group_links(robot, LinkSets(robot))
     for group in robot.semantic.groups:
         if moving.get(group.name) == 0:
-            yield Use(group.name, "", group.source).told(GROUP_WITHOUT_JOINT, group=group.name)
+            yield GROUP_WITHOUT_JOINT.at(group.source, group=group.name)
 
 
-def check_end_effectors(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_end_effectors(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The parent group of an end effector is another group, and holds its parent link.
 
     Otherwise MoveIt ignores the parent group and takes the smallest group that holds the link, or none. The base
@@ -82,20 +88,20 @@ def check_end_effectors(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             continue
         members = moving.get(effector.parent_group)
         if effector.parent_group == effector.group:
-            use = Use(effector.group, f"end effector '{effector.name}'", effector.source, ("parent_group",))
-            yield use.told(OWN_PARENT_GROUP, group=effector.group)
+            ref = Reference(effector.group, f"end effector '{effector.name}'", effector.source, ("parent_group",))
+            yield ref.report(OWN_PARENT_GROUP, group=effector.group)
         elif members and robot.has_link(effector.parent_link) and not members & links.bit(effector.parent_link):
-            use = Use(effector.parent_link, f"end effector '{effector.name}'", effector.source, ("parent_link",))
-            yield use.told(PARENT_LINK_OUTSIDE_GROUP, link=effector.parent_link, group=effector.parent_group)
+            ref = Reference(effector.parent_link, f"end effector '{effector.name}'", effector.source, ("parent_link",))
+            yield ref.report(PARENT_LINK_OUTSIDE_GROUP, link=effector.parent_link, group=effector.parent_group)
 
 
-def check_arms_of_end_effectors(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_arms_of_end_effectors(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """The parent link of an end effector is in a planning group: that of the arm which carries it.
 
-    Otherwise MoveIt finds no parent group, says so in its log, and does not know which arm to move for this hand.
-    Nothing is wrong with a hand on a robot without an arm. Silent while a group could not be read.
+    Otherwise MoveIt finds no parent group, writes that to its log, and does not know which arm to move for this hand.
+    Nothing is wrong with a hand on a robot without an arm. Not checked while a group could not be read.
     """
-    if gaps or not robot.semantic.end_effectors:
+    if unresolved or not robot.semantic.end_effectors:
         return
     links = LinkSets(robot)
     moving = group_links(robot, links)
@@ -108,5 +114,112 @@ def check_arms_of_end_effectors(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic
         of_others = in_several | in_one & ~moving.get(effector.group, 0)
         is_held = of_others & links.bit(effector.parent_link)
         if not effector.parent_group and not is_held and robot.has_link(effector.parent_link):
-            use = Use(effector.parent_link, f"end effector '{effector.name}'", effector.source, ("parent_link",))
-            yield use.told(NO_ARM, link=effector.parent_link)
+            ref = Reference(effector.parent_link, f"end effector '{effector.name}'", effector.source, ("parent_link",))
+            yield ref.report(NO_ARM, link=effector.parent_link)
+
+
+class LinkSets:
+    """Sets of the links of a robot as integers with a bit for each link, in the order of the joints above them.
+
+    A spec may have thousands of groups with chains of thousands of links: 5,000 sets of 5,000 names take 1.3 GB, as
+    integers 3 MB.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        self._known = frozenset(robot.links.names)
+        self._parents = {name: joint.parent for name, joint in parent_joints(robot.joints).items()}
+        self._names = [*dict.fromkeys((*self._parents, *robot.links.names))]
+        self._places = {name: place for place, name in enumerate(self._names)}
+        self._ways_up: dict[str, int] = {}
+        self._lowest: dict[bytes, str] = {}
+
+    def bit(self, link: str) -> int:
+        """Return the set of one link, empty for a name that is none of the robot's."""
+        return 1 << self._places[link] if link in self._known else 0
+
+    def of(self, links: Iterable[str]) -> int | None:
+        """Return the set of links, None where one is none of the robot's."""
+        found = 0
+        for link in links:
+            bit = self.bit(link)
+            if not bit:
+                return None
+            found |= bit
+        return found
+
+    def first(self, links: int, count: int) -> Iterator[str]:
+        """Yield the first links of a set, at most so many."""
+        for _ in range(min(count, links.bit_count())):
+            lowest = links & -links
+            yield self._names[lowest.bit_length() - 1]
+            links ^= lowest
+
+    def meeting_link(self, chain: Chain) -> str | None:
+        """Return the lowest link that both ends are or hang on; None if there is none or an end is unknown."""
+        return self._lowest.get(_key(self._way_up(chain.base_link) & self._way_up(chain.tip_link)))
+
+    def between(self, chain: Chain) -> int | None:
+        """Return the set of the links that a chain moves; None without a meeting link."""
+        meeting = self.meeting_link(chain)
+        if meeting is None:
+            return None
+        below = self._way_up(chain.base_link) ^ self._way_up(chain.tip_link)
+        # With the link where they meet, as MoveIt does, unless the chain leads down from it.
+        return below if meeting == chain.base_link else below | self.bit(meeting)
+
+    def _way_up(self, link: str) -> int:
+        """Return the set of a link and all those above it, of a cycle once; empty for one that is unknown."""
+        new = takewhile(lambda each: each in self._known and each not in self._ways_up, walk_up(link, self._parents))
+        way = list(new)
+        links = self._ways_up.get(self._parents.get(way[-1], ""), 0) if way else 0
+        for each in reversed(way):
+            links |= self.bit(each)
+            self._ways_up[each] = links
+            self._lowest[_key(links)] = each
+        return self._ways_up.get(link, 0)
+
+
+def _key(links: int) -> bytes:
+    # The hash of a number is its remainder by 2**61 - 1, which is the same for most of the ways up one chain.
+    return links.to_bytes(links.bit_length() // 8 + 1, "little")
+
+
+def group_links(robot: Robot, links: LinkSets) -> Mapping[str, int]:
+    """Return the set of links that each group moves, and with them its joints: a link hangs on one joint.
+
+    Groups with an unknown name are left out, and all groups while they contain one another in a circle.
+    """
+    from graphlib import CycleError, TopologicalSorter
+
+    groups = {group.name: group for group in reversed(tuple(robot.semantic.groups))}
+    try:
+        order = tuple(TopologicalSorter({name: group.subgroups for name, group in groups.items()}).static_order())
+    except CycleError:
+        return {}
+    moved = moved_links(robot)
+    moving: dict[str, int] = {}
+    for name in order:
+        group = groups.get(name)
+        own = _own_links(group, links, moved) if group else None
+        if group and own is not None and moving.keys() >= set(group.subgroups):
+            moving[name] = _union((own, *(moving[subgroup] for subgroup in group.subgroups)))
+    return moving
+
+
+def moved_links(robot: Robot) -> Mapping[str, str]:
+    """Return the link that each joint moves, the virtual ones among them."""
+    moved = {joint.name: joint.child_link for joint in robot.semantic.virtual_joints}
+    moved.update((joint.name, joint.child) for joint in robot.joints)
+    return moved
+
+
+def _own_links(group: PlanningGroup, links: LinkSets, moved: Mapping[str, str]) -> int | None:
+    """Return what a group moves without its subgroups; None where it names something unknown."""
+    named = links.of((*group.links, *(moved.get(joint, "") for joint in group.joints)))
+    chains = [links.between(chain) for chain in group.chains]
+    known = [one for one in (named, *chains) if one is not None]
+    return _union(known) if len(known) == 1 + len(chains) else None
+
+
+def _union(sets: Iterable[int]) -> int:
+    return reduce(or_, sets, 0)

@@ -1,16 +1,16 @@
-"""How far joints go, and joints that follow other joints."""
+"""Ranges of joints, and joints that mimic other joints."""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 
-from linkforge_compile.checks.cycles import report_cycles
-from linkforge_compile.checks.ranges import is_known, measured, passed_range, says_unit, unit_at
-from linkforge_compile.checks.references import Use, unknown
+from linkforge_compile.checks.references import Reference, report_cycles, report_unknown
+from linkforge_compile.core.constants import UNKNOWN
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointMimic, JointSafetyController, JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     EMPTY_RANGE,
     FAST_JOINT,
@@ -25,6 +25,90 @@ from linkforge_compile.diagnostics.codes.model import (
     SOFT_LIMITS_CROSSED,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT
+from linkforge_compile.source import Key
+
+WITHIN_LIMITS: dict[str, str] = {JointType.REVOLUTE: "rad", JointType.PRISMATIC: "m"}
+"""The joints whose limits bound their position, and its unit."""
+
+ROUNDING = 1e-4
+"""The tolerance on limits [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
+
+
+_SIZES = {"deg": math.pi / 180, "°": math.pi / 180, "mm": 0.001, "cm": 0.01}
+"""Units in which positions are often written, in [rad] or [m]."""
+
+_UNIT = re.compile(r"[0-9.]\s*(?P<unit>deg|°|mm|cm)['\"]?")
+
+_SAYS_UNIT = re.compile(r"[0-9]\.?\s*(?![eE][-+]?[0-9])[^\W\d_]|°|\$\(")
+
+
+def says_unit(text: str | None) -> bool:
+    """Return whether a number is written with a unit, or as an expression, which may have one; False for no text."""
+    return bool(text and _SAYS_UNIT.search(text))
+
+
+def unit_in(text: str | None) -> str | None:
+    """Return the unit in which a position is written; None for one in SI units, for an expression, and for no text."""
+    found = _UNIT.search(text) if text and "$(" not in text else None
+    return found["unit"] if found else None
+
+
+def in_unit(position: float, unit: str | None) -> str:
+    """Return the text of a position [rad] or [m] in a unit; None is SI, without the unit's name."""
+    return f"{position:.6g}" if unit is None else f"{position / _SIZES[unit]:.6g} {unit}"
+
+
+def is_known(*numbers: float | None) -> bool:
+    """Return whether none of these replaces a number whose error is already reported."""
+    return all(number is None or abs(number) < UNKNOWN for number in numbers)
+
+
+def unit_at(joint: Joint, *paths: tuple[str | Key, ...]) -> str | None:
+    """Return the unit of the first of some positions that is written with one."""
+    places = (joint.source.at(*path) for path in paths) if joint.source else ()
+    return next((unit for place in places if (unit := unit_in(place.text))), None)
+
+
+def measured(joint: Joint, position: float, unit: str | None) -> str:
+    """Return a position [rad] or [m] with its unit, the SI one for None."""
+    return in_unit(position, unit) if unit else f"{in_unit(position, None)} {WITHIN_LIMITS[joint.type]}"
+
+
+def missed_range(joint: Joint, lowest: float, highest: float, unit: str | None = None) -> str | None:
+    """Return "from -1 to 1 rad" if the joint can be nowhere between two positions [rad] or [m]; None if it can.
+
+    In another `unit` it is "from -90 deg to 90 deg".
+    """
+    limits = joint.limits
+    if limits is None or joint.type not in WITHIN_LIMITS:
+        return None
+    lower, upper = limits.lower, limits.upper
+    below = lower is not None and highest < lower - ROUNDING
+    above = upper is not None and lowest > upper + ROUNDING
+    return _range(joint, lower, upper, unit) if below or above else None
+
+
+def passed_range(joint: Joint, lowest: float, highest: float) -> tuple[str, str] | None:
+    """Return the range of a joint and the one in which it is driven [rad] or [m], in words, if that is not within.
+
+    Both are in the unit in which the joint's limits are written.
+    """
+    limits = joint.limits
+    if limits is None or joint.type not in WITHIN_LIMITS:
+        return None
+    below = limits.lower is not None and lowest < limits.lower - ROUNDING
+    above = limits.upper is not None and highest > limits.upper + ROUNDING
+    if not (below or above):
+        return None
+    unit = unit_at(joint, ("limits", "lower"), ("limits", "upper"))
+    return _range(joint, limits.lower, limits.upper, unit), _range(joint, lowest, highest, unit)
+
+
+def _range(joint: Joint, lower: float | None, upper: float | None, unit: str | None) -> str:
+    ends = (("from", lower), ("to", upper))
+    bounds = [f"{way} {in_unit(end, unit)}" for way, end in ends if end is not None and is_known(end)]
+    return " ".join((*bounds, *(() if unit else (WITHIN_LIMITS[joint.type],))))
+
 
 AXIS_JOINTS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 """The types whose position is one number, which is all that a mimic can multiply."""
@@ -32,25 +116,25 @@ AXIS_JOINTS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 BOUNDED_JOINTS = (JointType.REVOLUTE, JointType.PRISMATIC)
 
 FASTEST: dict[str, float] = {JointType.REVOLUTE: 20 * math.pi, JointType.PRISMATIC: 20.0}
-"""Beyond this the speed of a joint was meant in other units [rad/s] or [m/s]: fast legs have 40 rad/s."""
+"""A faster joint has its speed in other units [rad/s] or [m/s]: fast legs have 40 rad/s."""
 
 NO_SPEED, UNBOUNDED = 100.0, 1000.0
-"""What exporters write for a speed that nobody gave, and from where on it says that there is no limit [SI]."""
+"""The speed that exporters write by default, and that from which on there is no limit [SI]."""
 
 ROUNDING = 1e-4
 """How far a soft limit may pass a limit [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
 
 
-def check_mimic_joints(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_mimic_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint mimics a joint of this robot.
 
     Readers refuse the robot or leave the joint free to dangle. Correct the name; a joint of a module bears
     the module's prefix.
     """
-    yield from unknown(_mimics(robot).values(), UNKNOWN_JOINT, robot.joints.names, gaps)
+    yield from report_unknown(_mimics(robot).values(), UNKNOWN_JOINT, robot.joints.names, unresolved)
 
 
-def check_mimic_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_mimic_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint may mimic one that mimics another, but at the end of the row one must be free.
 
     In a circle none leads: MoveIt drops every mimic of the robot, other readers never end. Let one joint of
@@ -59,7 +143,7 @@ def check_mimic_circles(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
     yield from report_cycles({name: (use,) for name, use in _mimics(robot).items()}, MIMIC_CIRCLE)
 
 
-def check_mimic_freedom(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_mimic_freedom(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """Both joints of a mimic move along or about one axis.
 
     A mimic multiplies one number. A fixed joint has none, a planar or floating one several, and readers drop
@@ -70,15 +154,15 @@ def check_mimic_freedom(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             continue
         leader = robot.joints.get(joint.mimic.joint)
         if leader and leader is not joint and not {joint.type, leader.type}.issubset(AXIS_JOINTS):
-            use = _mimic(joint, joint.mimic)
-            yield use.told(MIMIC_FREEDOM, joint=joint.name, type=joint.type, leader=leader.name, led=leader.type)
+            ref = _mimic(joint, joint.mimic)
+            yield ref.report(MIMIC_FREEDOM, joint=joint.name, type=joint.type, leader=leader.name, led=leader.type)
 
 
-def check_mimic_motion(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """A joint that mimics another moves when that one does.
+def check_mimic_motion(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A joint that mimics another moves with it.
 
-    With a `multiplier` of 0 it stands at its `offset` whatever its leader does. Write the ratio of the two, below 0
-    to turn the other way; or make the joint `fixed`.
+    With a `multiplier` of 0 it stays at its `offset` whatever its leader does. Write the ratio of the two, below 0
+    for the other direction; or make the joint `fixed`.
     """
     for joint in robot.joints:
         if joint.mimic and joint.mimic.multiplier == 0:
@@ -86,7 +170,7 @@ def check_mimic_motion(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield MIMIC_STANDS_STILL.at(joint.source, "mimic", "multiplier", joint=joint.name, leader=leader)
 
 
-def check_mimic_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_mimic_range(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint that mimics another can follow it as far as it goes.
 
     Where the leader's range, times `multiplier` plus `offset`, passes a limit of the follower, simulators stop one of
@@ -105,7 +189,7 @@ def check_mimic_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
 
 
 def _driven_range(mimic: JointMimic, leader: Joint) -> tuple[float, float] | None:
-    """Return how far a leader drives its follower [rad] or [m]; None where its own range is not said, or not known."""
+    """Return the range in which a leader drives its follower [rad] or [m]; None if its own range is not known."""
     if leader.limits is None or leader.limits.lower is None or leader.limits.upper is None:
         return None
     if not is_known(leader.limits.lower, leader.limits.upper, mimic.multiplier, mimic.offset):
@@ -114,10 +198,10 @@ def _driven_range(mimic: JointMimic, leader: Joint) -> tuple[float, float] | Non
     return min(ends) + 0.0, max(ends) + 0.0  # no -0, which a person would not write
 
 
-def check_joint_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_joint_range(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A revolute or prismatic joint has a range to move in.
 
-    URDF takes an unsaid `lower` or `upper` for 0, so a joint that says neither, or one on the wrong side of 0,
+    URDF reads a missing `lower` or `upper` as 0, so a joint with neither, or with one on the wrong side of 0,
     cannot move; nor can one that has the same position for both. Write both, make the joint `continuous` if it
     turns without end, or `fixed` if it is not to move.
     """
@@ -127,33 +211,35 @@ def check_joint_range(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             continue
         if None in (limits.lower, limits.upper):
             if (limits.lower or 0.0) >= (limits.upper or 0.0):
-                unsaid = " and ".join(side for side in ("lower", "upper") if getattr(limits, side) is None)
-                yield NO_RANGE.at(joint.source, "limits", joint=joint.name, unsaid=unsaid)
+                missing = " and ".join(side for side in ("lower", "upper") if getattr(limits, side) is None)
+                yield NO_RANGE.at(joint.source, "limits", joint=joint.name, unsaid=missing)
         elif limits.lower == limits.upper:
             found = f"{limits.lower:.6g}"
             yield EMPTY_RANGE.at(joint.source, "limits", "upper", joint=joint.name, found=found)
 
 
-def check_endless_joints(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """A continuous joint turns without end, so it has no `lower` and `upper`.
+def check_endless_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A continuous joint has no `lower` and `upper`.
 
     Simulators and planners let it turn beyond them. Make it `revolute` if it stops there, or leave them out; `effort`
-    and `velocity` stay. Exporters write 0 for both, which nobody takes for a stop.
+    and `velocity` stay. Exporters write 0 for both, which is no stop.
     """
     for joint in robot.joints:
         limits = joint.limits
         if joint.type != JointType.CONTINUOUS or limits is None:
             continue
-        said = [side for side in ("lower", "upper") if getattr(limits, side) is not None]
-        if any(getattr(limits, side) for side in said):
-            yield RANGE_OF_ENDLESS_JOINT.at(joint.source, "limits", said[0], joint=joint.name, said=" and ".join(said))
+        written = [side for side in ("lower", "upper") if getattr(limits, side) is not None]
+        if any(getattr(limits, side) for side in written):
+            yield RANGE_OF_ENDLESS_JOINT.at(
+                joint.source, "limits", written[0], joint=joint.name, said=" and ".join(written)
+            )
 
 
-def check_joint_power(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """What moves a joint may push and turn it: its `effort` and `velocity` are above 0.
+def check_joint_power(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """The `effort` and `velocity` of a joint are above 0.
 
-    A limit of 0 is a limit: Gazebo, Bullet and ros2_control hold such a joint still, whatever it is told to do.
-    Exporters of CAD programs write 0 where nobody gave a value; write those of the motor. A joint without a motor
+    A limit of 0 is a limit: Gazebo, Bullet and ros2_control hold such a joint still, whatever the command.
+    Exporters of CAD programs write 0 for a missing value; write those of the motor. A joint without a motor
     that others only push is `continuous` without `limits`, or has limits large enough. A joint that mimics another
     is moved by it.
     """
@@ -166,11 +252,12 @@ def check_joint_power(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             yield POWERLESS_JOINT.at(joint.source, "limits", none[0], joint=joint.name, fields=" and ".join(none))
 
 
-def check_joint_speed(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """A joint that stops at its ends is not faster than joints are: ten turns a second, or 20 m/s.
+def check_joint_speed(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A revolute joint makes at most ten turns a second, and a prismatic one 20 m/s.
 
-    Data sheets give degrees a second and millimetres a second; a bare number is in rad/s or m/s, and only that is told.
-    Write the unit, such as `180 deg/s`. A continuous joint, which may be a wheel, may turn at any speed.
+    Data sheets give degrees a second and millimetres a second; a bare number is in rad/s or m/s, and only such a
+    number is reported. Write the unit, such as `180 deg/s`. A continuous joint, which may be a wheel, may turn at any
+    speed.
     """
     for joint in robot.joints:
         fastest = FASTEST.get(joint.type)
@@ -178,28 +265,30 @@ def check_joint_speed(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         if fastest is None or velocity is None or velocity == NO_SPEED or not fastest < velocity < UNBOUNDED:
             continue
         if joint.source and says_unit(joint.source.at("limits", "velocity").text):
-            continue  # whoever wrote the unit meant it
+            continue  # a written unit is no mistake
         found, is_turning = f"{velocity:.6g}", joint.type == JointType.REVOLUTE
         also = f", {velocity / math.tau:.3g} turns a second" if is_turning else ""
         si, unit, units = ("rad/s", "deg/s", "degrees") if is_turning else ("m/s", "mm/s", "millimetres")
-        meant = f"{math.radians(velocity) if is_turning else velocity / 1000:.6g}"
+        in_other_unit = f"{math.radians(velocity) if is_turning else velocity / 1000:.6g}"
         yield FAST_JOINT.at(
-            *(joint.source, "limits", "velocity"),
+            joint.source,
+            "limits",
+            "velocity",
             joint=joint.name,
             found=found,
             also=also,
             si=si,
             unit=unit,
             units=units,
-            meant=meant,
+            meant=in_other_unit,
         )
 
 
-def check_soft_limits(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
+def check_soft_limits(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The soft limits of a safety controller lie within the limits of its joint, the lower one below the upper one.
 
-    A controller begins to brake there. A soft limit beyond the stop never acts; with the two crossed, or an unsaid
-    one that URDF takes for 0, the joint is held everywhere. Without `k_position` nothing acts on positions.
+    A controller begins to brake there. A soft limit beyond the stop never acts; with the two crossed, or a missing
+    one that URDF reads as 0, the joint is held everywhere. Without `k_position` nothing acts on positions.
     """
     for joint in robot.joints:
         safety, limits = joint.safety_controller, joint.limits
@@ -238,9 +327,9 @@ def _idle_soft_limits(joint: Joint, safety: JointSafetyController, limits: Joint
             )
 
 
-def _mimics(robot: Robot) -> dict[str, Use]:
+def _mimics(robot: Robot) -> dict[str, Reference]:
     return {joint.name: _mimic(joint, joint.mimic) for joint in robot.joints if joint.mimic}
 
 
-def _mimic(joint: Joint, mimic: JointMimic) -> Use:
-    return Use(mimic.joint, f"joint '{joint.name}'", joint.source, ("mimic", "joint"))
+def _mimic(joint: Joint, mimic: JointMimic) -> Reference:
+    return Reference(mimic.joint, f"joint '{joint.name}'", joint.source, ("mimic", "joint"))

@@ -1,92 +1,107 @@
-"""No two things of one kind bear one name, and none bears one that ROS or Gazebo refuses."""
+"""Names: unique within a kind, and accepted by ROS and Gazebo."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Protocol
 
-from linkforge_compile.checks.references import Use
+from linkforge_compile.checks.references import Reference, notes_at
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME, FRAME_WITH_SLASH, LINK_AND_JOINT, RESERVED_NAME
 
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.srdf import GroupState
+    from linkforge_compile.source import SourceRef
 
-def check_duplicates(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """No two sensors bear one name, and no two transmissions or ros2_control systems.
 
-    Who loads the robot takes the first, the last or none of them. Rename one. Two modules keep apart what is in
-    them by their prefixes. Links and joints of one name never get as far as this.
+class NamedPart(Protocol):
+    """A part of a robot that has a name."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def source(self) -> SourceRef | None: ...
+
+
+def check_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """Sensors have unique names, and so have transmissions and ros2_control systems.
+
+    Of two with one name readers take the first, the last or none. Rename one. The prefixes of modules keep their
+    names apart. Lowering has reported links and joints of one name.
     """
-    yield from _borne_twice("sensor", (Use(each.name, "", each.source) for each in robot.sensors))
-    yield from _borne_twice("transmission", (Use(each.name, "", each.source) for each in robot.transmissions))
-    yield from _borne_twice("ros2_control system", (Use(each.name, "", each.source) for each in robot.ros2_controls))
+    yield from _report_duplicates("sensor", robot.sensors)
+    yield from _report_duplicates("transmission", robot.transmissions)
+    yield from _report_duplicates("ros2_control system", robot.ros2_controls)
 
 
-def check_semantic_duplicates(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """No two planning groups bear one name, and no two end effectors, virtual joints or states of a group.
+def check_semantic_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """Planning groups have unique names, and so have end effectors, virtual joints and the states of a group.
 
-    MoveIt takes the first group of a name and the last state, and says so in its log at best. Rename one.
+    MoveIt takes the first group of a name and the last state, with a line in its log at best. Rename one.
     """
     semantic = robot.semantic
-    yield from _borne_twice("planning group", (Use(each.name, "", each.source) for each in semantic.groups))
-    yield from _borne_twice("end effector", (Use(each.name, "", each.source) for each in semantic.end_effectors))
-    yield from _borne_twice("virtual joint", (Use(each.name, "", each.source) for each in semantic.virtual_joints))
-    yield from _borne_twice("passive joint", (Use(each.name, "", each.source) for each in semantic.passive_joints))
-    states: dict[str, list[Use]] = {}
+    yield from _report_duplicates("planning group", semantic.groups)
+    yield from _report_duplicates("end effector", semantic.end_effectors)
+    yield from _report_duplicates("virtual joint", semantic.virtual_joints)
+    yield from _report_duplicates("passive joint", semantic.passive_joints)
+    by_group: dict[str, list[GroupState]] = {}
     for state in semantic.group_states:
-        states.setdefault(state.group, []).append(Use(state.name, f"planning group '{state.group}'", state.source))
-    for uses in states.values():
-        yield from _borne_twice("group state", uses)
+        by_group.setdefault(state.group, []).append(state)
+    for group, states in by_group.items():
+        yield from _report_duplicates("group state", states, f"planning group '{group}'")
 
 
-def check_link_and_joint_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """No joint bears the name of a link.
+def check_link_and_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """No joint has the name of a link.
 
     URDF and ROS keep links and joints apart. In Gazebo both are frames of one model: it refuses the second, and
-    with it all that hangs below. Rename the joint: `wrist_joint` beside the link `wrist`.
+    with it all that hangs below. Rename the joint: `wrist_joint` for the link `wrist`.
     """
     for joint in robot.joints:
         if link := robot.links.get(joint.name):
-            notes = Use(link.name, "", link.source).notes("the link stands here") if link.source else ()
-            yield Use(joint.name, "", joint.source).told(LINK_AND_JOINT, name=joint.name, notes=notes)
+            notes = notes_at(link.source, "the link stands here")
+            yield LINK_AND_JOINT.at(joint.source, name=joint.name, notes=notes)
 
 
-def check_reserved_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """No link or joint bears a name that Gazebo keeps for itself.
+def check_reserved_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """No link or joint has a name that Gazebo reserves.
 
-    Those are `world`, unless it is the root link, which Gazebo takes for the world itself, and all that begin and
+    Those are `world`, unless it is the root link, which Gazebo identifies with its world, and all that begin and
     end with two underscores, such as `__model__`.
     """
-    hanging = {joint.child for joint in robot.joints}
+    children = {joint.child for joint in robot.joints}
     for link in robot.links:
-        if _is_reserved(link.name) and (link.name != "world" or "world" in hanging):
-            yield Use(link.name, "", link.source).told(RESERVED_NAME, kind="link", name=link.name)
+        if _is_reserved(link.name) and (link.name != "world" or "world" in children):
+            yield RESERVED_NAME.at(link.source, kind="link", name=link.name)
     for joint in robot.joints:
         if _is_reserved(joint.name):
-            yield Use(joint.name, "", joint.source).told(RESERVED_NAME, kind="joint", name=joint.name)
+            yield RESERVED_NAME.at(joint.source, kind="joint", name=joint.name)
 
 
 def _is_reserved(name: str) -> bool:
     return name == "world" or (len(name) >= len("____") and name.startswith("__") and name.endswith("__"))
 
 
-def check_frame_names(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """No link and no frame of a sensor begins with a slash.
+def check_frame_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """The names of links and of frames of sensors do not begin with a slash.
 
     Each is a frame to tf2, which strips the slash where a transform is published and refuses it where one is
-    asked for. Leave it out.
+    looked up. Leave it out.
     """
     for link in robot.links:
         if link.name.startswith("/"):
-            yield Use(link.name, "", link.source).told(FRAME_WITH_SLASH, name=link.name)
+            yield FRAME_WITH_SLASH.at(link.source, name=link.name)
     for sensor in robot.sensors:
         if sensor.frame and sensor.frame.startswith("/"):
-            yield Use(sensor.frame, "", sensor.source, ("frame",)).told(FRAME_WITH_SLASH, name=sensor.frame)
+            yield FRAME_WITH_SLASH.at(sensor.source, "frame", name=sensor.frame)
 
 
-def _borne_twice(kind: str, bearers: Iterable[Use]) -> Iterator[Diagnostic]:
-    first: dict[str, Use] = {}
-    for bearer in bearers:
-        earlier = first.setdefault(bearer.name, bearer)
-        if earlier is not bearer:
-            notes = earlier.notes(f"the first {kind} '{bearer.name}'") if earlier.source else []
-            yield bearer.told(DUPLICATE_NAME, kind=kind, name=bearer.name, notes=notes)
+def _report_duplicates(kind: str, parts: Iterable[NamedPart], user: str = "") -> Iterator[Diagnostic]:
+    first: dict[str, NamedPart] = {}
+    for part in parts:
+        if earlier := first.get(part.name):
+            notes = notes_at(earlier.source, f"the first {kind} '{part.name}'")
+            yield Reference(part.name, user, part.source).report(DUPLICATE_NAME, kind=kind, name=part.name, notes=notes)
+        else:
+            first[part.name] = part

@@ -1,31 +1,34 @@
-"""Names that one part of a robot uses for another, and what is told when nothing bears them."""
+"""References by name between the parts of a robot, and their faults: unknown names and cycles."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import islice
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.diagnostics import Code, Diagnostic, Gaps, Note
+from linkforge_compile.core.models.graph import find_cycles
+from linkforge_compile.diagnostics import Code, Diagnostic, Note, UnresolvedNames
 from linkforge_compile.source import Key, SourceRef, Span
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import GroupState
 
 
-class Use(NamedTuple):
-    """A name, who uses it ("joint 'elbow'", or nobody), and where: a path below the place of its user."""
+class Reference(NamedTuple):
+    """A name, the part that refers to it ("joint 'elbow'", or ""), and where: a path below the source of that part."""
 
     name: str
     user: str
     source: SourceRef | None
     path: tuple[str | int, ...] = ()
 
-    def told(self, code: Code, *, near: Iterable[str] = (), notes: Iterable[Note] = (), **facts: object) -> Diagnostic:
-        """Make the diagnostic about this use; where it has no place, its message begins with the user instead.
+    def report(
+        self, code: Code, *, near: Iterable[str] = (), notes: Iterable[Note] = (), **facts: object
+    ) -> Diagnostic:
+        """Return the diagnostic about this reference; without a place its message begins with the user.
 
-        A robot built in Python was never written, and two users of one wrong name are two faults.
+        A robot built in Python has no places, and two users of one wrong name are two faults.
         """
         diagnostic = code.at(self.source, *self.path, near=near, notes=notes, **facts)
         if diagnostic.span or not self.user:
@@ -34,9 +37,9 @@ class Use(NamedTuple):
 
     @property
     def prefix(self) -> str:
-        """What the modules around it have put before the name as its file writes it.
+        """The prefix that modules have put before the name as its file writes it.
 
-        Two uses of a module with one wrong name are one fault of its file, told in one way.
+        A module imported twice under two prefixes has one wrong name in its file, which is reported in its words.
         """
         if not (self.source and self.source.trail):
             return ""
@@ -46,72 +49,98 @@ class Use(NamedTuple):
         return self.name.removesuffix(written) if written and self.name.endswith(written) else ""
 
     def key(self, name: str) -> Key:
-        """Return the key by which this thing's file writes a name in it: without the prefix that both have got."""
+        """Return the key that the file of this reference writes for a name: without the prefix that both have."""
         return Key(name.removeprefix(self.prefix))
 
     @property
     def place(self) -> Span | None:
-        """Where the name stands; one place for all uses of its file. None if it was never written."""
+        """The place of the name, the same one for all imports of its file; None if it was not written in a file."""
         return self.source.at(*self.path) if self.source else None
 
     def note(self, message: str) -> Note:
         return Note(message, self.place)
 
     def notes(self, message: str) -> list[Note]:
-        """Return the note with those on how its file came in: a file used twice writes two things in one place."""
-        uses = self.source.trail if self.source else ()
-        return [self.note(message), *(Note("used here", use) for use in uses)]
+        """Return the note and where its file was imported, as two imports of a file share one place."""
+        imports = self.source.trail if self.source else ()
+        return [self.note(message), *(Note("used here", span) for span in imports)]
+
+
+def notes_at(source: SourceRef | None, message: str) -> list[Note]:
+    """Return the note at a part and where its file was imported; none for a part built in Python."""
+    return Reference("", "", source).notes(message) if source else []
 
 
 def own_positions(state: GroupState) -> dict[str, Key]:
-    """Return the joints that a state sets by itself, with their keys in it; not those whose position it takes over.
+    """Return the joints that a state itself sets, with their keys; without positions taken from another state.
 
-    A position taken over from another group's state is judged there, once. A state built in Python sets all its own.
+    Those are checked once, where they are written. A state built in Python sets all its positions itself.
     """
-    holder = Use(state.name, "", state.source)
+    holder = Reference(state.name, "", state.source)
     keys = {joint: holder.key(joint) for joint in state.joint_values}
     if state.source is None:
         return keys
     return {joint: key for joint, key in keys.items() if state.source.node.child(key) is not None}
 
 
-MOST_OFFERED = 100
-"""So many wrong names are one bad rename: nobody reads more offers, and each costs a look at every name there is."""
+MAX_SUGGESTIONS = 100
+"""After so many wrong names there are no more suggestions: each is compared with every known name."""
 
 
-def unknown(
-    uses: Iterable[Use],
+def report_unknown(
+    references: Iterable[Reference],
     code: Code,
     known: Iterable[str],
-    gaps: Gaps,
+    unresolved: UnresolvedNames,
     *,
     offered: Iterable[str] | None = None,
     **facts: object,
 ) -> Iterator[Diagnostic]:
-    """Tell every use of a name that is neither known nor known to be missing, in the words of the file that uses it.
+    """Report each name that is neither known nor unresolved, as the file that refers to it writes it.
 
-    `offered` are the names that may be meant, all that are known unless said.
+    `offered` are the names to suggest, by default all known ones.
     """
-    told = 0
+    reported = 0
     names = dict.fromkeys(known)
     candidates = names if offered is None else dict.fromkeys(offered)
-    for use in uses:
-        if use.name not in names and use.name not in gaps:
-            prefix = use.prefix
-            why = gaps.removed.why(use.name)
-            is_offered = not why and told < MOST_OFFERED
-            near = [name.removeprefix(prefix) for name in candidates if name.startswith(prefix)] if is_offered else []
-            yield use.told(code, name=use.name.removeprefix(prefix), near=near, notes=why, **facts)
-            told += 1
+    for ref in references:
+        if ref.name not in names and ref.name not in unresolved:
+            prefix = ref.prefix
+            notes = unresolved.deleted.notes(ref.name)
+            suggests = not notes and reported < MAX_SUGGESTIONS
+            near = [name.removeprefix(prefix) for name in candidates if name.startswith(prefix)] if suggests else []
+            yield ref.report(code, name=ref.name.removeprefix(prefix), near=near, notes=notes, **facts)
+            reported += 1
 
 
 SHOWN = 8
-"""How many names a message spells out, and how many second places it shows."""
+"""How many names a message lists, and how many notes it has."""
 
 
-def listed(names: Collection[str], count: int | None = None) -> str:
-    """Return "'a', 'b' and 'c'", or the first few and how many more; of a `count` the first few are enough."""
+def join_names(names: Collection[str], count: int | None = None) -> str:
+    """Return "'a', 'b' and 'c'", or the first few and how many more; `count` is that of all names."""
     quoted = [f"'{name}'" for name in islice(names, SHOWN)]
     if (more := (count or len(names)) - SHOWN) > 0:
         quoted[SHOWN - 1 :] = [f"{more + 1} more"]
     return " and ".join(filter(None, (", ".join(quoted[:-1]), quoted[-1])))
+
+
+Graph: TypeAlias = Mapping[str, Sequence[Reference]]
+"""The references of each name."""
+
+
+def find_reference_cycles(graph: Graph) -> Iterator[list[Reference]]:
+    """Yield every cycle once, as its references; the last one closes it."""
+    for cycle in find_cycles({name: [ref.name for ref in references] for name, references in graph.items()}):
+        yield [graph[name][place] for name, place in cycle]
+
+
+def report_cycles(graph: Graph, code: Code) -> Iterator[Diagnostic]:
+    """Report each cycle once, at the reference that closes it, with the others as notes."""
+    for cycle in find_reference_cycles(graph):
+        closing = cycle[-1]
+        notes = [ref.note(f"{ref.user} leads to '{ref.name}'") for ref in cycle[:-1][:SHOWN]]
+        names = [closing.name, *(ref.name for ref in cycle)]
+        if len(names) > SHOWN:
+            names = [*names[: SHOWN - 3], "…", *names[-2:]]
+        yield closing.report(code, path=" → ".join(names), notes=notes)

@@ -1,20 +1,31 @@
-"""Sensors sit on links, publish on topics that there may be, and say in which frame they measure."""
+"""Sensors and plugins of simulators: the links, joints, frames and topics that they name."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.references import Use, unknown
+from linkforge_compile.checks.references import Reference, report_unknown
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import (
     REFUSED_TOPIC,
     SHARED_TOPIC,
     UNKNOWN_COLLISION,
     UNKNOWN_FRAME,
+    UNKNOWN_GAZEBO_REFERENCE,
     UNKNOWN_LINK,
+    UNKNOWN_PLUGIN_JOINT,
 )
+from linkforge_compile.diagnostics.codes.physics import NO_SIMULATOR_PLUGIN
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.gazebo import GazeboPlugin
+    from linkforge_compile.core.part import Part
+    from linkforge_compile.source import Span
+
 
 _STRANGE = re.compile(r"[^A-Za-z0-9_/~{}]")
 _SUBSTITUTION = re.compile(r"\{[A-Za-z_][A-Za-z0-9_]*\}")
@@ -22,62 +33,63 @@ _BRACE = re.compile(r"[{}]")
 _NUMBERED = re.compile(r"(?:^|/)([0-9][^/]*)")
 
 
-def check_sensor_links(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
-    """A sensor sits on a link of this robot.
+def check_sensor_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """The link of a sensor is a link of this robot.
 
-    A simulator never makes a sensor whose link it does not know, and mostly says nothing. Correct the `link`.
+    A simulator drops a sensor whose link it does not know, mostly without a message. Correct the `link`.
     """
-    links = (Use(sensor.link_name, f"sensor '{sensor.name}'", sensor.source, ("link",)) for sensor in robot.sensors)
-    yield from unknown(links, UNKNOWN_LINK, robot.links.names, gaps)
+    links = (
+        Reference(sensor.link_name, f"sensor '{sensor.name}'", sensor.source, ("link",)) for sensor in robot.sensors
+    )
+    yield from report_unknown(links, UNKNOWN_LINK, robot.links.names, unresolved)
 
 
-def check_sensor_frames(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
+def check_sensor_frames(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """The frame of a sensor's messages is a link of this robot.
 
-    robot_state_publisher tells tf2 of links and of nothing else, so what is measured in another frame cannot be
-    shown or used, unless somebody else publishes where that frame is. Correct the name, or add the frame under
+    robot_state_publisher publishes the frames of links only, so measurements in another frame cannot be shown or
+    used, unless another node publishes that frame. Correct the name, or add the frame under
     `frames`.
     """
     frames = (
-        Use(sensor.frame, f"sensor '{sensor.name}'", sensor.source, ("frame",))
+        Reference(sensor.frame, f"sensor '{sensor.name}'", sensor.source, ("frame",))
         for sensor in robot.sensors
         if sensor.frame
     )
-    yield from unknown(frames, UNKNOWN_FRAME, robot.links.names, gaps)
+    yield from report_unknown(frames, UNKNOWN_FRAME, robot.links.names, unresolved)
 
 
-def check_contacts(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
-    """A contact sensor watches a collision of the robot, by that collision's name.
+def check_contacts(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """The collision of a contact sensor is the name of a collision of the robot.
 
-    Gazebo makes a sensor for a collision that it does not know, and it never reports a contact. On loading a URDF it
-    also makes names of its own, of the link and `_collision`, and others where it merges fixed joints: names that may
-    be such are not told.
+    The sensor of an unknown collision never reports a contact. Gazebo also generates names from a URDF, of the link and
+    `_collision`, and others where it merges fixed joints: names that may be generated are not reported.
     """
     names = [collision.name for link in robot.links for collision in link.collisions if collision.name]
     contacts = (
-        Use(sensor.contact_info.collision, f"sensor '{sensor.name}'", sensor.contact_info.source, ("collision",))
+        Reference(sensor.contact_info.collision, f"sensor '{sensor.name}'", sensor.contact_info.source, ("collision",))
         for sensor in robot.sensors
-        if sensor.contact_info and not _may_be_made(sensor.contact_info.collision, robot)
+        if sensor.contact_info and not _may_be_generated(sensor.contact_info.collision, robot)
     )
-    yield from unknown(contacts, UNKNOWN_COLLISION, names, gaps)
+    yield from report_unknown(contacts, UNKNOWN_COLLISION, names, unresolved)
 
 
-def _may_be_made(name: str, robot: Robot) -> bool:
-    link, made, _ = name.partition("_collision")
-    return "_lump__" in name or bool(made and link in robot.links)
+def _may_be_generated(name: str, robot: Robot) -> bool:
+    link, suffix, _ = name.partition("_collision")
+    return "_lump__" in name or bool(suffix and link in robot.links)
 
 
-def check_topics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """A topic of a sensor is one that ROS 2 takes.
+def check_topics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """The topic of a sensor is a valid ROS 2 topic name.
 
-    Names between slashes hold ASCII letters, digits and `_`, and do not begin with a digit; `~` stands at the
+    Names between slashes hold ASCII letters, digits and `_`, and do not begin with a digit; `~` is at the
     very start, before a `/`; `{name}` is a substitution. Gazebo takes more (`front-camera`), but the bridge to
     ROS 2 then fails. A prefix that begins with a digit spoils the topics of its module.
     """
     for sensor in robot.sensors:
         if sensor.topic and (reason := _refusal(sensor.topic)):
-            use = Use(sensor.name, f"sensor '{sensor.name}'", sensor.source, ("topic",))
-            yield use.told(REFUSED_TOPIC, topic=sensor.topic, reason=reason)
+            ref = Reference(sensor.name, f"sensor '{sensor.name}'", sensor.source, ("topic",))
+            yield ref.report(REFUSED_TOPIC, topic=sensor.topic, reason=reason)
 
 
 def _refusal(topic: str) -> str | None:
@@ -94,19 +106,121 @@ def _refusal(topic: str) -> str | None:
     return f"'{numbered[1]}' begins with a digit" if numbered else None
 
 
-def check_shared_topics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """No two sensors publish on one topic.
+def check_shared_topics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """Sensors publish on different topics.
 
     Readers get the messages of both in turn and cannot tell them apart; of two kinds of message one is lost.
     Give each sensor a topic of its own. A relative topic in a module takes the prefix of its use, an absolute
-    one (`/camera`) does not, and is told as such where a module is used.
+    one (`/camera`) does not, and is reported for each import of the module.
     """
-    first: dict[str, Use] = {}
+    first: dict[str, Reference] = {}
     for sensor in robot.sensors:
         if not sensor.topic:
             continue
-        use = Use(sensor.name, f"sensor '{sensor.name}'", sensor.source, ("topic",))
-        earlier = first.setdefault(sensor.topic.removeprefix("/"), use)
-        if earlier is not use and (use.source is None or use.place != earlier.place):
+        ref = Reference(sensor.name, f"sensor '{sensor.name}'", sensor.source, ("topic",))
+        earlier = first.setdefault(sensor.topic.removeprefix("/"), ref)
+        if earlier is not ref and (ref.source is None or ref.place != earlier.place):
             notes = earlier.notes(f"sensor '{earlier.name}' publishes here")
-            yield use.told(SHARED_TOPIC, first=earlier.name, second=sensor.name, topic=sensor.topic, notes=notes)
+            yield ref.report(SHARED_TOPIC, first=earlier.name, second=sensor.name, topic=sensor.topic, notes=notes)
+
+
+SIMULATED_HARDWARE = {
+    "gz_ros2_control": "gz_ros2_control-system",
+    "ign_ros2_control": "ign_ros2_control-system",
+    "gazebo_ros2_control": "libgazebo_ros2_control.so",
+}
+"""The file of the Gazebo plugin in which the hardware of a package runs, by the package."""
+
+
+def check_plugin_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """The `joint_name`, `left_joint` and similar parameters of a plugin name joints of this robot.
+
+    A plugin that finds no such joint does nothing, or stops the simulator. Correct the name; a joint of a module
+    bears the module's prefix, which `$(joint('name'))` adds. Nothing is wrong if the joint is one of another
+    model in the simulator.
+    """
+    plugins = [*_plugins(robot)]
+    below = _joints_below(robot) if plugins else {}
+    for plugin in plugins:
+        uses, offered = _named_joints(plugin), below.get(_trail(plugin), ())
+        yield from report_unknown(
+            uses, UNKNOWN_PLUGIN_JOINT, robot.joints.names, unresolved, offered=offered, plugin=plugin.name
+        )
+
+
+def _joints_below(robot: Robot) -> Mapping[tuple[Span, ...], Sequence[str]]:
+    """Return the joints that a file brings in, with its modules, by the uses that brought in the file.
+
+    A plugin of the root may mean any joint, one of an arm none of the other arm.
+    """
+    below: defaultdict[tuple[Span, ...], list[str]] = defaultdict(list)
+    for joint in robot.joints:
+        trail = _trail(joint)
+        for inner in range(len(trail) + 1):  # a trail ends with the use that the root wrote
+            below[trail[inner:]].append(joint.name)
+    return below
+
+
+def _trail(part: Part) -> tuple[Span, ...]:
+    return part.source.trail if part.source else ()
+
+
+def _plugins(robot: Robot) -> Iterator[GazeboPlugin]:
+    for element in robot.gazebo_elements:
+        yield from element.plugins
+    for sensor in robot.sensors:
+        if sensor.plugin:
+            yield sensor.plugin
+
+
+def _named_joints(plugin: GazeboPlugin) -> Iterator[Reference]:
+    for key, value in plugin.parameters.items():
+        if key != "joint_name" and not key.endswith("_joint"):
+            continue
+        path = ("parameters", key)
+        if isinstance(value, str):
+            yield from _named(plugin, value, path)
+        elif isinstance(value, Sequence):
+            for place, each in enumerate(value):
+                if isinstance(each, str):
+                    yield from _named(plugin, each, (*path, place))
+
+
+def _named(plugin: GazeboPlugin, text: str, path: tuple[str | int, ...]) -> Iterator[Reference]:
+    name = text.strip()
+    # `model::joint` is a joint of another model, and a switch or a number is no name.
+    if name.replace("_", "a").replace("-", "a").isalnum() and name not in {"true", "false"} and not name.isdecimal():
+        yield Reference(name, f"plugin '{plugin.name}'", plugin.source, path)
+
+
+def check_simulated_hardware(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """Hardware of ros2_control that is Gazebo's has its plugin in the robot.
+
+    `gz_ros2_control/GazeboSimSystem` and its like are no hardware to a controller manager of its own: the plugin
+    starts one inside the simulator, which loads them. Add it to `gazebo` at top level, with its `filename`.
+    Not checked if raw XML may hold it, or while part of the robot could not be read.
+    """
+    raw = [*robot.extra_elements, *(text for each in robot.gazebo_elements for text in each.extra_elements)]
+    is_loaded = any("ros2_control" in plugin.filename for plugin in _plugins(robot))
+    if unresolved or is_loaded or any("ros2_control" in text for text in raw):
+        return
+    for control in robot.ros2_controls:
+        needed = SIMULATED_HARDWARE.get(control.hardware_plugin.partition("/")[0])
+        if needed:
+            ref = Reference(control.name, f"ros2_control '{control.name}'", control.source, ("hardware_plugin",))
+            yield ref.report(NO_SIMULATOR_PLUGIN, plugin=control.hardware_plugin, needed=needed)
+
+
+def check_gazebo_references(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A Gazebo block with a reference is about a link or joint of this robot.
+
+    Simulators drop other blocks in silence, and with them what they were to set. Correct the reference, or
+    remove the block.
+    """
+    references = (
+        Reference(element.reference, "Gazebo block", element.source, ("reference",))
+        for element in robot.gazebo_elements
+        if element.reference is not None
+    )
+    known = (*robot.links.names, *robot.joints.names) if robot.gazebo_elements else ()
+    yield from report_unknown(references, UNKNOWN_GAZEBO_REFERENCE, known, unresolved)

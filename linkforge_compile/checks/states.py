@@ -1,4 +1,4 @@
-"""Named poses of planning groups: within their group, within the limits, and leaving nothing open."""
+"""Named states of planning groups: joints of their group, positions within the limits, and completeness."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.link_sets import LinkSets, group_links, moved_links
-from linkforge_compile.checks.ranges import ROUNDING, in_unit, is_known, missed_range, unit_in
-from linkforge_compile.checks.references import SHOWN, Use, listed, own_positions
+from linkforge_compile.checks.groups import LinkSets, group_links, moved_links
+from linkforge_compile.checks.joints import ROUNDING, in_unit, is_known, missed_range, unit_in
+from linkforge_compile.checks.references import SHOWN, Reference, join_names, own_positions
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Gaps
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     STATE_AGAINST_MIMIC,
     STATE_INCOMPLETE,
@@ -34,14 +34,14 @@ VALUES_IN_A_STATE: dict[str, tuple[int, str]] = {
     JointType.PLANAR: (3, "3 values: x, y and angle"),
     JointType.FLOATING: (7, "7 values: x, y, z and a quaternion"),
 }
-"""What MoveIt takes for a joint in a state; it counts more than the degrees of freedom."""
+"""The count of values that MoveIt reads for a joint in a state, which can exceed the degrees of freedom."""
 
 MIMIC_ROUNDING = 1e-3
-"""How far a follower may be from where its leader puts it [rad] or [m]: states are written with few digits."""
+"""The tolerance on positions of followers [rad] or [m]: states are written with few digits."""
 
 
-def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """A state gives positions to joints of its group, within their limits.
+def check_group_states(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """The positions of a state are of joints of its group, and within their limits.
 
     MoveIt ignores the value of a joint that is not in the group, and one with the wrong count of numbers; to a
     pose outside the limits it never plans. Correct the value, or the group.
@@ -58,18 +58,18 @@ def check_group_states(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
             joint = robot.joints.get(name) or virtual.get(name)
             if joint is None:
                 continue
-            use = _at_value(state, name, key)
+            ref = _at_value(state, name, key)
             members = moving.get(state.group)
             if members and not members & links.bit(_moved_link(joint)):
-                yield use._replace(path=(key,)).told(
+                yield ref._replace(path=(key,)).report(
                     STATE_OUTSIDE_GROUP, joint=name, group=state.group, state=state.name
                 )
             elif isinstance(values, tuple):
-                yield from _faults_of_values(use, joint, values)
+                yield from _faults_of_values(ref, joint, values)
 
 
-def check_states_taken_over(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """A state takes over what its own group can do.
+def check_states_taken_over(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A position that a state takes from another group's state is of a joint of its own group.
 
     A position that comes from the state of another group is written into this one, and MoveIt ignores it where the
     joint is not in the group. Put the other group among the `subgroups` of this one, or take the name out.
@@ -86,30 +86,30 @@ def check_states_taken_over(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
         if outside:
             them = "it" if len(outside) == 1 else "them"
             yield STATE_TAKES_OTHERS_ALONG.at(
-                state.source, state=state.name, group=state.group, joints=listed(outside), them=them
+                state.source, state=state.name, group=state.group, joints=join_names(outside), them=them
             )
 
 
-def _faults_of_values(use: Use, joint: Joint | VirtualJoint, values: tuple[object, ...]) -> Iterator[Diagnostic]:
+def _faults_of_values(ref: Reference, joint: Joint | VirtualJoint, values: tuple[object, ...]) -> Iterator[Diagnostic]:
     count, expected = VALUES_IN_A_STATE.get(joint.type, (len(values), ""))
     if len(values) != count:
         found = _counted(values) + ("" if count else "; leave it out")
-        yield use.told(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=found)
+        yield ref.report(STATE_VALUE_COUNT, joint=joint.name, type=joint.type, expected=expected, found=found)
     elif isinstance(joint, Joint) and values and isinstance(position := values[0], int | float):
-        yield from _fault_of_position(use, joint, position)
+        yield from _fault_of_position(ref, joint, position)
 
 
-def _fault_of_position(use: Use, joint: Joint, position: float) -> Iterator[Diagnostic]:
-    # Few are outside, and to know in which unit a value is written takes longer than to compare it.
-    if missed_range(joint, position, position) is None or _is_doubted(position, joint, use.place):
+def _fault_of_position(ref: Reference, joint: Joint, position: float) -> Iterator[Diagnostic]:
+    # Few are outside, and reading the unit of a value takes longer than comparing it.
+    if missed_range(joint, position, position) is None or _is_reported_as_degrees(position, joint, ref.place):
         return
-    unit = unit_in(use.place.text) if use.place else None
+    unit = unit_in(ref.place.text) if ref.place else None
     span = missed_range(joint, position, position, unit)
-    yield use.told(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=in_unit(position, unit))
+    yield ref.report(STATE_OUTSIDE_LIMITS, joint=joint.name, range=span, found=in_unit(position, unit))
 
 
-def _is_doubted(position: float, joint: Joint, place: Span | None) -> bool:
-    """Whether a position was told already as one that is likely meant in degrees: a bare number of a spec."""
+def _is_reported_as_degrees(position: float, joint: Joint, place: Span | None) -> bool:
+    """Return whether lowering has reported a position as probably in degrees: a bare number of a spec."""
     if place is None or place.text is None or place.file.is_xml or joint.type is not JointType.REVOLUTE:
         return False
     is_bare = place.text.lstrip("+-")[:1].isdigit() and unit_in(place.text) is None
@@ -126,8 +126,8 @@ def _counted(values: tuple[object, ...]) -> str:
     )
 
 
-def check_states_of_mimics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
-    """A state puts a joint that mimics another where the other puts it.
+def check_states_of_mimics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A state gives a joint that mimics another the position that follows from the other.
 
     MoveIt takes the one or the other value, as their names are sorted, and a robot can take only one of the two
     poses. Leave the follower out of the state: its position follows from that of its leader, times `multiplier`
@@ -143,22 +143,22 @@ def check_states_of_mimics(robot: Robot, _: Gaps) -> Iterator[Diagnostic]:
                 continue
             expected = joint.mimic.multiplier * led + joint.mimic.offset
             if not math.isclose(found, expected, rel_tol=ROUNDING, abs_tol=MIMIC_ROUNDING):
-                use, leader = _at_value(state, name, key), joint.mimic.joint
-                unit = unit_in(use.place.text) if use.place else None
+                ref, leader = _at_value(state, name, key), joint.mimic.joint
+                unit = unit_in(ref.place.text) if ref.place else None
                 shown, written = in_unit(expected, unit), in_unit(found, unit)
-                yield use.told(STATE_AGAINST_MIMIC, joint=name, leader=leader, expected=shown, found=written)
+                yield ref.report(STATE_AGAINST_MIMIC, joint=name, leader=leader, expected=shown, found=written)
 
 
-def check_states_are_whole(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
-    """A state says where every joint of its group goes.
+def check_states_are_whole(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A state has a position for every joint of its group.
 
     MoveIt warns of a joint that a state leaves out, and leaves it where it happens to be, so that one name stands
     for many poses. That may be what you want: open fingers whatever the wrist does. Fixed and passive joints and
-    those that mimic others need no value. Silent while part of the robot could not be read, and about a state
-    with a joint that is not in its group, which may be the one that is missed.
+    those that mimic others need no value. Not checked while part of the robot could not be read, nor for a state
+    with a joint that is not in its group, which may be the missing one.
     """
     semantic = robot.semantic
-    if gaps or not semantic.group_states:
+    if unresolved or not semantic.group_states:
         return
     links, moved = LinkSets(robot), moved_links(robot)
     moving = group_links(robot, links)
@@ -173,13 +173,12 @@ def check_states_are_whole(robot: Robot, gaps: Gaps) -> Iterator[Diagnostic]:
         members, placed = moving.get(state.group, 0), links.of(moved.get(name, "") for name in state.joint_values)
         left = 0 if placed is None or placed & ~members else members & movable & ~placed
         if left:
-            use = Use(state.name, "", state.source)
-            joints = listed([free[link] for link in links.first(left, SHOWN)], left.bit_count())
-            yield use.told(STATE_INCOMPLETE, state=state.name, group=state.group, joints=joints)
+            joints = join_names([free[link] for link in links.first(left, SHOWN)], left.bit_count())
+            yield STATE_INCOMPLETE.at(state.source, state=state.name, group=state.group, joints=joints)
 
 
-def _at_value(state: GroupState, joint: str, key: Key) -> Use:
-    return Use(joint, f"state '{state.name}' of group '{state.group}'", state.source, (str(key),))
+def _at_value(state: GroupState, joint: str, key: Key) -> Reference:
+    return Reference(joint, f"state '{state.name}' of group '{state.group}'", state.source, (str(key),))
 
 
 def _position(positions: Mapping[str, object], joint: str) -> float | None:

@@ -10,20 +10,20 @@ from linkforge_compile.diagnostics.diagnostic import (
     brought_in_at,
     notes_of_changes,
 )
-from linkforge_compile.diagnostics.gaps import Gaps, Removed
 from linkforge_compile.diagnostics.sink import MAX_TOLD, BeyondLimitError, Diagnostics, too_many_errors
+from linkforge_compile.diagnostics.unresolved import DeletedNames, UnresolvedNames
 
 __all__ = [
     "MAX_TOLD",
     "BeyondLimitError",
     "Blame",
     "Code",
+    "DeletedNames",
     "Diagnostic",
     "Diagnostics",
-    "Gaps",
     "Note",
-    "Removed",
     "Severity",
+    "UnresolvedNames",
     "Where",
     "brought_in_at",
     "notes_of_changes",

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from linkforge_compile.diagnostics import Diagnostics, Gaps
+from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.lowering.fields import Fields
-from linkforge_compile.lowering.file import gaps_of, lower_file
+from linkforge_compile.lowering.file import lower_file, unresolved_of
 from linkforge_compile.lowering.joint import position_measure
 from linkforge_compile.lowering.lowered import Lowered
 from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
@@ -43,23 +43,25 @@ def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = Non
 def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids, shared: frozenset[SourceFile]) -> Lowered:
     """Lower a use; the files that are `shared` are used more than once."""
     if instance.tree is None:
-        return Lowered(None, (), Gaps(prefixes=("",)))
+        return Lowered(None, (), UnresolvedNames(prefixes=("",)))
     reader = MeshReader(instance.find_mesh, meshes)
     file = lower_file(instance.tree, instance.mesh_bases, instance.trail, sink, reader)
     robot, is_alone = file.robot, instance.entry is None
     # Only a module takes a prefix. What it says without one is looked for before others are joined to it.
     passed_on = None if is_alone else _passed_on(robot, instance, is_shared=instance.tree.span.file in shared)
-    lowered, mounts = Lowered(robot, (), file.gaps | Gaps(removed=instance.removed)), file.mounts
+    lowered, mounts = Lowered(robot, (), file.unresolved | UnresolvedNames(deleted=instance.removed)), file.mounts
     if instance.modules or mounts:
         # What joins modules, and tells why it cannot, is imported for a robot that has some.
         from linkforge_compile.lowering.joining import Joining
 
-        joining = Joining(file, lowered.gaps, sink)
+        joining = Joining(file, lowered.unresolved, sink)
         for module in instance.modules:
             joining.add(module, _lowered(module, sink, meshes, shared))
         lowered, mounts = joining.finished(hangs_alone=is_alone)
     if file.states:
-        lowered = replace(lowered, gaps=lowered.gaps | _resolve_states(robot, file.states, mounts, lowered.gaps))
+        lowered = replace(
+            lowered, unresolved=lowered.unresolved | _resolve_states(robot, file.states, mounts, lowered.unresolved)
+        )
     if is_alone and robot.says_semantic:
         from linkforge_compile.lowering.srdf_order import side_by_side
 
@@ -73,7 +75,9 @@ def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids, shared: 
     return lowered
 
 
-def _resolve_states(robot: Robot, written: Sequence[WrittenState], mounts: Sequence[ModuleJoint], lost: Gaps) -> Gaps:
+def _resolve_states(
+    robot: Robot, written: Sequence[WrittenState], mounts: Sequence[ModuleJoint], lost: UnresolvedNames
+) -> UnresolvedNames:
     """Add the group states of a file to its robot: they may name those of its modules. Returns what is lost of them."""
     from linkforge_compile.lowering.srdf_states import Surroundings, resolve_states
 
@@ -89,7 +93,7 @@ def _resolve_states(robot: Robot, written: Sequence[WrittenState], mounts: Seque
     )
     states = resolve_states(written, around)
     robot.semantic = replace(semantic, group_states=(*states, *semantic.group_states))
-    return gaps_of({state.name for state in written} - {state.name for state in states})
+    return unresolved_of({state.name for state in written} - {state.name for state in states})
 
 
 def _judge_references(instance: Instance, lowered: Lowered, sink: Diagnostics) -> None:
@@ -105,7 +109,7 @@ def _judge_references(instance: Instance, lowered: Lowered, sink: Diagnostics) -
     if instance.references:
         from linkforge_compile.lowering.asked_names import tell_unknown_names
 
-        tell_unknown_names(instance.references, lowered.robot, lowered.gaps_alone, sink)
+        tell_unknown_names(instance.references, lowered.robot, lowered.unresolved_alone, sink)
 
 
 def _passed_on(robot: Robot, instance: Instance, *, is_shared: bool) -> PassedOn | None:

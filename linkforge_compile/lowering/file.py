@@ -11,7 +11,7 @@ from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostics, Gaps
+from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.lowering.duplicates import tell_duplicate
 from linkforge_compile.lowering.extra import outer_extras_of
@@ -49,7 +49,7 @@ class LoweredFile:
 
     robot: Robot
     states: tuple[WrittenState, ...]
-    gaps: Gaps
+    unresolved: UnresolvedNames
     mounts: tuple[ModuleJoint, ...] = ()
 
 
@@ -59,12 +59,12 @@ def lower_file(
     """Lower all that a file says itself; a name that is written twice is told at the second."""
     file = Fields(tree, "robot", sink, trail)
     materials = lower_materials(file, FileScope(mesh_bases))
-    lost_materials = gaps_of(name for name, material in materials.items() if material is None)
-    lost_materials |= gaps_of(names_at_fault(tree))
+    lost_materials = unresolved_of(name for name, material in materials.items() if material is None)
+    lost_materials |= unresolved_of(names_at_fault(tree))
     # What has no name is a part of a robot: the file that includes it has the names that it lacks.
     is_part = tree.get("name") is None
     if is_part or _has_lost(tree, _SECTIONS_OF_MATERIALS):
-        lost_materials |= Gaps(prefixes=("",))
+        lost_materials |= UnresolvedNames(prefixes=("",))
     kept_materials = {name: material for name, material in materials.items() if material}
     scope = FileScope(mesh_bases, kept_materials, lost_materials, meshes)
     links, joints = dict(lower_links(file, scope)), dict(lower_joints(file))
@@ -88,12 +88,14 @@ def lower_file(
         source=SourceRef(tree, said, trail),
         **outer_extras_of(file),
     )
-    gaps = _gaps(tree, [name for parts in (links, joints) for name, part in parts.items() if part is None])
-    gaps |= gaps_of(semantic.lost if semantic else ())
-    return LoweredFile(robot, semantic.states if semantic else (), gaps, tuple(_mounts(file)))
+    unresolved = _unresolved_names(
+        tree, [name for parts in (links, joints) for name, part in parts.items() if part is None]
+    )
+    unresolved |= unresolved_of(semantic.lost if semantic else ())
+    return LoweredFile(robot, semantic.states if semantic else (), unresolved, tuple(_mounts(file)))
 
 
-def _gaps(tree: YamlMap, lost: Iterable[str]) -> Gaps:
+def _unresolved_names(tree: YamlMap, lost: Iterable[str]) -> UnresolvedNames:
     """Return the names that a file has lost: those of faulty entries, and what may be in what could not be read."""
     semantic = tree.get("semantic")
     if (
@@ -101,7 +103,7 @@ def _gaps(tree: YamlMap, lost: Iterable[str]) -> Gaps:
         or _has_lost(tree, _SECTIONS_OF_NAMES)
         or _has_lost(semantic, _SECTIONS_OF_SEMANTIC_NAMES)
     ):
-        return gaps_of(lost) | Gaps(prefixes=("",))
+        return unresolved_of(lost) | UnresolvedNames(prefixes=("",))
     modules = (entry.name for entry in tree if isinstance(entry.value, YamlFault) and "use" in entry.value.keys)
     brought = [f"{name}_$(…)" for name in modules]  # whatever names those have
     # An entry that is indented stands among the keys of the one above.
@@ -113,7 +115,7 @@ def _gaps(tree: YamlMap, lost: Iterable[str]) -> Gaps:
         if isinstance(entry.value, YamlMap) and has_fault(entry.value)
     ]
     inside = [name for entry in faulty for name in names_at_fault(entry.value)]
-    return gaps_of(
+    return unresolved_of(
         [
             *lost,
             *_without_mimic(faulty, tree.get("joints")),
@@ -138,8 +140,8 @@ def _has_lost(node: YamlNode | None, sections: tuple[str, ...]) -> bool:
     return any(nearest(name, sections) for name in faulty)
 
 
-def gaps_of(names: Iterable[str]) -> Gaps:
-    """Return the gaps that faulty entries leave; where an expression in a name failed, all that begins so is one.
+def unresolved_of(names: Iterable[str]) -> UnresolvedNames:
+    """Return the names of faulty entries; of a name whose expression failed, the prefix before it.
 
     One of xacro's, `${...}`, is such an expression as well.
     """
@@ -151,7 +153,7 @@ def gaps_of(names: Iterable[str]) -> Gaps:
         else:
             # Whoever uses a name that was refused may have written it as one that is taken.
             whole |= {name, *(re.sub(r"[^\w.-]", instead, name) for instead in ("_", "-", ""))}
-    return Gaps(frozenset(whole), tuple(begun))
+    return UnresolvedNames(frozenset(whole), tuple(begun))
 
 
 def _add_frame(frame: Frame, links: dict[str, Link | None], joints: dict[str, Joint | None], sink: Diagnostics) -> None:

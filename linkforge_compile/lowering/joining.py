@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, TypeAlias
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.graph import tree_root
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Gaps, Note, Removed
+from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
 from linkforge_compile.diagnostics.codes.names import OWN_ATTRIBUTE_STAYS
 from linkforge_compile.lowering.clashes import Clash, told_of_clashes
 from linkforge_compile.lowering.duplicates import tell_duplicate
-from linkforge_compile.lowering.file import LoweredFile, gaps_of
+from linkforge_compile.lowering.file import LoweredFile, unresolved_of
 from linkforge_compile.lowering.lowered import Lowered, Unmerged
 from linkforge_compile.lowering.module_joint import ModuleJoint, lower_module_joint, module_fields
 from linkforge_compile.lowering.mount import handed_on, hang_on_world, hung_by, only_mount
@@ -30,10 +30,10 @@ PartKey: TypeAlias = tuple[str, Hashable]
 class Joining:
     """A robot while modules are being joined to it."""
 
-    def __init__(self, file: LoweredFile, gaps: Gaps, sink: Diagnostics) -> None:
-        """`gaps` is what the file lacks."""
+    def __init__(self, file: LoweredFile, unresolved: UnresolvedNames, sink: Diagnostics) -> None:
+        """`unresolved` is what the file lacks."""
         self._robot = file.robot
-        self._gaps = gaps
+        self._unresolved = unresolved
         self._sink = sink
         self._unmerged: list[Unmerged] = []
         self._parts = dict(_parts(file.robot))
@@ -50,11 +50,11 @@ class Joining:
             self._sink.report_all(lowered.under_a_prefix)
         else:
             self._under_a_prefix += lowered.under_a_prefix
-        self._gaps |= lowered.gaps.with_prefix(module.prefix)
+        self._unresolved |= lowered.unresolved.with_prefix(module.prefix)
         component = lowered.robot
         root = _root_of(component) if component else None
         final_root = None if root is None else module.prefix + root
-        is_whole = component is not None and (root is not None or bool(lowered.gaps))
+        is_whole = component is not None and (root is not None or bool(lowered.unresolved))
         takes_prefix = self._takes_prefix(module)
         is_named = component is not None and is_whole and takes_prefix
         if component and is_named:
@@ -66,16 +66,16 @@ class Joining:
         if component is None:
             joined = False
         elif not is_named:
-            joined = self._leave_out(component, module.prefix, lowered.gaps_alone)
+            joined = self._leave_out(component, module.prefix, lowered.unresolved_alone)
         elif clashes:
             self._sink.report_all(told_of_clashes(module, clashes))
-            joined = self._leave_out(component, "", lowered.gaps_alone.with_prefix(module.prefix))
+            joined = self._leave_out(component, "", lowered.unresolved_alone.with_prefix(module.prefix))
         else:
             held = hanging is not None or final_root in self._held
-            gaps = lowered.gaps_alone.with_prefix(module.prefix)
-            joined = self._join(component, module, gaps, final_root if held else None)
+            unresolved = lowered.unresolved_alone.with_prefix(module.prefix)
+            joined = self._join(component, module, unresolved, final_root if held else None)
         if hanging and not (joined and self._connect(hanging)):
-            self._gaps |= gaps_of([hanging.name])
+            self._unresolved |= unresolved_of([hanging.name])
 
     def _module_joint(self, module: Instance, own: ModuleJoint | None, root: str | None) -> ModuleJoint | None:
         """Return the joint by which a module hangs: its own, or that of its entry; None for the base of this robot."""
@@ -84,7 +84,7 @@ class Joining:
         if module.entry is not None and module.entry.node.child("parent") is not None:
             if module.entry.node.child("joint") is not None:
                 # It may not name one, which is told: whoever names that joint goes by the same mistake.
-                self._gaps |= gaps_of([joint_name_of(module.name, module.entry.node)])
+                self._unresolved |= unresolved_of([joint_name_of(module.name, module.entry.node)])
             return hung_by(own, module, root, self._sink)
         whole = handed_on(own, module.prefix)
         if lower_module_joint(module, root, self._sink):
@@ -99,10 +99,10 @@ class Joining:
         One that has a mount and is nobody's module (`hangs_alone`) hangs on the world by it.
         """
         mount = only_mount(self._mounts, self._sink)
-        self._gaps |= gaps_of(other.name for other in self._mounts[1:])
+        self._unresolved |= unresolved_of(other.name for other in self._mounts[1:])
         if mount and hangs_alone:
-            self._gaps |= hang_on_world(self._robot, mount, _root_of(self._robot), self._sink)
-        lowered = Lowered(self._robot, tuple(self._unmerged), self._gaps, tuple(self._under_a_prefix), mount)
+            self._unresolved |= hang_on_world(self._robot, mount, _root_of(self._robot), self._sink)
+        lowered = Lowered(self._robot, tuple(self._unmerged), self._unresolved, tuple(self._under_a_prefix), mount)
         return lowered, tuple(self._mounts)
 
     def _takes_prefix(self, module: Instance) -> bool:
@@ -123,7 +123,7 @@ class Joining:
             if own != material:
                 yield Clash(f"material '{name}'", self._owners.get(("material", name)), own.source)
 
-    def _join(self, component: Robot, module: Instance, gaps: Gaps, held: str | None) -> bool:
+    def _join(self, component: Robot, module: Instance, unresolved: UnresolvedNames, held: str | None) -> bool:
         """Merge a component, whose root `held` hangs on a link now; None for the root of the whole.
 
         The joint by which it hangs is added apart, for its parent may be a link of a module that comes later.
@@ -136,10 +136,10 @@ class Joining:
         try:
             self._robot.merge(component, None, None)
         except RobotModelError as error:
-            if not gaps:
+            if not unresolved:
                 refusal = REFUSED.at(module.entry, owner=f"module '{module.name}'", reason=error.message)
                 self._sink.report(refusal)
-            return self._leave_out(component, "", gaps)
+            return self._leave_out(component, "", unresolved)
         self._parts.update(parts)
         self._owners.update(dict.fromkeys((*parts, *materials), module))
         return True
@@ -176,7 +176,8 @@ class Joining:
             name, link = joint.name.removeprefix(prefix), root.removeprefix(prefix)
             self._sink.report(VIRTUAL_JOINT_LEFT_OUT.at(joint.source, joint=name, others=left.words, link=link))
             note = Note("left out with this virtual joint", joint.source.span if joint.source else None)
-            self._gaps |= Gaps(removed=Removed(dict.fromkeys((joint.name, *left.groups), note)))
+            deleted = DeletedNames(dict.fromkeys((joint.name, *left.groups), note))
+            self._unresolved |= UnresolvedNames(deleted=deleted)
 
     def _connect(self, hanging: ModuleJoint) -> bool:
         """Add the joint that a module hangs by; its parent may belong to a module that comes later."""
@@ -190,12 +191,12 @@ class Joining:
         self._robot.add_parts(joints=[joint], gazebo_elements=hanging.gazebo)
         return True
 
-    def _leave_out(self, component: Robot, prefix: str, gaps: Gaps) -> bool:
-        """Record a component's names as missing; one without gaps is to be checked alone. False: it is not joined."""
+    def _leave_out(self, component: Robot, prefix: str, unresolved: UnresolvedNames) -> bool:
+        """Record a component's names as missing; a complete one is to be checked alone. False: it is not joined."""
         names = (key for (_, key), _ in _parts(component) if isinstance(key, str))
-        self._gaps |= Gaps(frozenset(prefix + name for name in names))
-        if not gaps:
-            self._unmerged.append(Unmerged(component, gaps))
+        self._unresolved |= UnresolvedNames(frozenset(prefix + name for name in names))
+        if not unresolved:
+            self._unmerged.append(Unmerged(component, unresolved))
         return False
 
 

@@ -1,4 +1,4 @@
-"""Meshes as solid bodies, for the links whose inertia is to be computed: found, read once, and judged."""
+"""Meshes as solid bodies for the links whose inertia is computed: found, read once, and their faults reported."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ if TYPE_CHECKING:
 
 MAX_BYTES = 128 * 1024 * 1024
 
-_WIDEST = 100.0  # [m]
+_MAX_WIDTH = 100.0  # [m]
 
-_MOST_UNSWEPT = 8 * 1024 * 1024
-"""Of meshes of so many bytes together, what the libraries made of them is kept until Python looks for cycles."""
+_BYTES_UNTIL_COLLECTION = 8 * 1024 * 1024
+"""After so many bytes of meshes the garbage collector runs, which is paused while compiling."""
 
 _CODES = {
     MeshFault.NO_LIBRARY: NO_MESH_LIBRARY,
@@ -64,9 +64,9 @@ class MeshSolids:
         self._known: dict[str, Solid | MeshError] = {}  # by real path
         self._files: list[Path] = []
         self._unread: list[Path] = []
-        self._unswept = 0
+        self._uncollected = 0
         self.is_without_library = False
-        """Whether a package that reads meshes is missing, which is told once, not at every mesh."""
+        """Whether a package that reads meshes is missing, which is reported once."""
 
     @property
     def files(self) -> tuple[Path, ...]:
@@ -75,15 +75,15 @@ class MeshSolids:
 
     @property
     def unread(self) -> tuple[Path, ...]:
-        """Every mesh file that was asked for and is not there, or too large, in that order."""
+        """Every mesh file that is missing or too large, in the order of requests."""
         return tuple(dict.fromkeys(self._unread))
 
     def solid(self, path: Path, where: Span) -> Solid | None:
-        """Return the solid in a file that is named at a place, in the unit of the file; None where there is no file.
+        """Return the solid in a file that is named at a place, in the unit of the file; None for a missing file.
 
         Raises:
-            MeshError: There is one, and no solid in it.
-            BeyondLimitError: The meshes of the compile are too much together.
+            MeshError: The file holds no solid.
+            BeyondLimitError: The meshes of the compile are too large together.
 
         """
         real = identity(path)
@@ -100,22 +100,22 @@ class MeshSolids:
             return None
         self._budget.spend(Limit.MESH_BYTES, len(content), where)
         self._files.append(as_typed(path))
-        self._sweep(len(content))
+        self._collect(len(content))
         try:
             return solid_in(content, path.name, times=self._budget.times)
         except MeshError as error:
-            # The error itself knows the frames that it came through, and so keeps all that was made of the mesh.
+            # The traceback of the error would keep its frames, and with them the mesh, in memory.
             return MeshError(error.fault, error.message)
 
-    def _sweep(self, read: int) -> None:
-        """Let go of what was made of earlier meshes once it is much, for the collector rests; `read` bytes come now."""
-        self._unswept += read
-        if self._unswept > _MOST_UNSWEPT:
+    def _collect(self, read: int) -> None:
+        """Free the memory of earlier meshes once it is large; `read` bytes come now."""
+        self._uncollected += read
+        if self._uncollected > _BYTES_UNTIL_COLLECTION:
             gc.collect()
-            self._unswept = 0
+            self._uncollected = 0
 
     def _content(self, path: Path) -> bytes | None:
-        """Return what is in a file, None where there is none; one that cannot be had is noted."""
+        """Return the content of a file, None for a missing one; record one that cannot be read."""
         try:
             content = file_bytes(path, MAX_BYTES, only_regular=True)
         except UnreadableError as error:
@@ -128,17 +128,17 @@ class MeshSolids:
 
 
 class MeshReader:
-    """The solids that the meshes of one use of a file are."""
+    """Reads the meshes of one imported file as solids."""
 
     def __init__(self, find: FindMesh, solids: MeshSolids) -> None:
-        """`find` is that of the use, `solids` what the whole compile has read."""
+        """`find` is that of the import, `solids` are those of the whole compile."""
         self._find = find
         self._solids = solids
 
     def solid(self, mesh: Mesh, inertial: SourceRef, sink: Diagnostics) -> Solid | None:
-        """Return a mesh as a solid in its own frame [m], scaled; None where it was told why it is none.
+        """Return a mesh as a solid in its own frame [m], scaled; None after reporting a fault.
 
-        `inertial` is what it is needed for.
+        `inertial` is the inertial that needs it.
 
         Raises:
             RobotPhysicsError: The scale leaves no volume.
@@ -148,28 +148,28 @@ class MeshReader:
         path = self._find(written, written_place(where.node), used_from(sink, where.trail))
         if path is None:
             return None
-        asked = Note("its inertia is needed here", inertial.span)
+        request = Note("its inertia is needed here", inertial.span)
         try:
             solid = self._solids.solid(path, where.span)
         except MeshError as error:
             if not self._solids.is_without_library:
                 facts = {"path": written, "reason": error.message, "library": error.message}
-                sink.report(_CODES[error.fault].at(where, notes=[asked], **facts))
+                sink.report(_CODES[error.fault].at(where, notes=[request], **facts))
             self._solids.is_without_library |= error.fault is MeshFault.NO_LIBRARY
             return None
         if solid is None:
             name, near = misspelt_part(path)
-            notes = [looked_for(path, written, where.node.span), asked]
+            notes = [looked_for(path, written, where.node.span), request]
             sink.report(NO_SUCH_MESH.at(where, path=written, name=name, near=near, notes=notes))
             return None
         scaled = solid.scaled(mesh.scale)
-        if (widest := max(scaled.size)) > _WIDEST:
+        if (widest := max(scaled.size)) > _MAX_WIDTH:
             sink.report(WIDE_MESH.at(where, path=written, size=f"{widest:.4g}"))
         return scaled
 
 
 def _written(mesh: Mesh) -> tuple[str, SourceRef]:
-    """Return a mesh's path in the words of the file that wrote it, and where they stand."""
+    """Return a mesh's path as its file writes it, and the place."""
     assert mesh.source is not None, "what is lowered was written"
     node = mesh.source.node
     file = node.child("file") or node

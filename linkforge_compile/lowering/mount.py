@@ -10,7 +10,7 @@ from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostics, Gaps, Note
+from linkforge_compile.diagnostics import Diagnostics, Note, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     MOUNT_AND_JOINT,
     MOUNT_NOT_AT_ROOT,
@@ -90,24 +90,24 @@ def _with_ends_of(entry: YamlMap, mount: SourceRef | None) -> SourceRef | None:
     return replace(mount, node=YamlMap({**mount.node.entries, **ends}, mount.node.span))
 
 
-def hang_on_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diagnostics) -> Gaps:
+def hang_on_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diagnostics) -> UnresolvedNames:
     """Hang a compiled robot on the link `world`, its first, made unless it is declared; returns what it lacks now.
 
     For a robot without a single root none is made, so that what is told of its roots names what its author wrote.
     """
     if mount.joint is None or not _holds_root(mount, root, "", sink):
-        return Gaps(frozenset([mount.name]))
+        return UnresolvedNames(frozenset([mount.name]))
     if root is None and WORLD not in robot.links:
-        return Gaps(mounts=frozenset([mount.name, WORLD]))
+        return UnresolvedNames(mounts=frozenset([mount.name, WORLD]))
     if (other := robot.joints.get(mount.name)) is not None:
         tell_duplicate(sink, "joint", mount.name, mount.joint.source, other.source)
-        return Gaps(frozenset([mount.name]))
+        return UnresolvedNames(frozenset([mount.name]))
     declared = robot.links.get(WORLD) if WORLD in robot.links else None
     world = declared or Link(WORLD, source=mount.joint.source)
     robot.links = (world, *(link for link in robot.links if link.name != WORLD))
     robot.joints = (mount.joint, *robot.joints)
     robot.gazebo_elements = (*mount.gazebo, *robot.gazebo_elements)
-    return Gaps()
+    return UnresolvedNames()
 
 
 def _holds_root(mount: ModuleJoint, root: str | None, prefix: str, sink: Diagnostics) -> bool:

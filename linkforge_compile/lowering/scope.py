@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from linkforge_compile.core.models.material import Material
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 from linkforge_compile.lowering.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.modules.mesh_files import no_mesh
 from linkforge_compile.modules.path_starts import written_place
@@ -24,7 +24,7 @@ class FileScope:
 
     mesh_bases: Mapping[SourceFile, str] = field(default_factory=dict)
     materials: Mapping[str, Material] = field(default_factory=dict)
-    lost_materials: Gaps = field(default_factory=Gaps)
+    lost_materials: UnresolvedNames = field(default_factory=UnresolvedNames)
     meshes: MeshReader = field(default_factory=lambda: MeshReader(no_mesh, MeshSolids()))
 
     def resource(self, path: str, node: Located) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from linkforge_compile.bounds import Budget, Limit
-from linkforge_compile.diagnostics import Removed
+from linkforge_compile.diagnostics import DeletedNames
 from linkforge_compile.modules.mesh_files import FindMesh, no_mesh
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.ref import Located
@@ -58,7 +58,7 @@ class Instance:
     modules: tuple[Instance, ...] = ()
     references: tuple[NameReference, ...] = ()
     find_mesh: FindMesh = no_mesh
-    removed: Removed = field(default_factory=Removed)
+    removed: DeletedNames = field(default_factory=DeletedNames)
     packages: Mapping[str, Path] = field(default_factory=dict)
     defaults: YamlMap | None = None
 

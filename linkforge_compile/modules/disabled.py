@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from linkforge_compile.diagnostics import Note, Removed
+from linkforge_compile.diagnostics import DeletedNames, Note
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
@@ -25,8 +25,8 @@ class Disabled:
     starts: dict[str, Note] = field(default_factory=dict)
 
     @property
-    def removed(self) -> Removed:
-        return Removed(self.names, self.starts)
+    def removed(self) -> DeletedNames:
+        return DeletedNames(self.names, self.starts)
 
     def add(self, key: YamlScalar, body: YamlNode, title: str, where: Span, tree: TreeEvaluator) -> None:
         """Remember an entry, whose schema has a title, that the `when` at a place takes out, and all it would bring."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from linkforge_compile.diagnostics import Removed
+from linkforge_compile.diagnostics import DeletedNames
 from linkforge_compile.modules.assembly import joint_name_of
 from linkforge_compile.modules.module_entry import ModuleEntry, with_fields
 from linkforge_compile.modules.overrides import Override
@@ -18,7 +18,7 @@ class Body:
 
     tree: YamlMap
     entries: tuple[ModuleEntry, ...]
-    removed: Removed
+    removed: DeletedNames
 
     def under(self, *overrides: Override) -> Body:
         """Return the same with overrides applied one by one; what they say of nested modules goes to their entries."""
@@ -43,7 +43,7 @@ class Body:
         gone = [(entry, names[entry.name]) for entry in self.entries if entry.name in names]
         names |= {joint_name_of(entry.name, entry.ref.node): note for entry, note in gone}
         starts = {entry.prefix: note for entry, note in gone}
-        removed = Removed(names, starts) | self.removed
+        removed = DeletedNames(names, starts) | self.removed
         tree = YamlMap({name: one for name, one in patched.entries.items() if name != "modules"}, patched.span)
         return Body(tree, entries, removed)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from linkforge_compile.diagnostics import Code, Diagnostics, Note, Removed
+from linkforge_compile.diagnostics import Code, DeletedNames, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.repetition import (
     EMPTY_OVERRIDE,
     MOUNT_IS_NO_JOINT,
@@ -45,7 +45,7 @@ class Override:
     patch: YamlMap
     sink: Diagnostics
 
-    def applied(self, tree: YamlMap, missing: Removed) -> YamlMap:
+    def applied(self, tree: YamlMap, missing: DeletedNames) -> YamlMap:
         """Return a module's tree as this override leaves it; `missing` says why names are not there.
 
         Whatever hangs on a link that is deleted goes with it: the joint to it, the Gazebo blocks about either, its
@@ -80,7 +80,7 @@ def refuse_empty(node: YamlNode, shape: Shape, sink: Diagnostics, field: str = "
 class _Patch:
     """One patch over one tree; what is wrong with it is reported where it stands, and the tree left as it was there."""
 
-    def __init__(self, sink: Diagnostics, missing: Removed, whole: YamlMap) -> None:
+    def __init__(self, sink: Diagnostics, missing: DeletedNames, whole: YamlMap) -> None:
         """`whole` is the module, where a name may be that is missed in one of its sections."""
         self._sink = sink
         self._missing = missing
@@ -185,7 +185,7 @@ class _Patch:
         if name in _names(self._whole, "mount") and shape is shapes().under("joints"):
             self._report(MOUNT_IS_NO_JOINT, change)
             return
-        notes = self._missing.why(name)
+        notes = self._missing.notes(name)
         hint = "" if notes else way or self._hint(name, base, shape)
         near = () if notes or hint else base.entries
         self._report(NOTHING_TO_OVERRIDE, change, near=near, notes=notes, owner=shape.things, hint=hint)

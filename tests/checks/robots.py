@@ -1,4 +1,4 @@
-"""Small robots for the checks, and what is told about them."""
+"""Small robots for the checks, and the messages about them."""
 
 from linkforge_compile.checks import check
 from linkforge_compile.core import (
@@ -15,7 +15,7 @@ from linkforge_compile.core import (
     SemanticRobotDescription,
     Vector3,
 )
-from linkforge_compile.diagnostics import Gaps
+from linkforge_compile.diagnostics import UnresolvedNames
 
 X = Vector3(1.0, 0.0, 0.0)
 
@@ -41,9 +41,9 @@ def robot(links: str, *joints: Joint, **parts: object) -> Robot:
     return Robot("r", links=[body(name) for name in links.split()], joints=joints, **parts)  # type: ignore[arg-type]
 
 
-def told(subject: Robot, gaps: Gaps | None = None) -> list[str]:
-    """Return what the checks tell, each as "LFnnnn message"."""
-    return [f"{one.code.id} {one.message}" for one in check(subject, gaps or Gaps())]
+def messages_of(subject: Robot, unresolved: UnresolvedNames | None = None) -> list[str]:
+    """Return the diagnostics of the checks, each as "LFnnnn message"."""
+    return [f"{one.code.id} {one.message}" for one in check(subject, unresolved or UnresolvedNames())]
 
 
 def two_arms(**semantic: object) -> Robot:

@@ -7,7 +7,7 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.checks.collada import corners_of_scene
-from linkforge_compile.checks.mesh_files import Effort, MeshFile, look_at
+from linkforge_compile.checks.mesh_files import MeshScan, ScanBudget, scan_mesh
 from linkforge_compile.core.meshes.collada import collada_triangles
 from tests.meshes import GEOMETRY, block, collada
 
@@ -33,7 +33,7 @@ def box(corners: np.ndarray) -> list[list[float]]:
 def test_the_box_is_that_of_all_triangles(nodes: str, asset: str):
     content = collada(nodes, asset, LIBRARY, block(1, 2, 4, at=(1, 0, 0)))
     read = collada_triangles(content, 1000).reshape(-1, 3)
-    np.testing.assert_allclose(box(np.array(corners_of_scene(content, Effort()))), box(read), rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(box(np.array(corners_of_scene(content, ScanBudget()))), box(read), rtol=1e-6, atol=1e-9)
 
 
 def test_a_mesh_in_collada_is_measured_against_the_mass_of_its_link(tmp_path: Path):
@@ -50,7 +50,7 @@ def test_of_long_arrays_the_ends_are_looked_at():
     for _ in range(4):
         mesh = mesh.subdivide()
     content = collada(f"<node>{GEOMETRY}</node>", mesh=mesh)
-    corners = corners_of_scene(content, Effort())
+    corners = corners_of_scene(content, ScanBudget())
     assert 0 < len(corners) < len(mesh.vertices) / 4
     known = {tuple(corner) for corner in mesh.vertices.tolist()}
     assert {*corners} <= known
@@ -73,9 +73,9 @@ def test_of_long_arrays_the_ends_are_looked_at():
         b'<?xml version="1.0" encoding="foo"?>' + collada(f"<node>{GEOMETRY}</node>").partition(b"?>")[2],
     ],
 )
-def test_of_what_cannot_be_told_at_a_look_there_is_no_box(tmp_path: Path, content: bytes):
+def test_of_what_cannot_be_reported_at_a_look_there_is_no_box(tmp_path: Path, content: bytes):
     (tmp_path / "a.dae").write_bytes(content)
-    assert look_at(tmp_path / "a.dae", Effort()) == MeshFile()
+    assert scan_mesh(tmp_path / "a.dae", ScanBudget()) == MeshScan()
 
 
 def test_a_small_file_that_places_one_shape_without_end_is_left():
@@ -86,8 +86,8 @@ def test_a_small_file_that_places_one_shape_without_end_is_left():
     ]
     library = "".join(doubled) + f'<node id="n20">{GEOMETRY}</node>'
     content = collada('<node><instance_node url="#n0"/></node>', library_nodes=library)
-    effort = Effort(10_000)
-    assert corners_of_scene(content, effort) == ()
+    budget = ScanBudget(10_000)
+    assert corners_of_scene(content, budget) == ()
     # And with it what else the robot has of them.
-    assert corners_of_scene(collada(f"<node>{GEOMETRY}</node>"), effort) == ()
-    assert corners_of_scene(collada(f"<node>{GEOMETRY}</node>"), Effort(10_000))
+    assert corners_of_scene(collada(f"<node>{GEOMETRY}</node>"), budget) == ()
+    assert corners_of_scene(collada(f"<node>{GEOMETRY}</node>"), ScanBudget(10_000))

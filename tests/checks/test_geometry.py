@@ -1,6 +1,6 @@
 from linkforge_compile.core import Box, Collision, Inertial, InertiaTensor, Link, Robot, Vector3, Visual
-from linkforge_compile.diagnostics import Gaps
-from tests.checks.robots import fixed, told
+from linkforge_compile.diagnostics import UnresolvedNames
+from tests.checks.robots import fixed, messages_of
 
 CUBE = Box(Vector3(0.1, 0.1, 0.1))
 INERTIAL = Inertial(1.0, inertia=InertiaTensor(0.002, 0.002, 0.002))
@@ -15,21 +15,23 @@ def of(*links: Link) -> Robot:
     return Robot("r", links=links, joints=[fixed(f"to_{one.name}", first.name, one.name) for one in others])
 
 
-def test_all_links_that_nothing_touches_are_told_together():
+def test_all_links_that_nothing_touches_are_reported_together():
     whole = link("base", seen=True, touched=True)
     subject = of(whole, *(link(name, seen=True, touched=False) for name in ("a", "b")))
-    assert told(subject) == ["LF6050 links 'a' and 'b' have a visual and no collision, so everything passes through"]
-    assert told(subject, Gaps(frozenset({"c"}))) == []
+    assert messages_of(subject) == [
+        "LF6050 links 'a' and 'b' have a visual and no collision, so everything passes through"
+    ]
+    assert messages_of(subject, UnresolvedNames(frozenset({"c"}))) == []
 
 
 def test_a_robot_only_to_be_seen_is_fine():
-    assert told(of(link("base", seen=True, touched=False), link("a", seen=True, touched=False))) == []
+    assert messages_of(of(link("base", seen=True, touched=False), link("a", seen=True, touched=False))) == []
 
 
 def test_a_robot_only_to_be_touched_is_fine():
-    assert told(of(link("base", seen=False, touched=True), link("a", seen=False, touched=True))) == []
+    assert messages_of(of(link("base", seen=False, touched=True), link("a", seen=False, touched=True))) == []
 
 
 def test_ornaments_and_frames_are_fine():
     base = link("base", seen=True, touched=True)
-    assert told(of(base, link("label", seen=True, touched=False, inertial=None), Link("tool0"))) == []
+    assert messages_of(of(base, link("label", seen=True, touched=False, inertial=None), Link("tool0"))) == []

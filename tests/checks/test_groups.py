@@ -1,16 +1,16 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkforge_compile.checks.link_sets import LinkSets
+from linkforge_compile.checks.groups import LinkSets
 from linkforge_compile.core import Chain, EndEffector, GroupState, PlanningGroup, SemanticRobotDescription
-from tests.checks.robots import LEFT, chain, fixed, robot, told, two_arms
+from tests.checks.robots import LEFT, chain, fixed, messages_of, robot, two_arms
 
 HAND = PlanningGroup("hand", links=("left_hand",))
 
 
-def test_groups_that_contain_one_another_are_told_once():
+def test_groups_that_contain_one_another_are_reported_once():
     groups = (LEFT, PlanningGroup("a", subgroups=("left", "b")), PlanningGroup("b", subgroups=("a",)))
-    assert told(two_arms(groups=groups)) == [
+    assert messages_of(two_arms(groups=groups)) == [
         "LF5601 planning group 'b': planning groups contain one another in a circle: a → b → a"
     ]
 
@@ -22,48 +22,50 @@ def test_a_chain_of_one_link_makes_a_group_without_joints():
         PlanningGroup("h", subgroups=("g",)),
         PlanningGroup("root", links=("torso",)),
     )
-    assert told(two_arms(groups=groups, group_states=(state,))) == [
+    assert messages_of(two_arms(groups=groups, group_states=(state,))) == [
         "LF5617 planning group 'g' has no joint, so MoveIt leaves it out",
         "LF5617 planning group 'h' has no joint, so MoveIt leaves it out",
     ]
 
 
 def test_a_chain_with_its_ends_swapped_is_an_error():
-    assert told(two_arms(groups=(chain("g", "left_hand", "torso"),))) == [
+    assert messages_of(two_arms(groups=(chain("g", "left_hand", "torso"),))) == [
         "LF5602 planning group 'g': no chain leads from 'left_hand' down to 'torso'; "
         "'left_hand' hangs below 'torso': swap them"
     ]
 
 
 def test_a_chain_from_hand_to_hand_is_a_warning():
-    assert told(two_arms(groups=(chain("g", "left_hand", "right_hand"),))) == [
+    assert messages_of(two_arms(groups=(chain("g", "left_hand", "right_hand"),))) == [
         "LF5603 planning group 'g': 'right_hand' does not hang below 'left_hand'; "
         "MoveIt goes up to 'torso' and down again"
     ]
 
 
 def test_an_end_effector_on_the_tip_of_its_parent_group_is_fine():
-    assert told(two_arms(groups=(LEFT, HAND), end_effectors=(EndEffector("e", "hand", "left_hand", "left"),))) == []
+    assert (
+        messages_of(two_arms(groups=(LEFT, HAND), end_effectors=(EndEffector("e", "hand", "left_hand", "left"),))) == []
+    )
 
 
 def test_the_base_link_of_a_chain_is_not_in_its_group():
-    assert told(two_arms(groups=(LEFT, HAND), end_effectors=(EndEffector("e", "hand", "torso", "left"),))) == [
+    assert messages_of(two_arms(groups=(LEFT, HAND), end_effectors=(EndEffector("e", "hand", "torso", "left"),))) == [
         "LF5608 end effector 'e': parent link 'torso' is not in parent group 'left'"
     ]
 
 
 def test_a_group_cannot_be_its_own_parent():
-    assert told(two_arms(groups=(HAND,), end_effectors=(EndEffector("e", "hand", "left_hand", "hand"),))) == [
+    assert messages_of(two_arms(groups=(HAND,), end_effectors=(EndEffector("e", "hand", "left_hand", "hand"),))) == [
         "LF5607 end effector 'e': group 'hand' of this end effector cannot be its own parent group"
     ]
 
 
 def test_an_end_effector_that_no_group_carries_is_noted():
     hand_alone = two_arms(groups=(HAND,), end_effectors=(EndEffector("e", "hand", "left_arm"),))
-    assert told(hand_alone) == [
+    assert messages_of(hand_alone) == [
         "LF5616 end effector 'e': no planning group holds parent link 'left_arm', so MoveIt knows no arm for it"
     ]
-    assert told(two_arms(groups=(LEFT, HAND), end_effectors=(EndEffector("e", "hand", "left_arm"),))) == []
+    assert messages_of(two_arms(groups=(LEFT, HAND), end_effectors=(EndEffector("e", "hand", "left_arm"),))) == []
 
 
 @given(st.lists(st.integers(0, 9), min_size=1, max_size=9), st.integers(0, 9), st.integers(0, 9))
@@ -96,5 +98,5 @@ def test_a_group_that_hangs_on_a_circle_is_judged_as_others_are():
     circle = (fixed("j", "a", "b"), fixed("k", "b", "a"), fixed("l", "b", "c"))
     effector = EndEffector("e", parent_link="d", group="arm")
     semantic = SemanticRobotDescription(groups=(chain("arm", "b", "c"),), end_effectors=(effector,))
-    codes = [one[:6] for one in told(robot("a b c d", *circle, semantic=semantic))]
+    codes = [one[:6] for one in messages_of(robot("a b c d", *circle, semantic=semantic))]
     assert codes == ["LF5403", "LF5616"]

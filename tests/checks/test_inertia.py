@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from linkforge_compile.checks import check
 from linkforge_compile.checks.inertia import principal_moments
 from linkforge_compile.core import Inertial, InertiaTensor, Link, Robot
-from linkforge_compile.diagnostics import Gaps, Severity
-from tests.checks.robots import body, told
+from linkforge_compile.diagnostics import Severity, UnresolvedNames
+from tests.checks.robots import body, messages_of
 
 FLAT_PLATE = InertiaTensor(0.001, 0.002, 0.003)
 TURNED_ROD = InertiaTensor(1.0, 1.0, 1.9, ixy=0.95)
@@ -17,11 +17,11 @@ TURNED_ROD = InertiaTensor(1.0, 1.0, 1.9, ixy=0.95)
 
 @pytest.mark.parametrize("inertia", [FLAT_PLATE, TURNED_ROD, InertiaTensor(1e-12, 1e-12, 1e-12)])
 def test_what_a_body_can_have_is_fine(inertia: InertiaTensor):
-    assert told(Robot("r", links=[body("a", inertia=inertia)])) == []
+    assert messages_of(Robot("r", links=[body("a", inertia=inertia)])) == []
 
 
 def test_a_moment_rounded_to_six_digits_is_fine():
-    assert told(Robot("r", links=[body("plate", inertia=InertiaTensor(0.123456, 0.234567, 0.3580231))])) == []
+    assert messages_of(Robot("r", links=[body("plate", inertia=InertiaTensor(0.123456, 0.234567, 0.3580231))])) == []
 
 
 @pytest.mark.parametrize(
@@ -41,12 +41,12 @@ def test_a_moment_rounded_to_six_digits_is_fine():
 )
 def test_what_no_body_can_have_is_a_warning(inertia: InertiaTensor, message: str):
     subject = Robot("r", links=[body("a", 2.0, inertia=inertia)])
-    assert told(subject) == [message]
-    assert next(check(subject, Gaps())).severity is Severity.WARNING
+    assert messages_of(subject) == [message]
+    assert next(check(subject, UnresolvedNames())).severity is Severity.WARNING
 
 
 def test_a_frame_without_mass_may_have_any_tensor():
-    assert told(Robot("r", links=[Link("tool0", Inertial(0.0, inertia=InertiaTensor(0, 0, 0)))])) == []
+    assert messages_of(Robot("r", links=[Link("tool0", Inertial(0.0, inertia=InertiaTensor(0, 0, 0)))])) == []
 
 
 entries = st.floats(-1e6, 1e6) | st.floats(-1e-6, 1e-6) | st.just(0.0)

@@ -2,7 +2,7 @@ import pytest
 
 from linkforge_compile.core import JointLimits, Robot, Ros2Control, Ros2ControlGpio, Ros2ControlJoint, Ros2ControlSensor
 from linkforge_compile.core.models.interface import Interface
-from tests.checks.robots import fixed, robot, told, turning
+from tests.checks.robots import fixed, messages_of, robot, turning
 
 
 def system(*joints: Ros2ControlJoint, **parts: object) -> Ros2Control:
@@ -22,19 +22,19 @@ def ranged(**parameters: str) -> Robot:
     [("postion", "position"), ("Velocity", "velocity"), ("efort", "effort"), ("positions", "position")],
 )
 def test_an_interface_that_is_nearly_one_of_ros2_control(name: str, meant: str):
-    assert told(arm(Ros2ControlJoint("shoulder", (), (name,)))) == [
+    assert messages_of(arm(Ros2ControlJoint("shoulder", (), (name,)))) == [
         f"LF6107 ros2_control 'hw': ros2_control has no interface '{name}' of its own; did you mean '{meant}'?"
     ]
 
 
 @pytest.mark.parametrize("name", ["position", "torque", "stiffness", "position_2", "velocity.filtered", "enable"])
 def test_interfaces_of_hardware_are_its_own(name: str):
-    assert told(arm(Ros2ControlJoint("shoulder", (name,)))) == []
+    assert messages_of(arm(Ros2ControlJoint("shoulder", (name,)))) == []
 
 
 @pytest.mark.parametrize("parameters", [{"min": "-0.5", "max": "0.5"}, {"min": "-1e9"}, {"initial_value": "1"}, {}])
 def test_ranges_that_agree_with_the_joint(parameters: dict[str, str]):
-    assert told(ranged(**parameters)) == []
+    assert messages_of(ranged(**parameters)) == []
 
 
 @pytest.mark.parametrize(
@@ -50,12 +50,12 @@ def test_ranges_that_agree_with_the_joint(parameters: dict[str, str]):
     ],
 )
 def test_ranges_that_do_not(parameters: dict[str, str], message: str):
-    assert told(ranged(**parameters)) == [message.format("ros2_control 'hw': ")]
+    assert messages_of(ranged(**parameters)) == [message.format("ros2_control 'hw': ")]
 
 
 def test_a_velocity_has_a_range_of_its_own():
     driven = Ros2ControlJoint("shoulder", (Interface("velocity", {"min": "-9", "max": "-5"}),))
-    assert told(arm(driven)) == []
+    assert messages_of(arm(driven)) == []
 
 
 def gripper(*joints: Ros2ControlJoint) -> Robot:
@@ -69,16 +69,16 @@ DRIVEN = Ros2ControlJoint("right", ("position",), extra_attributes=[("mimic", "f
 
 
 def test_a_joint_that_mimics_is_read_beside_its_leader():
-    assert told(gripper(LEFT, READ)) == []
-    assert told(gripper(READ)) == [
+    assert messages_of(gripper(LEFT, READ)) == []
+    assert messages_of(gripper(READ)) == [
         "LF6105 ros2_control 'hw': joint 'right' mimics 'left', which ros2_control misses in this system; "
         "list both in one"
     ]
 
 
 def test_a_joint_that_mimics_is_not_commanded_unless_it_is_said():
-    assert told(gripper(LEFT, DRIVEN)) == []
-    assert told(gripper(LEFT, Ros2ControlJoint("right", ("position",)))) == [
+    assert messages_of(gripper(LEFT, DRIVEN)) == []
+    assert messages_of(gripper(LEFT, Ros2ControlJoint("right", ("position",)))) == [
         "LF6104 ros2_control 'hw': joint 'right' mimics 'left', so ros2_control refuses to command it; "
         "leave its state interfaces"
     ]
@@ -86,7 +86,7 @@ def test_a_joint_that_mimics_is_not_commanded_unless_it_is_said():
 
 def test_a_mimic_of_the_hardware_wants_one_of_the_joint():
     said = Ros2ControlJoint("left", (), ("position",), extra_attributes=[("mimic", "true")])
-    assert told(gripper(said)) == [
+    assert messages_of(gripper(said)) == [
         "LF6106 ros2_control 'hw': joint 'left' is to mimic another in ros2_control, but has no 'mimic' of its own"
     ]
 
@@ -95,7 +95,7 @@ def test_hardware_without_interfaces_is_noted():
     empty = Ros2Control("empty", hardware_plugin="mock")
     idle = system(sensors=(Ros2ControlSensor("imu"),), gpios=(Ros2ControlGpio("pins"),))
     subject = robot("base tool", fixed("flange", "base", "tool"), ros2_controls=[empty, idle])
-    assert told(subject) == [
+    assert messages_of(subject) == [
         "LF6112 ros2_control 'empty': ros2_control 'empty' has no interface, so no controller can use it",
         "LF6112 ros2_control 'hw': gpio 'pins' has no interface, so no controller can use it",
         "LF6112 ros2_control 'hw': sensor 'imu' has no interface, so no controller can use it",

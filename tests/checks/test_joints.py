@@ -1,7 +1,7 @@
 import pytest
 
 from linkforge_compile.core import Joint, JointLimits, JointMimic, JointSafetyController, JointType
-from tests.checks.robots import X, fixed, robot, told, turning
+from tests.checks.robots import X, fixed, messages_of, robot, turning
 
 
 def sliding(name: str, parent: str, child: str, mimic: str) -> Joint:
@@ -11,37 +11,40 @@ def sliding(name: str, parent: str, child: str, mimic: str) -> Joint:
 
 def test_a_mimic_of_a_mimic_is_fine():
     lead, second = turning("lead", "base", "a"), turning("second", "a", "b", mimic="lead")
-    assert told(robot("base a b c", lead, second, turning("third", "b", "c", mimic="second"))) == []
+    assert messages_of(robot("base a b c", lead, second, turning("third", "b", "c", mimic="second"))) == []
 
 
 def test_a_rack_may_mimic_its_pinion():
-    assert told(robot("base a b", turning("pinion", "base", "a"), sliding("rack", "base", "b", mimic="pinion"))) == []
+    assert (
+        messages_of(robot("base a b", turning("pinion", "base", "a"), sliding("rack", "base", "b", mimic="pinion")))
+        == []
+    )
 
 
-def test_a_mimic_of_an_unknown_joint_is_told():
+def test_a_mimic_of_an_unknown_joint_is_reported():
     subject = robot("base a b", turning("right", "base", "a"), turning("left", "base", "b", mimic="rigth"))
-    assert told(subject) == ["LF4103 joint 'left': no joint named 'rigth'; did you mean 'right'?"]
+    assert messages_of(subject) == ["LF4103 joint 'left': no joint named 'rigth'; did you mean 'right'?"]
 
 
-def test_joints_that_mimic_in_a_circle_are_told_once():
+def test_joints_that_mimic_in_a_circle_are_reported_once():
     subject = robot("base a b", turning("left", "base", "a", mimic="right"), turning("right", "a", "b", mimic="left"))
-    assert told(subject) == ["LF5501 joint 'right': joints mimic one another in a circle: left → right → left"]
+    assert messages_of(subject) == ["LF5501 joint 'right': joints mimic one another in a circle: left → right → left"]
 
 
-def test_who_mimics_a_joint_of_a_circle_is_not_told_of_it():
+def test_who_mimics_a_joint_of_a_circle_is_not_reported_of_it():
     left, right = turning("left", "base", "a", mimic="right"), turning("right", "a", "b", mimic="left")
-    assert len(told(robot("base a b c", turning("third", "b", "c", mimic="left"), left, right))) == 1
+    assert len(messages_of(robot("base a b c", turning("third", "b", "c", mimic="left"), left, right))) == 1
 
 
 def test_a_joint_that_mimics_itself_is_a_circle_of_one():
-    assert told(robot("base a", turning("left", "base", "a", mimic="left"))) == [
+    assert messages_of(robot("base a", turning("left", "base", "a", mimic="left"))) == [
         "LF5501 joint 'left': joints mimic one another in a circle: left → left"
     ]
 
 
 def test_a_fixed_joint_cannot_lead():
     subject = robot("base a b", fixed("rigid", "base", "a"), turning("loose", "a", "b", mimic="rigid"))
-    assert told(subject) == [
+    assert messages_of(subject) == [
         "LF5502 joint 'loose': revolute joint 'loose' mimics fixed joint 'rigid', but both must have one axis"
     ]
 
@@ -56,9 +59,9 @@ def test_a_fixed_joint_cannot_lead():
         (JointType.CONTINUOUS, JointLimits(effort=5.0, velocity=0.0), ["LF5506"]),
     ],
 )
-def test_limits_that_do_not_fit_a_joint_are_told(joint_type: JointType, limits: JointLimits, codes: list[str]):
+def test_limits_that_do_not_fit_a_joint_are_reported(joint_type: JointType, limits: JointLimits, codes: list[str]):
     joint = Joint("j", joint_type, "base", "a", axis=X, limits=limits)
-    assert [one[:6] for one in told(robot("base a", joint))] == codes
+    assert [one[:6] for one in messages_of(robot("base a", joint))] == codes
 
 
 @pytest.mark.parametrize(
@@ -75,4 +78,4 @@ def test_limits_that_do_not_fit_a_joint_are_told(joint_type: JointType, limits: 
 def test_soft_limits_are_judged_by_the_limits(safety: JointSafetyController, codes: list[str]):
     limits = JointLimits(-1.0, 1.0)
     joint = Joint("j", JointType.REVOLUTE, "base", "a", axis=X, limits=limits, safety_controller=safety)
-    assert [one[:6] for one in told(robot("base a", joint))] == codes
+    assert [one[:6] for one in messages_of(robot("base a", joint))] == codes

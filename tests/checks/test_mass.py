@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkforge_compile.checks.extents import room_of
+from linkforge_compile.checks.bounding import bounding_volume
 from linkforge_compile.core import (
     Box,
     Collision,
@@ -24,7 +24,7 @@ from linkforge_compile.core import (
 )
 from linkforge_compile.core.physics import inertial_of_shapes
 from linkforge_compile.units import parse_quantity
-from tests.checks.robots import fixed, told
+from tests.checks.robots import fixed, messages_of
 
 BEAM = Box(Vector3(0.3, 0.04, 0.04))
 SLANTED = Transform(rpy=Vector3(0.3, 0.0, math.pi / 4))
@@ -51,13 +51,13 @@ poses = st.builds(Transform, st.builds(Vector3, sizes, sizes, sizes), st.builds(
 
 @given(shapes, poses, st.floats(100.0, 10_000.0))
 def test_whatever_is_computed_from_shapes_is_fine(shape: Geometry, pose: Transform, density: float):
-    assert told(of(inertial_of_shapes([(shape, pose)], density=density), shape, pose)) == []
+    assert messages_of(of(inertial_of_shapes([(shape, pose)], density=density), shape, pose)) == []
 
 
 @pytest.mark.parametrize(("factor", "unit"), [(1e4, "kg*cm^2"), (1e6, "kg*mm^2"), (1e7, "g*cm^2"), (1e9, "g*mm^2")])
-def test_an_inertia_in_another_unit_is_told_with_the_unit(factor: float, unit: str):
+def test_an_inertia_in_another_unit_is_reported_with_the_unit(factor: float, unit: str):
     right = inertial_of_shapes([(BEAM, SLANTED)], mass=2.0)
-    (message,) = told(of(Inertial(2.0, right.origin, scaled(right.inertia, factor))))
+    (message,) = messages_of(of(Inertial(2.0, right.origin, scaled(right.inertia, factor))))
     assert message.startswith("LF6032 inertia of link 'a' is ")
     assert message.endswith(f"; write the unit if it is in {unit}")
     assert parse_quantity(f"350 {unit}")
@@ -65,31 +65,31 @@ def test_an_inertia_in_another_unit_is_told_with_the_unit(factor: float, unit: s
 
 def test_no_unit_is_advised_that_the_language_does_not_read():
     right = inertial_of_shapes([(BEAM, SLANTED)], mass=2.0)
-    (message,) = told(of(Inertial(2.0, right.origin, scaled(right.inertia, 1e3))))
+    (message,) = messages_of(of(Inertial(2.0, right.origin, scaled(right.inertia, 1e3))))
     assert message == "LF6032 inertia of link 'a' is 700 times that of the box around its shapes"
 
 
 @pytest.mark.parametrize("products", [-1.0, -0.8])
-def test_products_of_the_other_sign_are_told(products: float):
+def test_products_of_the_other_sign_are_reported(products: float):
     right = inertial_of_shapes([(BEAM, SLANTED)], mass=2.0)
-    (message,) = told(of(Inertial(2.0, right.origin, scaled(right.inertia, 1.0, products))))
+    (message,) = messages_of(of(Inertial(2.0, right.origin, scaled(right.inertia, 1.0, products))))
     assert message.startswith("LF6036")
 
 
 def test_products_are_compared_in_the_axes_of_the_link():
     straight = inertial_of_shapes([(BEAM, Transform())], mass=2.0).inertia
-    assert told(of(Inertial(2.0, SLANTED, straight))) == []
+    assert messages_of(of(Inertial(2.0, SLANTED, straight))) == []
 
 
 def test_a_hollow_or_lopsided_body_is_fine():
     right = inertial_of_shapes([(BEAM, SLANTED)], mass=2.0)
     for factor in (0.05, 3.0):
-        assert told(of(Inertial(2.0, Transform(Vector3(0.1, 0, 0)), scaled(right.inertia, factor)))) == []
+        assert messages_of(of(Inertial(2.0, Transform(Vector3(0.1, 0, 0)), scaled(right.inertia, factor)))) == []
 
 
 def test_meshes_are_not_measured():
     tiny = InertiaTensor(1e-9, 1e-9, 1e-9)
-    assert told(of(Inertial(1e5, Transform(Vector3(0, 0, 50)), tiny), Mesh("package://nowhere/a.stl"))) == []
+    assert messages_of(of(Inertial(1e5, Transform(Vector3(0, 0, 50)), tiny), Mesh("package://nowhere/a.stl"))) == []
 
 
 def test_small_parts_of_the_whole_are_not_judged():
@@ -97,19 +97,19 @@ def test_small_parts_of_the_whole_are_not_judged():
         "imu", Inertial(0.001, inertia=InertiaTensor(1e-3, 1e-3, 1e-3)), collisions=[Collision(Sphere(0.0005))]
     )
     base = Link("base", inertial_of_shapes([(BEAM, Transform())], mass=2.0), collisions=[Collision(BEAM)])
-    assert told(Robot("r", links=[base, marker], joints=[fixed("glue", "base", "imu")])) == []
-    assert [one[:6] for one in told(Robot("r", links=[marker]))] == ["LF6031", "LF6032"]
+    assert messages_of(Robot("r", links=[base, marker], joints=[fixed("glue", "base", "imu")])) == []
+    assert [one[:6] for one in messages_of(Robot("r", links=[marker]))] == ["LF6031", "LF6032"]
 
 
 def test_the_box_around_shapes_holds_them_turned_and_moved():
     shapes = [Collision(BEAM, Transform(Vector3(1, 0, 0), Vector3(0, 0, math.pi / 2))), Collision(Sphere(0.1))]
-    room = room_of(Link("base", collisions=shapes), lambda _: None)
-    assert room is not None
-    extent = room.box
-    assert extent.low == pytest.approx((-0.1, -0.15, -0.1))
-    assert extent.high == pytest.approx((1.02, 0.15, 0.1))
-    assert extent.distance((1.02, 0.15, 0.5)) == pytest.approx(0.4)
-    assert extent.distance((0, 0, 0)) == 0
+    volume = bounding_volume(Link("base", collisions=shapes), lambda _: None)
+    assert volume is not None
+    box = volume.box
+    assert box.low == pytest.approx((-0.1, -0.15, -0.1))
+    assert box.high == pytest.approx((1.02, 0.15, 0.1))
+    assert box.distance((1.02, 0.15, 0.5)) == pytest.approx(0.4)
+    assert box.distance((0, 0, 0)) == 0
 
 
 def of_meshes(folder: Path, inertial: Inertial, scale: float = 1.0) -> Robot:
@@ -138,7 +138,7 @@ FITTING = InertiaTensor(0.002, 0.005, 0.005)
         ),
         (
             Inertial(2.0, inertia=FITTING),
-            1000.0,  # told of the mesh, and not again of what does not fit it
+            1000.0,  # reported for the mesh, and not again for what does not fit it
             [],
         ),
         (
@@ -167,7 +167,7 @@ FITTING = InertiaTensor(0.002, 0.005, 0.005)
 def test_a_link_of_meshes_is_judged_by_their_boxes(
     tmp_path: Path, inertial: Inertial, scale: float, messages: list[str]
 ):
-    assert [one for one in told(of_meshes(tmp_path, inertial, scale)) if "LF6020" not in one] == messages
+    assert [one for one in messages_of(of_meshes(tmp_path, inertial, scale)) if "LF6020" not in one] == messages
 
 
 def test_a_mesh_that_is_a_sheet_or_not_at_hand_is_no_heavy_body(tmp_path: Path):
@@ -175,6 +175,6 @@ def test_a_mesh_that_is_a_sheet_or_not_at_hand_is_no_heavy_body(tmp_path: Path):
     link = Link(
         "a", Inertial(20.0, inertia=InertiaTensor(1, 1, 2)), visuals=[Visual(Mesh(f"file://{tmp_path}/sheet.obj"))]
     )
-    assert told(Robot("r", links=[link])) == []
+    assert messages_of(Robot("r", links=[link])) == []
     elsewhere = replace(link, visuals=[Visual(Mesh("package://elsewhere/a.obj"))])
-    assert told(Robot("r", links=[elsewhere])) == []
+    assert messages_of(Robot("r", links=[elsewhere])) == []

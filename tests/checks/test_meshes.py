@@ -6,11 +6,11 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.checks import check, mesh_files
-from linkforge_compile.checks.mesh_files import SAMPLES, Effort, MeshFile, look_at
-from linkforge_compile.checks.meshes import MOST_ALONE
+from linkforge_compile.checks.mesh_files import MAX_SAMPLES, MeshScan, ScanBudget, scan_mesh
+from linkforge_compile.checks.shapes import MAX_SINGLE_FILES
 from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
-from linkforge_compile.diagnostics import Gaps
-from tests.checks.robots import told
+from linkforge_compile.diagnostics import UnresolvedNames
+from tests.checks.robots import messages_of
 
 UNSCALED = Vector3(1.0, 1.0, 1.0)
 
@@ -54,12 +54,12 @@ def of(meshes: Path, *resources: str, scale: Vector3 = UNSCALED, as_collision: b
 )
 def test_what_is_there_or_not_to_be_found_from_here_is_fine(meshes: Path, resource: str):
     (meshes / "a.stl").write_bytes(strip(2, 0.1))
-    assert told(of(meshes, resource)) == []
+    assert messages_of(of(meshes, resource)) == []
 
 
 def test_a_name_in_other_capitals_is_missing_and_offered(meshes: Path):
     (meshes / "Base.STL").write_bytes(strip(2, 0.1))
-    assert told(of(meshes, "package://arm/meshes/base.stl")) == [
+    assert messages_of(of(meshes, "package://arm/meshes/base.stl")) == [
         "LF6021 there is no mesh 'package://arm/meshes/base.stl'; did you mean 'Base.STL'?"
     ]
 
@@ -68,12 +68,12 @@ def test_a_resolver_that_does_not_mind_capitals_changes_nothing(meshes: Path):
     """As the file systems of Windows and macOS do not."""
     (meshes / "Base.STL").write_bytes(strip(2, 0.1))
     (meshes / "link.stl").symlink_to(meshes / "Base.STL")
-    assert told(of(meshes, "package://arm/meshes/link.stl", f"file://{meshes}/Base.STL")) == []
+    assert messages_of(of(meshes, "package://arm/meshes/link.stl", f"file://{meshes}/Base.STL")) == []
 
 
 def test_all_files_of_a_folder_that_is_not_there_are_one_fault(meshes: Path):
     subject = of(meshes, *(f"package://arm/mesh/{name}.stl" for name in "abc"), as_collision=True)
-    (diagnostic,) = check(subject, Gaps())
+    (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.message == "there is no mesh 'package://arm/mesh/a.stl'; did you mean 'meshes'?"
     assert [note.message for note in diagnostic.notes] == [
         f"looked for it at {meshes.parent / 'mesh'}",
@@ -83,15 +83,15 @@ def test_all_files_of_a_folder_that_is_not_there_are_one_fault(meshes: Path):
 
 
 @pytest.mark.parametrize("is_there", [True, False])
-def test_behind_a_hundred_missing_files_those_of_a_folder_are_told_together_and_none_is_lost(
+def test_behind_a_hundred_missing_files_those_of_a_folder_are_reported_together_and_none_is_lost(
     meshes: Path, is_there: bool
 ):
     folder = "meshes" if is_there else "mesh"
     (meshes / "b100.STL").touch()
     subject = of(meshes, *(f"package://arm/{folder}/b{number}.stl" for number in range(131)))
-    diagnostics = list(check(subject, Gaps()))
+    diagnostics = list(check(subject, UnresolvedNames()))
     alone, together = diagnostics[:-1], diagnostics[-1]
-    assert len(alone) == (MOST_ALONE if is_there else 0)
+    assert len(alone) == (MAX_SINGLE_FILES if is_there else 0)
     names = [note.message for note in together.notes if note.message.startswith("nor ")]
     *_, rest = [note.message for note in together.notes]
     assert rest == f"and {131 - len(alone) - 1 - len(names)} more in this folder"
@@ -105,7 +105,7 @@ def test_behind_a_hundred_missing_files_those_of_a_folder_are_told_together_and_
 def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looked_for_and_the_rest_noted(
     meshes: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    monkeypatch.setattr(mesh_files, "MOST_NOWHERE", 2)
+    monkeypatch.setattr(mesh_files, "MAX_MISSING_PACKAGES", 2)
     found = [f"package://here{number}/a.stl" for number in range(3)]
     for number in range(3):
         (meshes / f"here{number}").mkdir()
@@ -115,9 +115,9 @@ def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looke
     ]
     resolver = FileSystemResolver([meshes], packages={"p": meshes})
     subject = Robot("r", links=links, resource_resolver=resolver)
-    codes = [one.code.id for one in check(subject, Gaps()) if one.code.id in ("LF6021", "LF3403")]
+    codes = [one.code.id for one in check(subject, UnresolvedNames()) if one.code.id in ("LF6021", "LF3403")]
     assert codes == ["LF6021"] * 4 + ["LF3403"]
-    assert "in 2 packages that nobody looked for" in next(one for one in told(subject) if "LF3403" in one)
+    assert "in 2 packages that nobody looked for" in next(one for one in messages_of(subject) if "LF3403" in one)
 
 
 @pytest.mark.parametrize(
@@ -129,26 +129,26 @@ def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looke
         (b"version https://git-lfs.github.com/spec/v1\n", "it is a pointer of Git LFS; run 'git lfs pull'"),
     ],
 )
-def test_a_file_without_a_shape_is_told(meshes: Path, content: bytes, reason: str):
+def test_a_file_without_a_shape_is_reported(meshes: Path, content: bytes, reason: str):
     (meshes / "a.stl").write_bytes(content)
-    assert told(of(meshes, "package://arm/meshes/a.stl")) == [
+    assert messages_of(of(meshes, "package://arm/meshes/a.stl")) == [
         f"LF6022 mesh 'package://arm/meshes/a.stl' holds no shape: {reason}"
     ]
 
 
-def test_millimetres_are_told_unless_they_are_scaled(meshes: Path):
+def test_millimetres_are_reported_unless_they_are_scaled(meshes: Path):
     (meshes / "a.stl").write_bytes(strip(1000, 250.0))
-    assert told(of(meshes, "package://arm/meshes/a.stl", scale=Vector3(0.001, 0.001, 0.001))) == []
-    (message,) = told(of(meshes, "package://arm/meshes/a.stl"))
+    assert messages_of(of(meshes, "package://arm/meshes/a.stl", scale=Vector3(0.001, 0.001, 0.001))) == []
+    (message,) = messages_of(of(meshes, "package://arm/meshes/a.stl"))
     assert message.startswith("LF6020 mesh 'package://arm/meshes/a.stl' is 2.5e+02 metres wide")
 
 
 def test_a_few_triangles_from_all_over_the_file_tell_its_size(meshes: Path):
     (meshes / "a.stl").write_bytes(strip(100_000, 1.0))
-    look = look_at(meshes / "a.stl", Effort())
+    look = scan_mesh(meshes / "a.stl", ScanBudget())
     assert look.triangles == 100_000
     assert look.box is not None
-    assert look.box.sides[0] > 1 - 2 / SAMPLES
+    assert look.box.sides[0] > 1 - 2 / MAX_SAMPLES
 
 
 @pytest.mark.parametrize(
@@ -156,29 +156,31 @@ def test_a_few_triangles_from_all_over_the_file_tell_its_size(meshes: Path):
 )
 def test_a_file_that_is_no_sound_binary_stl_is_not_judged(meshes: Path, content: bytes):
     (meshes / "a.stl").write_bytes(content)
-    assert told(of(meshes, "package://arm/meshes/a.stl"))[1:] == []
+    assert messages_of(of(meshes, "package://arm/meshes/a.stl"))[1:] == []
 
 
 def test_a_folder_is_no_mesh(meshes: Path):
     (meshes / "a.stl").mkdir()
-    assert [one[:6] for one in told(of(meshes, "package://arm/meshes/a.stl"))] == ["LF6021"]
+    assert [one[:6] for one in messages_of(of(meshes, "package://arm/meshes/a.stl"))] == ["LF6021"]
 
 
-def test_collisions_as_fine_as_what_is_seen_are_told_together(meshes: Path):
+def test_collisions_as_fine_as_what_is_seen_are_reported_together(meshes: Path):
     (meshes / "fine.stl").write_bytes(strip(12_000, 1.0))
     (meshes / "coarse.stl").write_bytes(strip(100, 1.0))
     names = [f"package://arm/meshes/{name}.stl" for name in ("fine", "coarse")]
-    assert told(of(meshes, *names)) == []
-    assert told(of(meshes, *names, as_collision=True)) == [
+    assert messages_of(of(meshes, *names)) == []
+    assert messages_of(of(meshes, *names, as_collision=True)) == [
         "LF6025 collisions of 'a' are the meshes that are seen, of 12,000 triangles; contacts will be slow"
     ]
 
 
 def test_a_collision_that_is_turned_by_its_scale_is_fine(meshes: Path):
     turned, mirrored = Vector3(-1.0, -1.0, 1.0), Vector3(1.0, -1.0, 1.0)
-    assert told(of(meshes, "package://b/a.stl", scale=turned, as_collision=True)) == []
-    assert told(of(meshes, "package://b/a.stl", scale=mirrored)) == []
-    assert [one[:6] for one in told(of(meshes, "package://b/a.stl", scale=mirrored, as_collision=True))] == ["LF6024"]
+    assert messages_of(of(meshes, "package://b/a.stl", scale=turned, as_collision=True)) == []
+    assert messages_of(of(meshes, "package://b/a.stl", scale=mirrored)) == []
+    assert [one[:6] for one in messages_of(of(meshes, "package://b/a.stl", scale=mirrored, as_collision=True))] == [
+        "LF6024"
+    ]
 
 
 ASCII_STL = "solid a\n" + "".join(
@@ -191,7 +193,7 @@ OBJ = "# a\no part\n" + "".join(f"v {x} -2 0.5\nv {x + 1}. 0 0 1 1 1\n" for x in
 @pytest.mark.parametrize(("name", "text"), [("a.stl", ASCII_STL), ("a.STL", ASCII_STL), ("a.obj", OBJ)])
 def test_a_few_pieces_of_a_mesh_of_text_tell_its_box(meshes: Path, name: str, text: str):
     (meshes / name).write_text(text)
-    box = look_at(meshes / name, Effort()).box
+    box = scan_mesh(meshes / name, ScanBudget()).box
     assert box is not None
     assert box.low[1:] == (-2.0, 0.0)
     assert box.high[1:] == (0.0, 0.5)
@@ -201,20 +203,20 @@ def test_a_few_pieces_of_a_mesh_of_text_tell_its_box(meshes: Path, name: str, te
 
 def test_a_mesh_of_text_is_read_whole_where_it_is_short(meshes: Path):
     (meshes / "a.obj").write_text("v 1 2 3\nv 4 5 6\nv x y z\nv 1")
-    assert look_at(meshes / "a.obj", Effort()).box == ((1, 2, 3), (4, 5, 6))
+    assert scan_mesh(meshes / "a.obj", ScanBudget()).box == ((1, 2, 3), (4, 5, 6))
 
 
 def test_each_file_is_looked_at_once(meshes: Path, monkeypatch: pytest.MonkeyPatch):
     (meshes / "a.stl").write_bytes(strip(12_000, 1.0))
     looks: list[Path] = []
 
-    def counted(path: Path, effort: Effort) -> MeshFile:
+    def counted(path: Path, budget: ScanBudget) -> MeshScan:
         looks.append(path)
-        return look_at(path, effort)
+        return scan_mesh(path, budget)
 
-    monkeypatch.setattr(mesh_files, "look_at", counted)
+    monkeypatch.setattr(mesh_files, "scan_mesh", counted)
     subject = of(meshes, "package://arm/meshes/a.stl", "package://arm/meshes/a.stl", as_collision=True)
-    assert len(told(subject)) == 1
+    assert len(messages_of(subject)) == 1
     assert len(looks) == 1
 
 

@@ -14,7 +14,7 @@ from linkforge_compile.core import (
     Transmission,
     VirtualJoint,
 )
-from tests.checks.robots import robot, told, turning
+from tests.checks.robots import messages_of, robot, turning
 
 GROUP = PlanningGroup("all", links=("base",))
 ARM = PlanningGroup("arm", links=("arm",))
@@ -30,9 +30,9 @@ HARDWARE = Ros2Control("x", hardware_plugin="mock", sensors=(Ros2ControlSensor("
         ("ros2_controls", "ros2_control system", HARDWARE),
     ],
 )
-def test_two_parts_of_one_name_are_told(collection: str, kind: str, part: object):
+def test_two_parts_of_one_name_are_reported(collection: str, kind: str, part: object):
     subject = robot("base arm", turning("shoulder", "base", "arm"), **{collection: [part, part]})
-    assert told(subject) == [f"LF4101 there are two {kind}s named 'x'"]
+    assert messages_of(subject) == [f"LF4101 there are two {kind}s named 'x'"]
 
 
 @pytest.mark.parametrize(
@@ -45,26 +45,28 @@ def test_two_parts_of_one_name_are_told(collection: str, kind: str, part: object
         ("group_states", "planning group 'all': there are two group states named 'x'", GroupState("x", "all")),
     ],
 )
-def test_two_semantic_parts_of_one_name_are_told(collection: str, message: str, part: object):
+def test_two_semantic_parts_of_one_name_are_reported(collection: str, message: str, part: object):
     semantic = SemanticRobotDescription(**{"groups": (GROUP, ARM), collection: (part, part)})
-    assert told(robot("base arm", turning("shoulder", "base", "arm"), semantic=semantic)) == [f"LF4101 {message}"]
+    assert messages_of(robot("base arm", turning("shoulder", "base", "arm"), semantic=semantic)) == [
+        f"LF4101 {message}"
+    ]
 
 
 def test_states_of_different_groups_may_share_a_name():
     groups = (GROUP, PlanningGroup("base", links=("base",)))
     semantic = SemanticRobotDescription(groups=groups, group_states=(GroupState("x", "all"), GroupState("x", "base")))
-    assert told(robot("base arm", turning("shoulder", "base", "arm"), semantic=semantic)) == []
+    assert messages_of(robot("base arm", turning("shoulder", "base", "arm"), semantic=semantic)) == []
 
 
 def test_a_joint_may_not_be_named_as_a_link():
-    assert told(robot("base wrist", turning("wrist", "base", "wrist"))) == [
+    assert messages_of(robot("base wrist", turning("wrist", "base", "wrist"))) == [
         "LF4108 a link and a joint are both named 'wrist', which Gazebo refuses; rename one of them"
     ]
 
 
 def test_names_that_gazebo_keeps_for_itself():
     subject = robot("base __model__ ____", turning("world", "base", "__model__"), turning("__", "base", "____"))
-    assert told(subject) == [
+    assert messages_of(subject) == [
         "LF4002 Gazebo refuses a link named '__model__': that is a name of its own; choose another",
         "LF4002 Gazebo refuses a link named '____': that is a name of its own; choose another",
         "LF4002 Gazebo refuses a joint named 'world': that is a name of its own; choose another",
@@ -72,13 +74,13 @@ def test_names_that_gazebo_keeps_for_itself():
 
 
 def test_world_is_the_root_and_nothing_else():
-    assert told(robot("world base", turning("stand", "world", "base"))) == []
-    assert told(robot("base world", turning("stand", "base", "world"))) == [
+    assert messages_of(robot("world base", turning("stand", "world", "base"))) == []
+    assert messages_of(robot("base world", turning("stand", "base", "world"))) == [
         "LF4002 Gazebo refuses a link named 'world': that is a name of its own; choose another"
     ]
 
 
 def test_tf2_refuses_frames_with_a_slash_before_them():
-    assert told(robot("/base a/b", turning("/j", "/base", "a/b"))) == [
+    assert messages_of(robot("/base a/b", turning("/j", "/base", "a/b"))) == [
         "LF4003 tf2 refuses frame '/base', which begins with '/'; leave it out"
     ]

@@ -25,9 +25,9 @@ def codes_of_checks() -> Iterator[str]:
 
 
 def test_every_code_of_a_check_stands_on_the_page():
-    told = {*codes_of_checks()}
-    assert len(told) > 80
-    assert told <= {code for code, _ in LINK.findall(PAGE)}
+    reported = {*codes_of_checks()}
+    assert len(reported) > 80
+    assert reported <= {code for code, _ in LINK.findall(PAGE)}
 
 
 def test_each_code_stands_in_the_column_of_its_severity():

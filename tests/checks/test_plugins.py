@@ -1,8 +1,8 @@
 import pytest
 
 from linkforge_compile.core import GazeboElement, GazeboPlugin, Robot, Ros2Control, Ros2ControlJoint
-from linkforge_compile.diagnostics import Gaps
-from tests.checks.robots import robot, told, turning
+from linkforge_compile.diagnostics import UnresolvedNames
+from tests.checks.robots import messages_of, robot, turning
 
 DRIVEN = Ros2ControlJoint("shoulder", ("position",))
 
@@ -18,7 +18,7 @@ def plugin(**parameters: object) -> GazeboPlugin:
 
 @pytest.mark.parametrize("tag", ["joint_name", "left_joint", "front_right_joint"])
 def test_a_joint_that_a_plugin_will_not_find_is_noted(tag: str):
-    assert told(arm(plugin(**{tag: ["shoulder", " sholder "]}))) == [
+    assert messages_of(arm(plugin(**{tag: ["shoulder", " sholder "]}))) == [
         "LF4203 plugin 'drive': no joint named 'sholder' for plugin 'drive'; did you mean 'shoulder'?"
     ]
 
@@ -36,16 +36,16 @@ def test_a_joint_that_a_plugin_will_not_find_is_noted(tag: str):
     ],
 )
 def test_what_may_be_anything_else_is_not_judged(parameters: dict[str, object]):
-    assert told(arm(plugin(**parameters))) == []
+    assert messages_of(arm(plugin(**parameters))) == []
 
 
-def test_a_joint_that_is_known_to_be_missing_is_not_told_again():
-    assert told(arm(plugin(joint_name="lost")), Gaps(frozenset({"lost"}))) == []
+def test_a_joint_that_is_known_to_be_missing_is_not_reported_again():
+    assert messages_of(arm(plugin(joint_name="lost")), UnresolvedNames(frozenset({"lost"}))) == []
 
 
 def simulated(package: str, *plugins: GazeboPlugin, **parts: object) -> list[str]:
     hardware = Ros2Control("hw", hardware_plugin=f"{package}/System", joints=(DRIVEN,))
-    return told(arm(*plugins, ros2_controls=[hardware], **parts))
+    return messages_of(arm(*plugins, ros2_controls=[hardware], **parts))
 
 
 def test_hardware_in_gazebo_wants_its_plugin():

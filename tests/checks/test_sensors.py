@@ -1,8 +1,8 @@
 import pytest
 
 from linkforge_compile.core import IMUInfo, Robot, Sensor, SensorType
-from linkforge_compile.diagnostics import Gaps
-from tests.checks.robots import robot, told, turning
+from linkforge_compile.diagnostics import UnresolvedNames
+from tests.checks.robots import messages_of, robot, turning
 
 
 def imu(name: str, link: str = "arm", **said: object) -> Sensor:
@@ -13,21 +13,21 @@ def arm(*sensors: Sensor) -> Robot:
     return robot("base arm", turning("shoulder", "base", "arm"), sensors=sensors)
 
 
-def test_a_sensor_on_an_unknown_link_is_told():
-    assert told(arm(imu("tilt", "arms"))) == ["LF4102 sensor 'tilt': no link named 'arms'; did you mean 'arm'?"]
+def test_a_sensor_on_an_unknown_link_is_reported():
+    assert messages_of(arm(imu("tilt", "arms"))) == ["LF4102 sensor 'tilt': no link named 'arms'; did you mean 'arm'?"]
 
 
-def test_a_frame_that_no_link_has_is_told():
-    assert told(arm(imu("tilt", frame="arm"))) == []
-    assert told(arm(imu("tilt", frame="arms"))) == [
+def test_a_frame_that_no_link_has_is_reported():
+    assert messages_of(arm(imu("tilt", frame="arm"))) == []
+    assert messages_of(arm(imu("tilt", frame="arms"))) == [
         "LF4202 sensor 'tilt': no link named 'arms', so tf2 cannot tell where this frame is; did you mean 'arm'?"
     ]
-    assert told(arm(imu("tilt", frame="arms")), Gaps(frozenset({"arms"}))) == []
+    assert messages_of(arm(imu("tilt", frame="arms")), UnresolvedNames(frozenset({"arms"}))) == []
 
 
 @pytest.mark.parametrize("topic", ["imu", "/imu", "~", "~/imu", "a/b_2/C", "/{node}/imu", "x{robot}_imu", "a__b", "_2"])
 def test_topics_that_ros_takes(topic: str):
-    assert told(arm(imu("tilt", topic=topic))) == []
+    assert messages_of(arm(imu("tilt", topic=topic))) == []
 
 
 @pytest.mark.parametrize(
@@ -52,10 +52,12 @@ def test_topics_that_ros_takes(topic: str):
     ],
 )
 def test_topics_that_ros_refuses(topic: str, reason: str):
-    assert told(arm(imu("tilt", topic=topic))) == [f"LF4004 sensor 'tilt': ROS 2 refuses topic '{topic}': {reason}"]
+    assert messages_of(arm(imu("tilt", topic=topic))) == [
+        f"LF4004 sensor 'tilt': ROS 2 refuses topic '{topic}': {reason}"
+    ]
 
 
-def test_two_sensors_on_one_topic_are_told_once_each():
-    assert told(arm(imu("a", topic="imu"), imu("b", topic="/imu"), imu("c"), imu("d"))) == [
+def test_two_sensors_on_one_topic_are_reported_once_each():
+    assert messages_of(arm(imu("a", topic="imu"), imu("b", topic="/imu"), imu("c"), imu("d"))) == [
         "LF4109 sensor 'b': sensors 'a' and 'b' both publish on topic '/imu'"
     ]

@@ -15,8 +15,8 @@ from linkforge_compile.core import (
     SemanticRobotDescription,
     VirtualJoint,
 )
-from linkforge_compile.diagnostics import Gaps
-from tests.checks.robots import robot, told, turning
+from linkforge_compile.diagnostics import UnresolvedNames
+from tests.checks.robots import messages_of, robot, turning
 
 
 def arm(**semantic: object) -> Robot:
@@ -63,31 +63,31 @@ NAMES_NOTHING = {
 
 
 @pytest.mark.parametrize(("message", "semantic"), NAMES_NOTHING.items(), ids=NAMES_NOTHING)
-def test_a_name_that_nothing_bears_is_told_once(message: str, semantic: dict[str, object]):
-    assert told(arm(**semantic)) == [message]
+def test_a_name_that_nothing_bears_is_reported_once(message: str, semantic: dict[str, object]):
+    assert messages_of(arm(**semantic)) == [message]
 
 
 @pytest.mark.parametrize("semantic", NAMES_NOTHING.values(), ids=NAMES_NOTHING)
-def test_a_name_that_is_known_to_be_missing_is_not_told_again(semantic: dict[str, object]):
-    assert told(arm(**semantic), Gaps(frozenset({"lost"}))) == []
+def test_a_name_that_is_known_to_be_missing_is_not_reported_again(semantic: dict[str, object]):
+    assert messages_of(arm(**semantic), UnresolvedNames(frozenset({"lost"}))) == []
 
 
 def test_groups_and_states_may_name_virtual_joints():
     floating = VirtualJoint("world_joint", "floating", "world", "base")
     group = PlanningGroup("base", joints=("world_joint",))
     state = GroupState("home", "base", {"world_joint": (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)})
-    assert told(arm(virtual_joints=(floating,), groups=(group,), group_states=(state,))) == []
+    assert messages_of(arm(virtual_joints=(floating,), groups=(group,), group_states=(state,))) == []
 
 
 def test_a_virtual_joint_holds_the_root():
-    assert told(arm(virtual_joints=(VirtualJoint("v", "fixed", "world", "arm"),))) == [
+    assert messages_of(arm(virtual_joints=(VirtualJoint("v", "fixed", "world", "arm"),))) == [
         "LF5609 virtual joint 'v': MoveIt skips a virtual joint to 'arm', which is not the root 'base'"
     ]
 
 
 def test_a_pair_under_both_of_its_links_is_listed_twice():
     pairs = (CollisionPair("base", "arm"), CollisionPair("arm", "hand"), CollisionPair("arm", "base"))
-    assert told(arm(disabled_collisions=pairs)) == ["LF5610 the pair of 'arm' and 'base' is listed twice"]
+    assert messages_of(arm(disabled_collisions=pairs)) == ["LF5610 the pair of 'arm' and 'base' is listed twice"]
 
 
 def test_a_passive_joint_is_not_commanded():
@@ -95,32 +95,32 @@ def test_a_passive_joint_is_not_commanded():
     subject.ros2_controls = [
         Ros2Control("hw", hardware_plugin="mock", joints=[Ros2ControlJoint("wrist", ("position",), ("position",))])
     ]
-    assert told(subject) == ["LF5611 passive joint 'wrist' is commanded by ros2_control 'hw'"]
+    assert messages_of(subject) == ["LF5611 passive joint 'wrist' is commanded by ros2_control 'hw'"]
 
 
 def test_a_passive_joint_may_be_read():
     subject = arm(passive_joints=(PassiveJoint("wrist"),))
     joint = Ros2ControlJoint("wrist", (), ("position",))
     subject.ros2_controls = [Ros2Control("hw", hardware_plugin="mock", joints=[joint])]
-    assert told(subject) == []
+    assert messages_of(subject) == []
 
 
 def test_a_virtual_joint_has_a_name_of_its_own():
-    assert told(arm(virtual_joints=(VirtualJoint("wrist", "fixed", "world", "base"),))) == [
+    assert messages_of(arm(virtual_joints=(VirtualJoint("wrist", "fixed", "world", "base"),))) == [
         "LF5615 virtual joint 'wrist' bears the name of a joint, and MoveIt takes one for the other; rename it"
     ]
 
 
 def test_an_enabled_pair_is_an_exception():
     pair = CollisionPair("base", "hand")
-    assert told(arm(no_default_collision_links=("hand",), enabled_collisions=(pair,))) == []
-    assert told(arm(enabled_collisions=(pair,))) == [
+    assert messages_of(arm(no_default_collision_links=("hand",), enabled_collisions=(pair,))) == []
+    assert messages_of(arm(enabled_collisions=(pair,))) == [
         "LF5618 the pair of 'base' and 'hand' is looked at anyway: neither is in 'no_default_collision_links'"
     ]
 
 
 def test_a_pair_is_not_enabled_and_disabled():
     pair, other = CollisionPair("base", "hand"), CollisionPair("hand", "base", "Never")
-    assert told(arm(enabled_collisions=(pair,), disabled_collisions=(other,))) == [
+    assert messages_of(arm(enabled_collisions=(pair,), disabled_collisions=(other,))) == [
         "LF5612 the pair of 'base' and 'hand' is disabled as well, and MoveIt leaves it so; remove one"
     ]

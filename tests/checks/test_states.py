@@ -13,25 +13,28 @@ from linkforge_compile.core import (
     SemanticRobotDescription,
     VirtualJoint,
 )
-from linkforge_compile.diagnostics import Gaps
-from tests.checks.robots import LEFT, chain, robot, told, turning, two_arms
+from linkforge_compile.diagnostics import UnresolvedNames
+from tests.checks.robots import LEFT, chain, messages_of, robot, turning, two_arms
 
 
 @pytest.mark.parametrize("position", [-1.0, 1.0, 1.00004, math.sin(1)])
 def test_a_state_within_its_limits_is_fine(position: float):
-    assert told(two_arms(groups=(LEFT,), group_states=(GroupState("s", "left", {"left_shoulder": position}),))) == []
+    assert (
+        messages_of(two_arms(groups=(LEFT,), group_states=(GroupState("s", "left", {"left_shoulder": position}),)))
+        == []
+    )
 
 
-def test_a_state_outside_its_limits_is_told_in_radians():
+def test_a_state_outside_its_limits_is_reported_in_radians():
     state = GroupState("up", "left", {"left_shoulder": 1.5})
-    assert told(two_arms(groups=(LEFT,), group_states=(state,))) == [
+    assert messages_of(two_arms(groups=(LEFT,), group_states=(state,))) == [
         "LF5606 state 'up' of group 'left': joint 'left_shoulder' goes from -1 to 1 rad, found 1.5"
     ]
 
 
-def test_a_state_of_a_joint_that_is_not_in_its_group_is_told():
+def test_a_state_of_a_joint_that_is_not_in_its_group_is_reported():
     state = GroupState("up", "left", {"right_shoulder": 0})
-    assert told(two_arms(groups=(LEFT,), group_states=(state,))) == [
+    assert messages_of(two_arms(groups=(LEFT,), group_states=(state,))) == [
         "LF5604 state 'up' of group 'left': joint 'right_shoulder' is not in group 'left', so state 'up' cannot set it"
     ]
 
@@ -46,13 +49,13 @@ def test_a_state_of_a_joint_that_is_not_in_its_group_is_told():
     ],
 )
 def test_a_joint_is_in_a_group_however_that_is_said(group: PlanningGroup):
-    messages = told(two_arms(groups=(LEFT, group), group_states=(GroupState("s", "g", {"left_shoulder": 0}),)))
+    messages = messages_of(two_arms(groups=(LEFT, group), group_states=(GroupState("s", "g", {"left_shoulder": 0}),)))
     assert not [message for message in messages if message.startswith("LF5604")]
 
 
 def test_what_a_group_holds_is_not_judged_while_one_of_its_names_is_unknown():
     group = PlanningGroup("g", joints=("left_shoulder", "lost"))
-    messages = told(two_arms(groups=(group,), group_states=(GroupState("s", "g", {"right_shoulder": 0}),)))
+    messages = messages_of(two_arms(groups=(group,), group_states=(GroupState("s", "g", {"right_shoulder": 0}),)))
     assert messages == ["LF4103 planning group 'g': no joint named 'lost'"]
 
 
@@ -60,7 +63,7 @@ def test_a_value_for_each_coordinate_of_the_joint():
     virtual = VirtualJoint("world_joint", "planar", "world", "torso")
     group = PlanningGroup("all", joints=("world_joint", "left_shoulder", "left_wrist"))
     state = GroupState("s", "all", {"world_joint": (0.0, 0.0), "left_shoulder": (0.0, 0.0), "left_wrist": 0})
-    assert told(two_arms(virtual_joints=(virtual,), groups=(group,), group_states=(state,))) == [
+    assert messages_of(two_arms(virtual_joints=(virtual,), groups=(group,), group_states=(state,))) == [
         "LF5605 state 's' of group 'all': state of planar joint 'world_joint' takes 3 values: x, y and angle, "
         "found 2 values, [0, 0]",
         "LF5605 state 's' of group 'all': state of revolute joint 'left_shoulder' takes 1 value, "
@@ -76,20 +79,20 @@ RIGHT = chain("right", "torso", "right_hand")
 
 def test_a_state_that_leaves_a_joint_open_is_noted():
     subject = two_arms(groups=(LEFT, RIGHT, BOTH), group_states=(GroupState("up", "both", {"left_shoulder": 0}),))
-    assert told(subject) == ["LF5613 state 'up' of group 'both' does not place 'right_shoulder'"]
-    assert told(subject, Gaps(frozenset({"lost"}))) == []
+    assert messages_of(subject) == ["LF5613 state 'up' of group 'both' does not place 'right_shoulder'"]
+    assert messages_of(subject, UnresolvedNames(frozenset({"lost"}))) == []
 
 
 def test_fixed_and_passive_joints_need_no_place():
     subject = two_arms(
         groups=(LEFT,), group_states=(GroupState("up", "left"),), passive_joints=(PassiveJoint("left_shoulder"),)
     )
-    assert told(subject) == []
+    assert messages_of(subject) == []
 
 
 def test_a_joint_that_is_misspelt_is_not_missed_as_well():
     states = (GroupState("up", "left", {"left_sholder": 0}),)
-    assert told(two_arms(groups=(LEFT,), group_states=states)) == [
+    assert messages_of(two_arms(groups=(LEFT,), group_states=states)) == [
         "LF4103 state 'up' of group 'left': no joint named 'left_sholder'; did you mean 'left_shoulder'?"
     ]
 
@@ -105,12 +108,12 @@ def gripper(**fingers: float) -> Robot:
 
 
 def test_a_follower_need_not_be_placed():
-    assert told(gripper(left=0.2)) == []
+    assert messages_of(gripper(left=0.2)) == []
 
 
 def test_a_follower_is_where_its_leader_puts_it():
-    assert told(gripper(left=0.2, right=-0.3)) == []
-    assert told(gripper(left=0.1234, right=-0.147)) == []
-    assert told(gripper(left=0.2, right=0.3)) == [
+    assert messages_of(gripper(left=0.2, right=-0.3)) == []
+    assert messages_of(gripper(left=0.1234, right=-0.147)) == []
+    assert messages_of(gripper(left=0.2, right=0.3)) == [
         "LF5614 state 's' of group 'g': joint 'right' mimics 'left', which puts it at -0.3 in this state, found 0.3"
     ]

@@ -331,7 +331,7 @@ def test_a_corner_that_is_no_vertex_is_told_with_its_line(face, told):
 
 
 def test_hollows_are_counted(monkeypatch):
-    monkeypatch.setattr(closed, "_MAX_VIEWS", 20)
+    monkeypatch.setattr(closed, "_MAX_HOLLOW_CHECKS", 20)
     error = fault(content(together(block(4, 4, 4), turned_inside_out(block(1, 1, 1))), "stl"))
     assert (error.fault, error.message) == (MeshFault.TOO_LARGE, "it has 1 hollows and 24 triangles")
 

@@ -6,7 +6,7 @@ from textwrap import dedent
 import pytest
 
 from linkforge_compile import import_urdf
-from linkforge_compile.diagnostics import Code, Diagnostics, Gaps, Note, Severity, suggest
+from linkforge_compile.diagnostics import Code, Diagnostics, Note, Severity, UnresolvedNames, suggest
 from linkforge_compile.diagnostics.render.text import render_text, summary
 from linkforge_compile.diagnostics.runs import told_once
 from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
@@ -186,11 +186,13 @@ def test_the_summary_counts(codes: tuple[Code, ...], text: str):
     assert summary([code.at(None, name="x", mass=3) for code in codes]) == text
 
 
-def test_gaps_cover_names_and_whole_modules():
-    gaps = Gaps(frozenset({"elbow"}), ("hand_",)).with_prefix("left_") | Gaps(frozenset({"cap"}))
-    assert "left_elbow" in gaps
-    assert "left_hand_finger" in gaps
-    assert "cap" in gaps
-    assert "elbow" not in gaps
-    assert not Gaps()
-    assert "anything" in Gaps(prefixes=("",))
+def test_unresolved_names_cover_names_and_whole_modules():
+    unresolved = UnresolvedNames(frozenset({"elbow"}), ("hand_",)).with_prefix("left_") | UnresolvedNames(
+        frozenset({"cap"})
+    )
+    assert "left_elbow" in unresolved
+    assert "left_hand_finger" in unresolved
+    assert "cap" in unresolved
+    assert "elbow" not in unresolved
+    assert not UnresolvedNames()
+    assert "anything" in UnresolvedNames(prefixes=("",))

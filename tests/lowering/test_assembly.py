@@ -145,7 +145,7 @@ def test_a_module_that_repeats_names_is_told_and_checked_alone():
     )
     assert names(result.robot.links) == ["torso", "palm"]
     assert names(result.unmerged) == ["hand"]
-    assert "left_joint" in result.gaps
+    assert "left_joint" in result.unresolved
 
 
 def test_modules_of_one_prefix_are_told_at_the_second_whatever_they_share():
@@ -185,7 +185,7 @@ def test_a_module_that_is_no_tree_is_handed_out_for_its_own_check():
     )
     (unmerged,) = result.unmerged
     assert names(unmerged.robot.links) == ["palm", "finger"]
-    assert all(name in result.gaps for name in ("left_palm", "left_finger", "left_hand", "left_joint"))
+    assert all(name in result.unresolved for name in ("left_palm", "left_finger", "left_hand", "left_joint"))
     assert names(result.robot.links) == ["torso"]
 
 
@@ -201,14 +201,14 @@ def test_a_module_with_gaps_is_joined_as_far_as_it_goes():
     result = lowered(Spec("name: body\nlinks: {torso: }\nmodules: {left: {parent: torso}}", {"left": faulty}))
     assert result.unmerged == ()
     assert names(result.robot.links) == ["torso", "left_palm", "left_finger"]
-    assert "left_grip" in result.gaps
-    assert "left_joint" in result.gaps
+    assert "left_grip" in result.unresolved
+    assert "left_joint" in result.unresolved
 
 
 def test_all_names_of_a_file_that_could_not_be_read_may_be_missing():
     result = lowered(Spec("name: body\nlinks: {torso: }\nmodules: {left: {parent: torso}}", {"left": None}))
-    assert "left_anything" in result.gaps
-    assert "right_anything" not in result.gaps
+    assert "left_anything" in result.unresolved
+    assert "right_anything" not in result.unresolved
     assert result.robot.joints == ()
 
 

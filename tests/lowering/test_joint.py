@@ -94,7 +94,7 @@ joints:
   elbow: {type: fixed, child: arm}   # E[LF5005]:3 joint 'elbow' has no 'parent'; write 'parent: base'
 """
     )
-    assert "elbow" in result.gaps
+    assert "elbow" in result.unresolved
     assert result.robot.joints == ()
 
 
@@ -127,9 +127,9 @@ def test_a_frame_is_an_empty_link_and_a_fixed_joint():
 
 
 def test_a_name_whose_expression_failed_may_be_any_that_begins_so():
-    from linkforge_compile.lowering.file import gaps_of
+    from linkforge_compile.lowering.file import unresolved_of
 
-    gaps = gaps_of(["elbow", "wheel_$(sid)"])
-    assert "wheel_left" in gaps
-    assert "elbow" in gaps
-    assert "elbow_2" not in gaps
+    unresolved = unresolved_of(["elbow", "wheel_$(sid)"])
+    assert "wheel_left" in unresolved
+    assert "elbow" in unresolved
+    assert "elbow_2" not in unresolved

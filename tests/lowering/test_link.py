@@ -163,7 +163,7 @@ def test_a_link_keeps_what_is_sound_when_a_part_of_it_is_faulty():
         """
     )
     assert [visual.geometry for visual in result.robot.link("base").visuals] == [Sphere(1)]
-    assert not result.gaps
+    assert not result.unresolved
 
 
 def test_a_material_that_was_faulty_is_not_unknown():

@@ -120,7 +120,7 @@ def test_a_faulty_group_is_a_gap():
               chain: {base_link: base}   # E[LF5005]:14 group 'arm' has no 'chain.tip_link'; write 'tip_link: tool0'
         """
     )
-    assert "arm" in result.gaps
+    assert "arm" in result.unresolved
 
 
 @pytest.mark.parametrize("text", ["", "semantic:"])

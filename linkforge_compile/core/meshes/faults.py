@@ -8,7 +8,7 @@ from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationError
 
 
 class MeshFault(StrEnum):
-    """What is wrong with a mesh that should be a solid body."""
+    """The faults of a mesh from which no inertia can be computed."""
 
     NO_LIBRARY = "no library"
     NO_FORMAT = "no format"
@@ -31,7 +31,7 @@ _CODES = {
 
 
 class MeshError(RobotPhysicsError):
-    """A mesh that is no solid, or cannot be read; `message` says what was found: "4 of its 36 edges are open"."""
+    """A mesh that is no solid, or cannot be read; `message` is such as "4 of its 36 edges are open"."""
 
     def __init__(self, fault: MeshFault, message: str) -> None:
         super().__init__(_CODES.get(fault, ValidationErrorCode.INVALID_VALUE), message, target="Mesh")

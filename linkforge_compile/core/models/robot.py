@@ -331,9 +331,9 @@ class Robot(RobotParts):
 
     def _refuse_errors(self) -> None:
         from linkforge_compile.checks import check
-        from linkforge_compile.diagnostics import Gaps, Severity
+        from linkforge_compile.diagnostics import Severity, UnresolvedNames
 
-        errors = [found.message for found in check(self, Gaps()) if found.severity is Severity.ERROR]
+        errors = [found.message for found in check(self, UnresolvedNames()) if found.severity is Severity.ERROR]
         if errors:
             raise RobotGeneratorError("\n".join(errors))
 

@@ -1,0 +1,192 @@
+"""Shapes of links: mesh files that readers can load, and collisions that match the visuals."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+from linkforge_compile.checks.mesh_files import MAX_WIDTH, MeshFinder, MeshShape, RobotMeshes
+from linkforge_compile.checks.references import SHOWN, join_names
+from linkforge_compile.core.models.geometry import Mesh, Vector3
+from linkforge_compile.core.models.link import Collision, Link
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Code, Diagnostic, Note, UnresolvedNames
+from linkforge_compile.diagnostics.codes.physics import (
+    CAD_MESH,
+    FINE_COLLISIONS,
+    HOLLOW_MESH_FILE,
+    MIRRORED_COLLISIONS,
+    MISSING_MESH,
+    UNSEEN_COLLISIONS,
+    UNTOUCHED_VISUALS,
+    WIDE_MESH,
+)
+from linkforge_compile.diagnostics.codes.roots import UNSEEN_MESHES, UNSOUGHT_MESHES
+from linkforge_compile.roots import is_folder
+from linkforge_compile.source import Key
+
+CAD_FORMATS = frozenset(
+    ("step", "stp", "iges", "igs", "sldprt", "sldasm", "ipt", "iam", "catpart", "catproduct", "f3d", "3dm", "fcstd")
+)
+"""Endings of CAD files, which no reader of URDF loads."""
+
+MAX_SINGLE_FILES = 100
+"""How many missing files of existing folders are reported one by one; the rest is reported by folder."""
+
+FINE = 10_000
+"""From so many triangles on, the mesh of a visual is a costly collision."""
+
+
+def check_mesh_files(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
+    """A mesh file exists on this machine under exactly its name, and holds a shape.
+
+    RViz shows a link without its mesh, and Gazebo refuses the link. A name in other capitals is found on Windows and
+    macOS, and not on Linux. An empty file, or the pointer that Git LFS leaves where nothing was fetched, holds no
+    shape; a mesh more than 100 m wide is in millimetres: write `scale: 0.001`. Not checked are meshes of packages that
+    this machine does not have, of schemes other than `package` and `file`, and outside of the folders that a spec may
+    make us read. Each file is reported once. The files of a missing folder are reported together, and so, after a
+    hundred, are those of an existing one.
+    """
+    finder = meshes.finder
+    missing: dict[Path, dict[str, Mesh]] = {}
+    read_already = {each.mesh.resource for each in meshes.shapes if _is_read_for_inertia(each)}
+    checked = [each for each in meshes.shapes if each.mesh.resource not in read_already]
+    firsts: dict[tuple[str, Vector3], MeshShape] = {}
+    for each in checked:
+        firsts.setdefault((each.mesh.resource, each.mesh.scale), each)
+    for each in firsts.values():
+        path = finder.path(each.mesh.resource)
+        if path and finder.names_instead_of(path) is not None:
+            is_alone = len(missing) < MAX_SINGLE_FILES and is_folder(path.parent)
+            together = missing.setdefault(path if is_alone else path.parent, {})
+            together.setdefault(each.mesh.resource, each.mesh)
+        elif diagnostic := _fault_in(meshes, each.mesh):
+            yield diagnostic
+    for path, by_resource in missing.items():
+        yield _missing(path, by_resource.values(), finder)
+    if forbidden := [each for each in checked if each.mesh.resource in finder.forbidden]:
+        yield _report_meshes(forbidden, UNSEEN_MESHES, "file")
+    if skipped := [each for each in checked if each.mesh.resource in finder.skipped]:
+        count = len({finder.skipped[each.mesh.resource] for each in skipped})
+        packages = f"{count:,} package{'s' if count > 1 else ''}"
+        yield _report_meshes(skipped, UNSOUGHT_MESHES, "file", packages=packages)
+
+
+def _missing(path: Path, meshes: Iterable[Mesh], finder: MeshFinder) -> Diagnostic:
+    """Report a missing file, or once all missing files of a folder."""
+    first, *others = meshes
+    if is_folder(path):
+        path = finder.path(first.resource) or path
+    near = finder.names_instead_of(path) or ()
+    sources = [(mesh.resource, mesh.source) for mesh in others[:SHOWN]]
+    notes = [Note(f"looked for it at {path}")]
+    notes += [Note(f"nor '{resource}'", source.at("file") if source else None) for resource, source in sources]
+    if (more := len(others) - SHOWN) > 0:
+        notes.append(Note(f"and {more:,} more in this folder"))
+    return MISSING_MESH.at(first.source, "file", path=first.resource, name=path.name, near=near, notes=notes)
+
+
+def _fault_in(meshes: RobotMeshes, mesh: Mesh) -> Diagnostic | None:
+    scan, box = meshes.scan(mesh), meshes.box(mesh)
+    if scan and scan.fault:
+        return HOLLOW_MESH_FILE.at(mesh.source, "file", path=mesh.resource, reason=scan.fault)
+    widest = max(box.sides) if box else 0.0
+    return WIDE_MESH.at(mesh.source, "file", path=mesh.resource, size=f"{widest:.2g}") if widest > MAX_WIDTH else None
+
+
+def check_mesh_formats(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
+    """A mesh is in a format of triangles: .stl, .dae or .obj.
+
+    RViz, Gazebo and MoveIt load no files of CAD programs. Export the part as a mesh, in metres.
+    """
+    for each in meshes.shapes:
+        ending = each.mesh.resource.rpartition(".")[2].lower()
+        if ending in CAD_FORMATS:
+            yield CAD_MESH.at(each.mesh.source, "file", path=each.mesh.resource, ending=ending)
+
+
+def check_mirrored_collisions(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
+    """A collision mesh is not mirrored.
+
+    A negative `scale` turns the triangles of a mesh inside out, and Gazebo Sim makes no collision of such a mesh.
+    Export a mirrored mesh for the other side, or take primitive shapes. Reported once for all links.
+    """
+    mirrored = [each for each in meshes.shapes if isinstance(each.shape, Collision) and math.prod(each.mesh.scale) < 0]
+    if mirrored:
+        yield _report_meshes(mirrored, MIRRORED_COLLISIONS, "scale")
+
+
+def check_fine_collisions(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
+    """A collision mesh is coarser than the visual.
+
+    Contacts cost time for each triangle. Reported once for all links whose collision is the mesh of their visual, a
+    binary STL file of 10,000 triangles or more. Take primitive shapes, the convex hull, or a mesh of some hundred
+    triangles.
+    """
+    fine: list[tuple[MeshShape, int]] = []
+    seen = {(each.link.name, each.mesh) for each in meshes.shapes if not isinstance(each.shape, Collision)}
+    for each in meshes.shapes:
+        is_both = isinstance(each.shape, Collision) and (each.link.name, each.mesh) in seen
+        scan = meshes.scan(each.mesh) if is_both else None
+        if scan and scan.triangles and scan.triangles >= FINE:
+            fine.append((each, scan.triangles))
+    if fine:
+        triangles = f"{sum(count for _, count in fine):,}"
+        yield _report_meshes([each for each, _ in fine], FINE_COLLISIONS, "file", triangles=triangles)
+
+
+def _report_meshes(shapes: Sequence[MeshShape], code: Code, key: str, **facts: str) -> Diagnostic:
+    sources = [(each.link.name, each.mesh.source) for each in shapes[1 : SHOWN + 1]]
+    notes = [Note(f"link '{name}'", source.at(key)) for name, source in sources if source]
+    links = join_names(dict.fromkeys(each.link.name for each in shapes))
+    return code.at(shapes[0].mesh.source, key, near=(), notes=notes, links=links, **facts)
+
+
+def _is_read_for_inertia(each: MeshShape) -> bool:
+    """Return whether an inertia was to be computed from the mesh, so that lowering has reported its faults."""
+    link, inertial = each.link, each.link.inertial
+    if link.source is None or inertial is None or each.shape not in (link.collisions or link.visuals):
+        return False
+    return inertial.source is None or inertial.source.node.child("inertia") is None
+
+
+def check_untouched_visuals(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A link with mass and a visual has a collision.
+
+    A link without a collision passes through everything in a simulator, and planners ignore it. Write
+    `collision: visual`, or simpler shapes. Reported once for all such links; not if no link of the robot has a
+    collision, nor for links without mass, which are ornaments.
+    """
+    if not unresolved and any(link.collisions for link in robot.links):
+        links = [link for link in robot.links if link.mass and link.visuals and _has_no(link, "collision")]
+        yield from _report_links(links, "visual", UNTOUCHED_VISUALS)
+
+
+def check_unseen_collisions(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A link with mass and a collision has a visual.
+
+    A link with a collision and no visual stops a robot at nothing visible. Give it a visual. Reported once for all
+    such links; not if no link of the robot has a visual, nor for links without mass.
+    """
+    if not unresolved and any(link.visuals for link in robot.links):
+        links = [link for link in robot.links if link.mass and link.collisions and _has_no(link, "visual")]
+        yield from _report_links(links, "collision", UNSEEN_COLLISIONS)
+
+
+def _has_no(link: Link, key: str) -> bool:
+    """Return whether a link has no shape of a kind, not even one that was dropped because of an error."""
+    shapes = link.collisions if key == "collision" else link.visuals
+    return not shapes and (link.source is None or link.source.node.child(key) is None)
+
+
+def _report_links(links: Sequence[Link], key: str, code: Code) -> Iterator[Diagnostic]:
+    if not links:
+        return
+    first, *others = links
+    notes = [Note(f"link '{link.name}'", link.source.at(Key(key))) for link in others[:SHOWN] if link.source]
+    yield code.at(first.source, Key(key), links=_counted([link.name for link in links]), notes=notes)
+
+
+def _counted(names: Sequence[str]) -> str:
+    return f"link {join_names(names)} has" if len(names) == 1 else f"links {join_names(names)} have"
