@@ -51,7 +51,13 @@ def finalize(context: EvalContext, value: Spellable | None) -> object:
     try:
         return Xml(escaped(spelled(value)))
     except (TypeError, ValueError):
-        raise TemplateRuntimeError(f"a {type(value).__name__} has no text in XML; write one of its fields") from None
+        raise TemplateRuntimeError(f"{describe(value)} has no text in XML; write one of its fields") from None
+
+
+def describe(value: object) -> str:
+    """Return the kind of a value with its article, for a message."""
+    name = type(value).__name__
+    return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
 
 
 def format_vector(values: Iterable[float]) -> str:
@@ -83,7 +89,7 @@ def _plain(value: object) -> object:
             return {_plain(key): _plain(item) for key, item in value.items()}
         case Sequence():
             return [_plain(item) for item in value]
-    raise TemplateRuntimeError(f"a {type(value).__name__} has no text in YAML; write its fields")
+    raise TemplateRuntimeError(f"{describe(value)} has no text in YAML; write its fields")
 
 
 FILTERS: dict[str, Callable[..., object]] = {

@@ -6,15 +6,27 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import PurePath
 from typing import Any
 
-from jinja2 import BaseLoader, StrictUndefined, Template, nodes
+from jinja2 import (
+    BaseLoader,
+    StrictUndefined,
+    Template,
+    TemplateRuntimeError,
+    nodes,
+    pass_context,
+    pass_eval_context,
+)
 from jinja2.compiler import CodeGenerator, Frame
 from jinja2.exceptions import SecurityError
+from jinja2.filters import FILTERS as JINJA_FILTERS
+from jinja2.filters import make_attrgetter
+from jinja2.nodes import EvalContext
 from jinja2.runtime import Context, Undefined
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from jinja2.utils import missing
 from jinja2.visitor import NodeTransformer
 
-from linkforge_compile.backends.environment import FILTERS, OPTIONS
+from linkforge_compile.backends.environment import FILTERS, OPTIONS, describe, finalize
+from linkforge_compile.backends.template_text import require_text
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.index import Index
@@ -32,7 +44,15 @@ _MOST_BITS = 4096
 _STEPS_OF_A_CALL = 10
 """What a call or an include takes beside a round of a loop."""
 
-_COUNTED, _MEASURED = "counted", "measured"
+_COUNTED, _MEASURED, _WORDED = "counted", "measured", "worded"
+
+_OF_TEXT = frozenset(
+    (
+        *("capitalize", "center", "e", "escape", "forceescape", "format", "indent", "lower", "pprint", "replace"),
+        *("safe", "string", "striptags", "title", "trim", "truncate", "upper", "urlize", "wordcount", "wordwrap"),
+    )
+)
+"""The filters of Jinja2 that take any value as its text."""
 
 
 class _StrictUndefined(StrictUndefined):
@@ -47,7 +67,7 @@ class _StrictUndefined(StrictUndefined):
             return f"'{name}' is not defined{did_you_mean(str(name), NAMES)}"
         if owner is None:
             return f"this is None, which has no '{name}'; test it with '{{% if … %}}'"
-        whole = "this" if isinstance(owner, Index | Mapping) else f"a {type(owner).__name__}"
+        whole = "this" if isinstance(owner, Index | Mapping) else describe(owner)
         return f"{whole} has no '{name}'{did_you_mean(str(name), _names_in(owner))}"
 
 
@@ -68,13 +88,15 @@ class _Counting(NodeTransformer):
 
     def visit_Concat(self, node: nodes.Concat) -> nodes.Expr:  # noqa: N802 as above
         self.generic_visit(node)
+        node.nodes = [_filtered(child, _WORDED) for child in node.nodes]
         return _filtered(node, _MEASURED)
 
     def visit_Filter(self, node: nodes.Filter) -> nodes.Expr:  # noqa: N802 as above
         self.generic_visit(node)
         if node.node is None:
             return node  # the first filter of a block: it takes the text of the block
-        node.node = _filtered(node.node, _MEASURED)
+        guard = _WORDED if node.name in _OF_TEXT else _COUNTED if node.name == "list" else _MEASURED
+        node.node = _filtered(node.node, guard)
         return _filtered(node, _MEASURED)
 
 
@@ -101,8 +123,10 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
     intercepted_binops = frozenset({"*", "**", "+", "%"})
 
     def __init__(self, loader: BaseLoader, budget: Budget) -> None:
-        super().__init__(loader=loader, **OPTIONS | {"undefined": _StrictUndefined})
-        self.filters.update(FILTERS | {_COUNTED: self._counted, _MEASURED: self._measured})
+        super().__init__(loader=loader, **OPTIONS | {"undefined": _StrictUndefined, "finalize": self._finalize})
+        self.filters.update(FILTERS)
+        self.filters.update({_COUNTED: self._counted, _MEASURED: self._measured, _WORDED: self._worded})
+        self.filters.update({"join": self._join, "map": _map_to_known, "random": _refuse_random})
         del self.globals["lipsum"]
         self._budget = budget
 
@@ -159,6 +183,9 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
             bits = {"**": left.bit_length() * right, "*": left.bit_length() + right.bit_length()}.get(operator, 0)
             if bits > _MOST_BITS:
                 raise OverflowError(f"this number has more than {_MOST_BITS} bits")
+        elif operator == "%" and isinstance(left, str):
+            for value in right if isinstance(right, tuple) else (right,):
+                self._worded(value)
         elif operator == "*":
             for text, times in ((left, right), (right, left)):
                 if isinstance(text, str | list | tuple) and isinstance(times, int):
@@ -180,7 +207,22 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
     def _step(self, steps: int = 1) -> None:
         self._budget.spend(Limit.TEMPLATE_STEPS, steps, None)
 
+    @pass_eval_context
+    def _finalize(self, context: EvalContext, value: Any) -> object:
+        return finalize(context, value if context.autoescape else self._worded(value))
+
+    @pass_eval_context
+    def _join(self, context: EvalContext, value: Any, d: str = "", attribute: str | int | None = None) -> Any:
+        items = self._counted(value) if attribute is None else map(make_attrgetter(self, attribute), value)
+        return JINJA_FILTERS["join"](context, list(map(self._worded, items)), d)
+
+    def _worded(self, value: Any) -> Any:
+        require_text(value, self._step)
+        return self._measured(value)
+
     def _counted(self, items: Iterable[object]) -> Iterator[object]:
+        if isinstance(items, set | frozenset):
+            raise TemplateRuntimeError("a set has no order, so the text would differ from run to run; write '| sort'")
         for item in items:
             self._step()
             yield item
@@ -189,3 +231,16 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         if isinstance(value, str | list | tuple | range | Mapping | Index):
             self._budget.spend(Limit.TEMPLATE_CHARACTERS, len(value), None)
         return value
+
+
+@pass_context
+def _map_to_known(context: Context, value: Any, *args: Any, **kwargs: Any) -> Iterator[object]:
+    """Map as Jinja2 does, but report a name that an item does not have."""
+    for item in JINJA_FILTERS["map"](context, value, *args, **kwargs):
+        if isinstance(item, Undefined):
+            str(item)  # reports the name
+        yield item
+
+
+def _refuse_random(_: object) -> object:
+    raise TemplateRuntimeError("'random' would make another text on every run; write '| first' or an index")

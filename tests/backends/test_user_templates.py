@@ -186,6 +186,60 @@ def test_a_fault_of_each_template_is_told_at_once(tmp_path: Path):
     assert str(pickle.loads(pickle.dumps(refused.value))) == str(refused.value)
 
 
+NO_TEXT = "has no text; write"
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("{{ robot.joints.names }}{{ robot.get_link }}", "'get_link' is not called, and has no text"),
+        ("{{ robot }}", f"a Robot {NO_TEXT} one of its fields, such as its name"),
+        ("{{ robot.links }}", f"a Link {NO_TEXT} one of its fields"),
+        ("{{ [1, {'a': robot.joints.elbow}] }}", f"a Joint {NO_TEXT} one of its fields"),
+        ("{{ [robot.joints.elbow.axis] }}", "a Vector3 has no text in a list; write '| join(\", \")'"),
+        ("{{ urdf.joints[0] }}", f"a JointView {NO_TEXT} one of its fields"),
+        ("{{ robot.links | map(attribute='name') }}", f"a generator {NO_TEXT} '| list' or '| join(\", \")'"),
+        ("{{ range(3) }}", f"a range {NO_TEXT} '| list'"),
+        ("{{ {}.items() }}", f"a dict_items {NO_TEXT} '| list'"),
+        ("{{ robot.graph.link_names | list }}", "a set has no order"),
+        ("{% macro m() %}{% endmacro %}{{ m }}", "'m' is not called, and has no text; write 'm()'"),
+        ("{{ robot.links[0] ~ 'x' }}", f"a Link {NO_TEXT} one of its fields"),
+        ("{{ robot.links | join(', ') }}", f"a Link {NO_TEXT} one of its fields"),
+        ("{{ '%s' % robot.links[0] }}", f"a Link {NO_TEXT} one of its fields"),
+        ("{{ robot.get_link | string }}", "'get_link' is not called"),
+        ("{{ robot.get_link | pprint }}", "'get_link' is not called"),
+        ("{{ robot.links | random }}", "'random' would make another text on every run"),
+        ("{{ robot.graph.link_names | join }}", "a set has no order"),
+        ("{{ robot.graph.link_names }}", "a set has no order"),
+    ],
+)
+def test_what_has_no_text_of_its_own_is_told(text: str, reason: str, tmp_path: Path):
+    found = fault(f"\n{text}", tmp_path)
+    assert found.span
+    assert (found.code.id, found.span.line) == ("LF7205", 2)
+    assert found.message.startswith(f"this template fails here: {reason}")
+
+
+def test_what_has_a_text_is_written_as_jinja2_does(tmp_path: Path):
+    text = "{{ none }} {{ true }} {{ [1, 'a', none] }} {{ {'a': (1.5,)} }} {{ robot.joints[0].type }}{{ 1 | string }}"
+    assert rendered(text, tmp_path) == "None True [1, 'a', None] {'a': (1.5,)} revolute1"
+    text = "{{ robot.joints[0].axis }} {{ robot.links.names }} {{ robot.links | join(', ', attribute='name') }}"
+    assert rendered(text, tmp_path) == f"{Vector3(0, 0, 1)} ('base', 'upper', 'tool') base, upper, tool"
+
+
+def test_a_list_of_lists_that_doubles_is_refused(tmp_path: Path):
+    text = "{% set n = namespace(x=[]) %}{% for i in range(60) %}{% set n.x = [n.x, n.x] %}{% endfor %}{{ n.x }}"
+    assert fault(text, tmp_path).code.id == "LF3301"
+
+
+@pytest.mark.parametrize("behind", ["", " | list | length", " | first"])
+def test_map_reports_a_name_that_is_not_there_as_a_dot_does(behind: str, tmp_path: Path):
+    found = fault(f"{{{{ robot.links | map(attribute='nme'){behind or ' | list'} }}}}", tmp_path)
+    assert (found.code.id, found.message) == ("LF7202", f"{NAME}a Link has no 'nme'; did you mean 'name'?")
+    assert fault(f"{{{{ robot.links | map(attribute='source'){behind or ' | list'} }}}}", tmp_path).code.id == "LF7204"
+    assert rendered("{{ robot.links | map(attribute='nme', default=1) | list }}", tmp_path) == "[1, 1, 1]"
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
