@@ -34,6 +34,9 @@ _MOST_SHOWN = 80
 _UNKNOWN = re.compile(r"No (?P<kind>filter|test) named '(?P<name>\w+)'")
 _KNOWN = {"filter": (*JINJA_FILTERS, *FILTERS), "test": tuple(JINJA_TESTS)}
 
+_DECLARED = re.compile(r"<\?xml\s[^>]*?encoding\s*=\s*[\"']([\w.-]+)")
+_UTF_8 = ("utf-8", "utf8")
+
 _CODES = (
     (TemplateSyntaxError, TEMPLATE_SYNTAX),
     (SecurityError, REFUSED_IN_TEMPLATE),
@@ -111,4 +114,7 @@ def find_xml_fault(text: str) -> str | None:
         lines = text.split("\n")
         line = lines[error.lineno - 1].strip() if error.lineno <= len(lines) else ""
         return f"{problem}, in line {error.lineno} of it, '{line[:_MOST_SHOWN]}'"
+    declared = _DECLARED.match(text)
+    if declared and declared[1].lower() not in _UTF_8:
+        return f"it declares the encoding '{declared[1]}', and is written in UTF-8; write encoding='utf-8'"
     return None

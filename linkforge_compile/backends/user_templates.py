@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.backends.markup import document_text, whole_tags, without_marks
+from linkforge_compile.backends.markup import document_text, harmless_in_comment, with_layout_alone, without_marks
 from linkforge_compile.bounds import Budget
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.diagnostics.codes.templates import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
@@ -90,6 +90,7 @@ class TemplateFolder:
 
         require_dialect(gazebo)
         srdf = semantic_view(robot) if robot.says_semantic else None
+        banner = harmless_in_comment(banner)
         context = {"robot": robot, "urdf": robot_view(robot, gazebo), "srdf": srdf, "banner": banner}
         texts: dict[str, str] = {}
         faults: list[Diagnostic] = []
@@ -122,7 +123,7 @@ class TemplateFolder:
         if problem := find_xml_fault(without_marks(rendered).lstrip()):
             raise TemplateError((NOT_XML_FROM_TEMPLATE.at(place, problem=problem),))
         try:
-            return document_text(whole_tags(rendered), pretty=pretty)
+            return document_text(with_layout_alone(rendered), pretty=pretty)
         except RobotGeneratorError as error:
             raise TemplateError((TEMPLATE_FAILS.at(place, reason=error),)) from None
         except (LookupError, TypeError, ValueError):

@@ -68,6 +68,11 @@ def test_a_template_is_given_the_robot_its_views_and_the_banner(tmp_path: Path):
     assert render_templates(everything(), tmp_path) == {"a.md": str(len(everything().semantic.groups))}
 
 
+def test_the_banner_ends_no_comment(tmp_path: Path):
+    write(tmp_path, a_xml="<!-- {{ banner }} --><a/>")
+    assert render_templates(ARM, tmp_path, banner="from a--b.yaml") == {"a.xml": "<!-- from a- -b.yaml --><a/>\n"}
+
+
 def test_an_index_answers_to_names(tmp_path: Path):
     text = "{{ robot.joints['elbow'].child }} {{ robot.joints[1].name }} {{ robot.links.names | join('-') }}"
     assert rendered(text, tmp_path) == "upper mount base-upper-tool"
@@ -82,8 +87,8 @@ def test_a_document_of_xml_is_escaped_and_laid_out_as_urdf(tmp_path: Path):
         "<j v='{{ joint.limits.upper }}' x='{{ joint.origin.xyz }}'>\n{{ '<&>' }}\n</j>\n{% endfor %}\n</robot>"
     )
     assert rendered(text, tmp_path, "a.xml") == (
-        "<robot name='arm'>\n  <!-- one\n  two -->\n  <j v='0.30000000000000004' x='0 0 0'>\n"
-        "    &lt;&amp;&gt;\n  </j>\n</robot>\n"
+        "<robot name='arm'>\n  <!-- one\n two -->\n  <j v='0.30000000000000004' x='0 0 0'>\n"
+        "&lt;&amp;&gt;\n</j>\n</robot>\n"
     )
 
 
@@ -94,6 +99,16 @@ def test_a_document_of_xml_is_escaped_and_laid_out_as_urdf(tmp_path: Path):
         ("<a><b>\n</b></a>", "<a><b>\n</b></a>\n"),
         ("<a><!-- c -->\n</a>", "<a><!-- c -->\n</a>\n"),
         ("<a>x ></a>\n", "<a>x ></a>\n"),
+        ("<a>\n one\n   two\n</a>", "<a>\n one\n   two\n</a>\n"),
+        ("<a>\n<b>\n 1\n<c/>\n  2 </b>\n<d/>\n</a>", "<a>\n  <b>\n 1\n<c/>\n  2 </b>\n  <d/>\n</a>\n"),
+        (
+            "<r>\n<a><![CDATA[\n  <b></b>\n if x:\n   y]]>\n</a>\n</r>",
+            "<r>\n  <a><![CDATA[\n  <b></b>\n if x:\n   y]]>\n</a>\n</r>\n",
+        ),
+        ("<a><![CDATA[<b></b>]]></a>", "<a><![CDATA[<b></b>]]></a>\n"),
+        ("<a>\n<!--\n<b>\n   c\n-->\n<d/>\n</a>", "<a>\n  <!--\n<b>\n   c\n-->\n  <d/>\n</a>\n"),
+        ("<a b='>\n  c'\n  d='1'/>", "<a b='>   c' d='1'/>\n"),
+        ("<?xml version='1.0' encoding='UTF-8'?>\n<a/>", "<?xml version='1.0' encoding='UTF-8'?>\n<a/>\n"),
         ("{# head #}\n<?xml version='1.0'?>\n<a\n b='1'\n/>", "<?xml version='1.0'?>\n<a b='1' />\n"),
     ],
 )
@@ -263,6 +278,10 @@ def test_what_xml_cannot_hold_is_told_at_its_line(text: str, reason: str, tmp_pa
         ("</a>", "invalid token, in line 1 of it, '</a>'"),
         ("<a>\n<b>\n</a>\n</a>", "expected </b>, found </a>, in line 3 of it, '</a>'"),
         ("", "the file is empty, in line 1 of it, ''"),
+        (
+            '<?xml version="1.0" encoding="iso-8859-1"?><a/>',
+            "it declares the encoding 'iso-8859-1', and is written in UTF-8; write encoding='utf-8'",
+        ),
     ],
 )
 def test_what_is_no_xml_in_the_end_is_told(text: str, problem: str, tmp_path: Path):
