@@ -63,7 +63,7 @@ class FolderLoader(FileSystemLoader):
         if not self._roots.hold(path):
             raise OutsideError(path, self._roots)
         if is_file(path):
-            text, name = _text(path), str(path)
+            text, name = self.read(path), str(path)
             if is_xml(template) and not is_writable(text):
                 raise UnreadableError(path, "it holds a character that XML cannot")
         elif os.path.islink(path) and not exists(path):  # noqa: PTH114 it answers for what may not be looked at
@@ -74,6 +74,18 @@ class FolderLoader(FileSystemLoader):
             text, name, _ = super().get_source(environment, template)
         self.files[name] = SourceFile(name, text, Path(name))
         return text, name, lambda: True
+
+    def read(self, path: Path) -> str:
+        """Return the text of a template of the folder.
+
+        Raises:
+            OutsideError: for a link that leads out of the folders that may be read.
+            UnreadableError: for a file without text.
+
+        """
+        if not self._roots.hold(path):
+            raise OutsideError(path, self._roots)
+        return _text(path)
 
     def place_of(self, template: str) -> Span:
         """Return the place of a template as a whole; of one of ours, that of the first of the folder that it uses."""

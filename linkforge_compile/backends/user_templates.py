@@ -29,6 +29,14 @@ _NOT_DOCUMENTS = ("_", ".")
 """How the names of templates begin at the top of a folder that others include."""
 
 
+def own_names() -> frozenset[str]:
+    """Return the paths of the templates that a user's may go before."""
+    folders = (templates_folder() / format_ for format_ in ("urdf", "srdf"))
+    return frozenset(
+        path.relative_to(templates_folder()).as_posix() for folder in folders for path in folder.rglob(f"*{SUFFIX}")
+    )
+
+
 class TemplateError(Exception):
     """A user's templates cannot be rendered; `diagnostics` has the faults, at their lines."""
 
@@ -62,8 +70,14 @@ class TemplateFolder:
     @property
     def has_ours(self) -> bool:
         """Whether one of its templates goes before one of ours."""
-        ours = (path.relative_to(templates_folder()) for path in templates_folder().rglob(f"*{SUFFIX}"))
-        return any(os.path.lexists(self.folder / path) for path in ours)
+        return any(os.path.lexists(self.folder / name) for name in own_names())
+
+    @property
+    def unused(self) -> tuple[Diagnostic, ...]:
+        """A warning at each file that stands where templates go before ours, and that nothing uses."""
+        from linkforge_compile.backends.unused_templates import find_unused
+
+        return tuple(find_unused(self._environment, self._loader))
 
     @property
     def files(self) -> tuple[Path, ...]:

@@ -125,9 +125,9 @@ def _of_templates(
     try:
         if targets.are_documents:
             texts = templates.render(robot, banner=banner or "", gazebo=arguments.gazebo)
-            return tuple(Output(path, texts[name]) for name, path in targets.paths.items()), ()
+            return tuple(Output(path, texts[name]) for name, path in targets.paths.items()), templates.unused
         options = {format_: {**more, "templates": templates} for format_, more in _options(arguments).items()}
-        return _rendered(robot, banner, targets, options), ()
+        return _rendered(robot, banner, targets, options), templates.unused
     except TemplateError as error:
         return (), error.diagnostics
 

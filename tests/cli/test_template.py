@@ -76,6 +76,27 @@ def test_a_folder_without_documents_writes_urdf_and_srdf(folder: Path):
     assert "<mine/>" in (folder / "out" / "arm.srdf").read_text()
 
 
+def test_a_template_that_goes_before_none_of_ours_is_warned_of(folder: Path):
+    (folder / "t" / "urdf" / "sub").mkdir(parents=True)
+    for name in ("lnik.xml.j2", "joint.xml", "_used.xml.j2", "joint.xml.j2", "README.md", "sub/x.j2"):
+        (folder / "t" / "urdf" / name).write_text("{# nothing #}")
+    (folder / "t" / "urdf" / "joint.xml.j2").write_text("{% include 'urdf/_used.xml.j2' %}")
+    for words in ((), ("--format", "urdf")):
+        _, told = compile_by(folder, *words)
+        assert [line for line in told.split("\n") if "LF7208" in line] == [
+            f"t/urdf/{name}:1:1: warning: 'urdf/{name}' is unused: linkforge has no template of that name to replace, "
+            f"and no template includes it{hint} [LF7208]"
+            for name, hint in (
+                ("joint.xml", "; did you mean 'urdf/joint.xml.j2'?"),
+                ("lnik.xml.j2", "; did you mean 'urdf/link.xml.j2'?"),
+                ("sub/x.j2", ""),
+            )
+        ]
+    assert compile_by(folder, "--werror", expect=1)[0] == ""
+    (folder / "t" / "_other.j2").write_text("{% include name %}")
+    assert "LF7208" not in compile_by(folder)[1], "it may include any of them"
+
+
 def test_standard_input_has_no_banner(folder: Path):
     done = linkforge("compile", "-", "--template", "t", cwd=folder, stdin=SPEC)
     assert done.stdout == "# \n2 links\n"
