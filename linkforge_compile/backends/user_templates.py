@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from functools import cached_property
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -37,6 +38,10 @@ def own_names() -> frozenset[str]:
     )
 
 
+_MOST_NAMES = 1000
+"""Files of a folder without templates that are compared with the names of ours."""
+
+
 class TemplateError(Exception):
     """A user's templates cannot be rendered; `diagnostics` has the faults, at their lines."""
 
@@ -67,10 +72,21 @@ class TemplateFolder:
         self.documents = tuple(name.removesuffix(SUFFIX) for name in templates)
         """The names of the documents that its templates make, sorted."""
 
-    @property
-    def has_ours(self) -> bool:
-        """Whether one of its templates goes before one of ours."""
-        return any(os.path.lexists(self.folder / name) for name in own_names())
+    def require_templates(self) -> None:
+        """Refuse a folder that makes nothing: without a document, and without a template that goes before one of ours.
+
+        Raises:
+            ValueError: with what a template is named.
+
+        """
+        if self.documents or any(os.path.lexists(self.folder / name) for name in own_names()):
+            return
+        from linkforge_compile.diagnostics.suggest import nearest
+
+        found = sorted(path.relative_to(self.folder).as_posix() for path in islice(self.folder.rglob("*"), _MOST_NAMES))
+        near = next((f"; '{name}' is like '{own}'" for name in found if (own := nearest(name, own_names()))), "")
+        has = "NAME.j2 for a document, nor urdf/ or srdf/ with a template that goes before one of linkforge's"
+        raise ValueError(f"it has no {has}{near}")
 
     @property
     def unused(self) -> tuple[Diagnostic, ...]:
@@ -178,7 +194,9 @@ def render_templates(
         TemplateError: with all that is wrong with the templates.
         RobotGeneratorError: for a robot whose text XML cannot hold.
         OSError: for a folder that cannot be read.
-        ValueError: for another `gazebo` than `gz` or `classic`.
+        ValueError: for a folder without templates, and for another `gazebo` than `gz` or `classic`.
 
     """
-    return TemplateFolder(folder, allow_outside=allow_outside).render(robot, banner=banner, gazebo=gazebo)
+    templates = TemplateFolder(folder, allow_outside=allow_outside)
+    templates.require_templates()
+    return templates.render(robot, banner=banner, gazebo=gazebo)
