@@ -67,6 +67,8 @@ class _StrictUndefined(StrictUndefined):
             return f"'{name}' is not defined{did_you_mean(str(name), NAMES)}"
         if owner is None:
             return f"this is None, which has no '{name}'; test it with '{{% if … %}}'"
+        if isinstance(owner, Index) and name in {"keys", "values", "items"}:
+            return f"this has no '{name}'; it is a list: loop over it, or over its 'names'"
         whole = "this" if isinstance(owner, Index | Mapping) else describe(owner)
         return f"{whole} has no '{name}'{did_you_mean(str(name), _names_in(owner))}"
 

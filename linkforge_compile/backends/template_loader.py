@@ -94,6 +94,12 @@ class FolderLoader(FileSystemLoader):
         file = self.files.get(str(path)) or next(iter(in_folder), None) or SourceFile(str(path), "", path)
         return file.whole
 
+    def place_of_line(self, template: str, line: str) -> Span:
+        """Return the line of a template that reads so; the place of the whole where none does, or several do."""
+        whole = self.place_of(template)
+        numbers = [number for number, text in enumerate(whole.file.lines, 1) if text.strip() == line]
+        return span_of_line(whole.file, numbers[0]) if line and len(numbers) == 1 else whole
+
     def has(self, file: SourceFile) -> bool:
         """Whether a file lies in the user's folder, and is none of ours."""
         return file.path is not None and file.path.is_relative_to(self.folder)
@@ -103,6 +109,13 @@ class FolderLoader(FileSystemLoader):
         for folder in (self.folder, templates_folder()):
             found = (path.relative_to(folder).as_posix() for path in folder.rglob("*.j2"))
             yield from islice(found, _MOST_NAMES)
+
+
+def span_of_line(file: SourceFile, number: int) -> Span:
+    """Return what stands on a line: Jinja2 knows no columns."""
+    text = file.line(number)
+    begin = len(text) - len(text.lstrip()) + 1
+    return Span(file, number, begin, number, max(begin, len(text.rstrip()) + 1))
 
 
 def _text(path: Path) -> str:

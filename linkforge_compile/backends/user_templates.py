@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.backends.markup import document_text, harmless_in_comment, with_layout_alone, without_marks
 from linkforge_compile.bounds import Budget
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.diagnostics.codes.bounds import RENDERING_BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.templates import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
 from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import ANYWHERE, Roots
@@ -64,7 +65,7 @@ class TemplateFolder:
             OSError: for a folder that cannot be read.
 
         """
-        self.folder, self._budget = Path(folder), Budget()
+        self.folder, self._budget = Path(folder), Budget(code=RENDERING_BEYOND_LIMIT)
         self._roots = ANYWHERE if allow_outside else Roots.around(self.folder, (self.folder, *packages))
         with os.scandir(self.folder) as entries:
             names = sorted(entry.name for entry in entries if entry.is_symlink() or entry.is_file())
@@ -150,8 +151,9 @@ class TemplateFolder:
 
         rendered = self._text(template, context)
         place = self._loader.place_of(template)
-        if problem := find_xml_fault(without_marks(rendered).lstrip()):
-            raise TemplateError((NOT_XML_FROM_TEMPLATE.at(place, problem=problem),))
+        if fault := find_xml_fault(without_marks(rendered).lstrip()):
+            line = self._loader.place_of_line(template, fault.line)
+            raise TemplateError((NOT_XML_FROM_TEMPLATE.at(line, problem=fault.problem),))
         try:
             return document_text(with_layout_alone(rendered), pretty=pretty)
         except RobotGeneratorError as error:

@@ -155,12 +155,29 @@ SYNTAX, NAME, FAILS = (
             "{% for joint in robot.joints %}\n{{ joint.limts }}{% endfor %}",
             *("LF7202", 2, f"{NAME}a Joint has no 'limts'; did you mean 'limits'?"),
         ),
-        ("{{ robot.joints.elbw.child }}", "LF7202", 1, f"{NAME}this has no 'elbw'; did you mean 'elbow'?"),
+        ("{{ robot.joints.elbw.child }}", "LF7202", 1, f"{NAME}'robot.joints' has no 'elbw'; did you mean 'elbow'?"),
         (
             "{{ robot.joints.mount.limits.upper }}",
+            *(
+                "LF7202",
+                1,
+                f"{NAME}'robot.joints.mount.limits' is None, which has no 'upper'; test it with '{{% if … %}}'",
+            ),
+        ),
+        (
+            "{{ robot.joints['mount'].limits['upper'] }}",
+            *("LF7202", 1),
+            f"{NAME}'robot.joints['mount'].limits' is None, which has no 'upper'; test it with '{{% if … %}}'",
+        ),
+        (
+            "{% set b = 1 %}{{ robot.joints.mount.limits.upper }}{{ b.upper }}",
             *("LF7202", 1, f"{NAME}this is None, which has no 'upper'; test it with '{{% if … %}}'"),
         ),
-        ("{{ 1 / 0 }}", "LF7205", 1, f"{FAILS}division by zero"),
+        (
+            "{{ robot.joints.keys() }}",
+            *("LF7202", 1, f"{NAME}'robot.joints' has no 'keys'; it is a list: loop over it, or over its 'names'"),
+        ),
+        ("{{ robot.sensors }}{{ 1 / 0 }}", "LF7205", 1, f"{FAILS}division by zero"),
         ("{{ 1 + 'a' }}", "LF7205", 1, f"{FAILS}unsupported operand type(s) for +: 'int' and 'str'"),
         ("{{ robot.joints | to_yaml }}", "LF7205", 1, f"{FAILS}a Joint has no text in YAML; write its fields"),
         ("\n{% include 'a.md.j2' %}", "LF7205", 2, f"{FAILS}templates or macros use each other without an end"),
@@ -242,6 +259,12 @@ def test_what_has_a_text_is_written_as_jinja2_does(tmp_path: Path):
     assert rendered(text, tmp_path) == f"{Vector3(0, 0, 1)} ('base', 'upper', 'tool') base, upper, tool"
 
 
+def test_a_kind_has_its_article(tmp_path: Path):
+    (tmp_path / "a.md.j2").write_text("{{ robot.ros2_controls[0].joints[0].command_interfaces[0].nosuch }}")
+    with pytest.raises(TemplateError, match="an Interface has no 'nosuch'"):
+        render_templates(everything(), tmp_path)
+
+
 def test_a_list_of_lists_that_doubles_is_refused(tmp_path: Path):
     text = "{% set n = namespace(x=[]) %}{% for i in range(60) %}{% set n.x = [n.x, n.x] %}{% endfor %}{{ n.x }}"
     assert fault(text, tmp_path).code.id == "LF3301"
@@ -287,6 +310,15 @@ def test_what_xml_cannot_hold_is_told_at_its_line(text: str, reason: str, tmp_pa
 def test_what_is_no_xml_in_the_end_is_told(text: str, problem: str, tmp_path: Path):
     found = fault(text, tmp_path, "a.xml")
     assert (found.code.id, found.message) == ("LF7206", f"this template makes XML that is not well-formed: {problem}")
+
+
+def test_what_is_no_xml_is_told_at_the_line_where_the_template_has_it(tmp_path: Path):
+    found = fault("<a>\n{{ '<b>' | safe }}\n  <c/>\n  </a>", tmp_path, "a.xml")
+    assert found.span
+    assert (found.span.line, found.span.column, found.span.text) == (4, 3, "</a>")
+    found = fault("<a>\n{{ '<b>' | safe }}\n{{ '</a>' | safe }}", tmp_path, "a.xml")
+    assert found.span
+    assert found.span.line == 1
 
 
 def test_urdf_that_is_no_xml_is_told_at_the_template_that_goes_before_ours(tmp_path: Path):
@@ -342,8 +374,8 @@ def test_methods_that_look_something_up_may_be_called(tmp_path: Path):
     assert rendered(text, tmp_path) == "base False REVOLUTE"
 
 
-STEPS = "the robot takes more than 1,000,000 steps of your templates"
-CHARACTERS = "the robot takes more than 33,554,432 characters that your templates make"
+STEPS = "rendering takes more than 1,000,000 steps of templates, where"
+CHARACTERS = "rendering takes more than 33,554,432 characters that templates handle,"
 GROWING = "{% set n = namespace(x='a') %}{% for i in range(60) %}{% set n.x = GROWN %}{% endfor %}"
 
 BLOCK = "{% set y %}{{ n.x }}{{ n.x }}{% endset %}{% set n.x = y %}"

@@ -158,6 +158,7 @@ def test_check_compares_documents(folder: Path):
     (folder / "t" / "notes.md.j2").write_text("# other\n")
     _, told = compile_by(folder, "-o", "out/", "--check", expect=1)
     assert told.startswith("out/notes.md:1:1: error: here 'arm.robot.yaml' compiles to '# other'")
+    assert "note: the templates in 't' make it of the spec, and may have changed" in told
 
 
 def test_a_depfile_names_the_templates_that_were_read(folder: Path):
