@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
 
@@ -43,6 +44,12 @@ _MOST_BITS = 4096
 
 _STEPS_OF_A_CALL = 10
 """What a call or an include takes beside a round of a loop."""
+
+_WIDE_FORMAT = re.compile(
+    r"%(?:\([^%]*\))?[-+ #0]*(?:\*|\d{5}|\d*\.(?:\*|\d{5}))"  # of %
+    r"|\{[^{}]*:[^{}]*(?:\{|\d{5})"  # of str.format
+)
+"""Part of a format of `%` or of `str.format` that makes a long text, or one as long as an argument says."""
 
 _COUNTED, _MEASURED, _WORDED = "counted", "measured", "worded"
 
@@ -117,8 +124,8 @@ class _CountingCode(CodeGenerator):
 class FolderEnvironment(ImmutableSandboxedEnvironment):
     """The environment of a folder of templates, which a budget bounds.
 
-    Loops, calls and includes count as steps, texts by their characters. One operation may still make one long text,
-    as `'%999999999d' % 1` does.
+    Loops, calls and includes count as steps, texts by their characters; those that an argument makes long are counted
+    before they are made.
     """
 
     code_generator_class = _CountingCode
@@ -128,7 +135,10 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         super().__init__(loader=loader, **OPTIONS | {"undefined": _StrictUndefined, "finalize": self._finalize})
         self.filters.update(FILTERS)
         self.filters.update({_COUNTED: self._counted, _MEASURED: self._measured, _WORDED: self._worded})
-        self.filters.update({"join": self._join, "map": _map_to_known, "random": _refuse_random})
+        self.filters.update({"center": self._center, "format": self._format, "indent": self._indent})
+        self.filters.update(
+            {"replace": self._replace, "join": self._join, "map": _map_to_known, "random": _refuse_random}
+        )
         del self.globals["lipsum"]
         self._budget = budget
 
@@ -177,6 +187,8 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         owner = getattr(obj, "__self__", None)
         if isinstance(owner, str | list | tuple):
             self._measured(owner)
+        if isinstance(owner, str):
+            self._foresee(_characters_made(owner, obj.__name__, args))
         return self._measured(super().call(context, obj, *args, **kwargs))
 
     def call_binop(self, context: Context, operator: str, left: Any, right: Any) -> Any:
@@ -186,13 +198,20 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
             if bits > _MOST_BITS:
                 raise OverflowError(f"this number has more than {_MOST_BITS} bits")
         elif operator == "%" and isinstance(left, str):
+            _require_narrow(left)
             for value in right if isinstance(right, tuple) else (right,):
                 self._worded(value)
         elif operator == "*":
             for text, times in ((left, right), (right, left)):
                 if isinstance(text, str | list | tuple) and isinstance(times, int):
-                    self._budget.spend(Limit.TEMPLATE_CHARACTERS, len(text) * max(times, 0), None)
+                    self._foresee(len(text) * times)
         return self._measured(super().call_binop(context, operator, left, right))
+
+    def wrap_str_format(self, value: Any) -> Callable[..., str] | None:
+        wrapped = super().wrap_str_format(value)
+        if wrapped is not None:
+            _require_narrow(value.__self__)
+        return wrapped
 
     def get_template(self, name: str | Template, *args: Any, **kwargs: Any) -> Template:
         self._step(_STEPS_OF_A_CALL)
@@ -218,6 +237,26 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         items = self._counted(value) if attribute is None else map(make_attrgetter(self, attribute), value)
         return JINJA_FILTERS["join"](context, list(map(self._worded, items)), d)
 
+    def _center(self, value: Any, width: int = 80) -> object:
+        self._foresee(width)
+        return JINJA_FILTERS["center"](value, width)
+
+    def _format(self, value: Any, *args: Any, **kwargs: Any) -> object:
+        _require_narrow(str(value))
+        return JINJA_FILTERS["format"](value, *map(self._worded, args), **kwargs)
+
+    def _indent(self, s: Any, width: int | str = 4, first: bool = False, blank: bool = False) -> object:
+        self._foresee((str(s).count("\n") + 1) * (width if isinstance(width, int) else len(width)))
+        return JINJA_FILTERS["indent"](s, width, first, blank)
+
+    @pass_eval_context
+    def _replace(self, context: EvalContext, s: Any, old: str, new: str, count: int | None = None) -> object:
+        self._foresee(_characters_made(str(s), "replace", (old, new)))
+        return JINJA_FILTERS["replace"](context, s, old, new, count)
+
+    def _foresee(self, characters: int) -> None:
+        self._budget.spend(Limit.TEMPLATE_CHARACTERS, max(characters, 0), None)
+
     def _worded(self, value: Any) -> Any:
         require_text(value, self._step)
         return self._measured(value)
@@ -233,6 +272,26 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         if isinstance(value, str | list | tuple | range | Mapping | Index):
             self._budget.spend(Limit.TEMPLATE_CHARACTERS, len(value), None)
         return value
+
+
+def _require_narrow(text: str) -> None:
+    """Refuse a format with a width of more than four digits, or a computed one."""
+    if _WIDE_FORMAT.search(text):
+        raise TemplateRuntimeError("a width in a format is a number of at most four digits, written in it")
+
+
+def _characters_made(text: str, method: str, args: Sequence[Any]) -> int:
+    """Return how many characters a method of a text may make of its arguments; 0 where it makes few."""
+    match method, args:
+        case (("center" | "ljust" | "rjust" | "zfill"), (int(width), *_)):
+            return width
+        case "expandtabs", (int(width), *_):
+            return text.count("\t") * width
+        case "replace", (str(old), str(new), *_):
+            return text.count(old) * len(new)
+        case "join", (list() | tuple() as items, *_):
+            return len(text) * len(items)
+    return 0
 
 
 @pass_context

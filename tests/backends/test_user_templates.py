@@ -265,6 +265,16 @@ def test_a_kind_has_its_article(tmp_path: Path):
         render_templates(everything(), tmp_path)
 
 
+def test_a_format_may_have_a_width(tmp_path: Path):
+    text = "{{ '%-9s|%8.3f' % ('ab', 1.5) }} {{ '{:>5}'.format(1) }} {{ 'x' | center(5) }}|{{ '%s' | format('y') }}"
+    assert rendered(text, tmp_path) == "ab       |   1.500     1   x  |y"
+    assert (
+        rendered("{{ '12345%s67890 {}' % 1 }} {{ '{{}} 12345 {}%'.format(1) }}", tmp_path)
+        == "12345167890 {} {} 12345 1%"
+    )
+    assert rendered("{{ 'a\nb' | indent(2) }} {{ 'abc' | replace('b', 'x') }}", tmp_path) == "a\n  b axc"
+
+
 def test_a_list_of_lists_that_doubles_is_refused(tmp_path: Path):
     text = "{% set n = namespace(x=[]) %}{% for i in range(60) %}{% set n.x = [n.x, n.x] %}{% endfor %}{{ n.x }}"
     assert fault(text, tmp_path).code.id == "LF3301"
@@ -376,6 +386,7 @@ def test_methods_that_look_something_up_may_be_called(tmp_path: Path):
 
 STEPS = "rendering takes more than 1,000,000 steps of templates, where"
 CHARACTERS = "rendering takes more than 33,554,432 characters that templates handle,"
+WIDE = "this template fails here: a width in a format is a number of at most four digits, written in it"
 GROWING = "{% set n = namespace(x='a') %}{% for i in range(60) %}{% set n.x = GROWN %}{% endfor %}"
 
 BLOCK = "{% set y %}{{ n.x }}{{ n.x }}{% endset %}{% set n.x = y %}"
@@ -399,6 +410,21 @@ BLOCK = "{% set y %}{{ n.x }}{{ n.x }}{% endset %}{% set n.x = y %}"
         (GROWING.replace("{% set n.x = GROWN %}", BLOCK), CHARACTERS),
         ("{{ 'x' * 10**10 }}", CHARACTERS),
         ("{{ [1] * 10**9 }}", CHARACTERS),
+        ("{{ '' | center(999999999) }}", CHARACTERS),
+        ("{{ ''.center(999999999) }}", CHARACTERS),
+        ("{{ '1'.zfill(999999999) }}", CHARACTERS),
+        ("{{ '\\t'.expandtabs(999999999) }}", CHARACTERS),
+        ("{{ 'a\\nb' | indent(999999999) }}", CHARACTERS),
+        ("{{ ('a' * 99999) | replace('a', 'b' * 99999) }}", CHARACTERS),
+        ("{{ ('a' * 99999).replace('a', 'b' * 99999) }}", CHARACTERS),
+        ("{{ ('a' * 99999).join(range(99999) | list | map('string') | list) }}", CHARACTERS),
+        ("{{ '%999999999d' % 1 }}", WIDE),
+        ("{{ '%*d' % (999999999, 1) }}", WIDE),
+        ("{{ '%.*f' % (999999999, 1) }}", WIDE),
+        ("{{ '%999999999d' | format(1) }}", WIDE),
+        ("{{ '%(a)-999999999.1f' % {'a': 1} }}", WIDE),
+        ("{{ '{:>999999999}'.format(1) }}", WIDE),
+        ("{{ '{:>{}}'.format(1, 999999999) }}", WIDE),
         ("{% set r = range(99999) %}{% for i in r %}{% if r | sum < 0 %}{% endif %}{% endfor %}", CHARACTERS),
         ("{% set s = 'x' * 99999 %}{% for i in range(9999) %}{% if s.count('y') %}{% endif %}{% endfor %}", CHARACTERS),
         ("{% for i in range(99999) %}" + "x" * 1000 + "{% endfor %}", CHARACTERS),
