@@ -42,6 +42,9 @@ _READING = ("get", "has", "find", "is", "to", "volume")
 _MOST_BITS = 4096
 """Bits of a whole number that is multiplied, or is a power."""
 
+_MOST_INDENTED = 32
+"""Blanks a level in JSON."""
+
 _STEPS_OF_A_CALL = 10
 """What a call or an include takes beside a round of a loop."""
 
@@ -135,6 +138,7 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         super().__init__(loader=loader, **OPTIONS | {"undefined": _StrictUndefined, "finalize": self._finalize})
         self.filters.update(FILTERS)
         self.filters.update({_COUNTED: self._counted, _MEASURED: self._measured, _WORDED: self._worded})
+        self.filters.update({"batch": self._batch, "tojson": _to_json, "wordwrap": self._wordwrap})
         self.filters.update({"center": self._center, "format": self._format, "indent": self._indent})
         self.filters.update(
             {"replace": self._replace, "join": self._join, "map": _map_to_known, "random": _refuse_random}
@@ -235,7 +239,13 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
     @pass_eval_context
     def _join(self, context: EvalContext, value: Any, d: str = "", attribute: str | int | None = None) -> Any:
         items = self._counted(value) if attribute is None else map(make_attrgetter(self, attribute), value)
-        return JINJA_FILTERS["join"](context, list(map(self._worded, items)), d)
+        texts = list(map(self._worded, items))
+        self._foresee(len(texts) * len(str(d)))
+        return JINJA_FILTERS["join"](context, texts, d)
+
+    def _batch(self, value: Any, linecount: int, fill_with: object = None) -> object:
+        self._foresee(linecount)
+        return JINJA_FILTERS["batch"](value, linecount, fill_with)
 
     def _center(self, value: Any, width: int = 80) -> object:
         self._foresee(width)
@@ -253,6 +263,11 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
     def _replace(self, context: EvalContext, s: Any, old: str, new: str, count: int | None = None) -> object:
         self._foresee(_characters_made(str(s), "replace", (old, new)))
         return JINJA_FILTERS["replace"](context, s, old, new, count)
+
+    def _wordwrap(self, s: str, width: int = 79, *args: Any, **kwargs: Any) -> object:
+        between = kwargs.get("wrapstring") or (args[1] if len(args) > 1 else None) or "\n"
+        self._foresee((len(s) // max(width, 1) + s.count("\n") + s.count(" ")) * len(between))
+        return JINJA_FILTERS["wordwrap"](self, s, width, *args, **kwargs)
 
     def _foresee(self, characters: int) -> None:
         self._budget.spend(Limit.TEMPLATE_CHARACTERS, max(characters, 0), None)
@@ -301,6 +316,13 @@ def _map_to_known(context: Context, value: Any, *args: Any, **kwargs: Any) -> It
         if isinstance(item, Undefined):
             str(item)  # reports the name
         yield item
+
+
+@pass_eval_context
+def _to_json(context: EvalContext, value: Any, indent: int | None = None) -> object:
+    if indent is not None and indent > _MOST_INDENTED:
+        raise TemplateRuntimeError(f"'tojson' takes an indent of at most {_MOST_INDENTED}")
+    return JINJA_FILTERS["tojson"](context, value, indent)
 
 
 def _refuse_random(_: object) -> object:
