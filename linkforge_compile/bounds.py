@@ -73,12 +73,14 @@ class Limit(Enum):
         "give links their 'inertia', or simpler collision meshes",
     )
     TEMPLATE_STEPS = _Limit(
-        "steps of your templates, where a round of 'for' is one, and a call or an include ten",
+        "steps of templates, where a round of 'for' or an item of a list is one, and a call or an include ten",
         1_000_000,
-        "repeat less, or render them apart",
+        "repeat less, or render fewer templates at once",
     )
     TEMPLATE_CHARACTERS = _Limit(
-        "characters that your templates make", 32 * 1024**2, "make shorter documents, or render them apart"
+        "characters that templates handle, in filters and calls as in the documents that they write",
+        32 * 1024**2,
+        "handle shorter texts, or render fewer templates at once",
     )
 
     # Counted by as often as anything is computed: that of Enum is written in Python.

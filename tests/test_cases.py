@@ -48,6 +48,7 @@ WITHOUT_A_CASE = {
     "LF7205": "backends/test_user_templates.py",
     "LF7206": "backends/test_user_templates.py",
     "LF7207": "backends/test_user_templates.py",
+    "LF7208": "cli/test_template.py",
     "LF8003": "importers/test_xml.py",
     "LF8004": "importers/test_xml.py",
     "LF8098": "importers/test_xml.py",

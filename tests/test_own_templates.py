@@ -61,6 +61,21 @@ def test_the_names_and_filters_of_the_page_are_those_that_there_are():
     from linkforge_compile.backends.environment import FILTERS
     from linkforge_compile.backends.sandbox import NAMES
 
-    named, filters = (set(re.findall(r"^\| `(\w+)` \|", part, re.MULTILINE)) for part in PAGE.split("| filter |"))
+    named, filters = (
+        set(re.findall(r"^\| `(\w+)` \|", PAGE.partition(head)[2].partition("\n\n")[0], re.MULTILINE))
+        for head in ("| name |", "| filter |")
+    )
     assert named == set(NAMES)
     assert filters == set(FILTERS)
+
+
+def test_the_fields_of_the_page_are_those_that_there_are():
+    robot = compile_file(SPEC).result()
+    parts = {"`robot`": robot, "a link": robot.links[0], "a joint": robot.joints[0]}
+    for kind, part in parts.items():
+        table = PAGE.partition(f"| field of {kind} |")[2].partition("\n\n")[0]
+        fields = [name for row in table.split("\n")[2:] for name in re.findall(r"`(\w+)`", row.split("|")[1])]
+        assert len(fields) > 2
+        assert all(hasattr(part, name) for name in fields), kind
+    methods = re.findall(r"`((?:get|has)_\w+)`", PAGE.partition("Methods of the robot")[2].partition("\n\n")[0])
+    assert all(hasattr(robot, name) or hasattr(robot.graph, name) for name in methods)

@@ -44,6 +44,7 @@ def render(
         from linkforge_compile.backends.user_templates import TemplateFolder
 
         folder = templates if isinstance(templates, TemplateFolder) else TemplateFolder(templates)
+        folder.require_templates()
         body = folder.xml(template, views, pretty=pretty)
     head = ['<?xml version="1.0"?>', *([_comment(banner, pretty=pretty)] if banner else []), body]
     return ("\n" if pretty else "").join(head) + "\n"

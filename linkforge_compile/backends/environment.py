@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import jinja2
 from jinja2 import (
@@ -21,8 +22,12 @@ from jinja2 import (
 from jinja2.nodes import EvalContext
 
 from linkforge_compile.backends.markup import Spellable, Xml, escaped, spelled
+from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.resources import compiled_templates_folder, templates_folder
 from linkforge_compile.units import number_text
+
+if TYPE_CHECKING:
+    import yaml
 
 XML_ENDINGS = (".xml.j2", ".urdf.j2", ".srdf.j2")
 """How the names of templates end that write XML."""
@@ -51,7 +56,13 @@ def finalize(context: EvalContext, value: Spellable | None) -> object:
     try:
         return Xml(escaped(spelled(value)))
     except (TypeError, ValueError):
-        raise TemplateRuntimeError(f"a {type(value).__name__} has no text in XML; write one of its fields") from None
+        raise TemplateRuntimeError(f"{describe(value)} has no text in XML; write one of its fields") from None
+
+
+def describe(value: object) -> str:
+    """Return the kind of a value with its article, for a message."""
+    name = type(value).__name__
+    return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
 
 
 def format_vector(values: Iterable[float]) -> str:
@@ -63,13 +74,38 @@ def format_yaml(value: object) -> str:
     """Return a value as YAML on one line: text in quotes where it needs them, 1e-05 as 1.0e-05.
 
     Raises:
-        TemplateRuntimeError: for what is no text, number, truth, None, list or map.
+        TemplateRuntimeError: for what is no text, number, truth, None, list, map, vector or pose.
 
     """
     import yaml
 
-    text = yaml.safe_dump(_plain(value), default_flow_style=True, allow_unicode=True, sort_keys=False, width=math.inf)
+    text: str = yaml.dump(
+        _plain(value), Dumper=_dumper(), default_flow_style=True, allow_unicode=True, sort_keys=False, width=math.inf
+    )
     return text.removesuffix("\n").removesuffix("\n...")
+
+
+@cache
+def _dumper() -> type[yaml.SafeDumper]:
+    """Return a dumper that writes line breaks as escapes, and quotes what readers other than PyYAML resolve."""
+    import yaml
+
+    class Dumper(yaml.SafeDumper):
+        pass
+
+    def text_node(dumper: Dumper, text: str) -> yaml.ScalarNode:
+        is_on_one_line = text.splitlines() in ([], [text])
+        style = '"' if not is_on_one_line else "'" if _NOT_PLAIN.fullmatch(text) else None
+        return dumper.represent_scalar("tag:yaml.org,2002:str", text, style)
+
+    Dumper.add_representer(str, text_node)
+    return Dumper
+
+
+_NOT_PLAIN = re.compile(
+    r"y|n|yes|no|on|off|[-+]?(\.\d+|\d+(\.\d*)?)(e[-+]?\d+)?|0o[0-7]+|0x[0-9a-f]+|[-+]?\.inf|\.nan", re.IGNORECASE
+)
+"""Text that a reader of YAML 1.1 or of the core schema of 1.2 takes for a truth or a number."""
 
 
 def _plain(value: object) -> object:
@@ -81,9 +117,11 @@ def _plain(value: object) -> object:
             return next(kind(value) for kind in (str, int, float) if isinstance(value, kind))
         case Mapping():
             return {_plain(key): _plain(item) for key, item in value.items()}
-        case Sequence():
+        case Transform(xyz=xyz, rpy=rpy):
+            return {"xyz": _plain(xyz), "rpy": _plain(rpy)}
+        case Sequence() | Vector3() if not hasattr(value, "_fields"):
             return [_plain(item) for item in value]
-    raise TemplateRuntimeError(f"a {type(value).__name__} has no text in YAML; write its fields")
+    raise TemplateRuntimeError(f"{describe(value)} has no text in YAML; write its fields")
 
 
 FILTERS: dict[str, Callable[..., object]] = {

@@ -20,8 +20,7 @@ from linkforge_compile.units import double_text, number_text
 
 _EMPTY = re.compile(r"<(([^\s<>/]++)[^<>]*+)(?<!/)></\2>")
 
-_SPLIT_TAG = re.compile(r"<(?![!?])[^<>\n]*\n[^<>]*>")
-_LINE_BREAK = re.compile(r"\s*\n\s*")
+_BREAK_IN_TAG = re.compile(r"""(?P<value>"[^"]*"|'[^']*')|\s*\n\s*""")
 
 # No XML 1.0 document may hold these, not even as a reference.
 _CONTROLS, _BEYOND_ASCII = "\x00-\x08\x0b\x0c\x0e-\x1f", "\ud800-\udfff\ufffe\uffff"
@@ -44,6 +43,13 @@ _XML_NAME = re.compile(rf"(?:{_LOCAL_NAME}:)?{_LOCAL_NAME}")
 MARK = "\x00"
 """Begins a line that is no XML, and that none can be taken for: what `extra_inside` says of the element around it."""
 
+
+_PIECE = re.compile(
+    rf"""^{MARK}[^\n]*$|<!--.*?-->|<\?.*?\?>|(?P<text>(?:[^<{MARK}]++|<!\[CDATA\[.*?\]\]>)++)"""
+    r"""|(?P<tag><(?:[^<>"']++|"[^"]*+"|'[^']*+')*+>)""",
+    re.MULTILINE | re.DOTALL,
+)
+"""A line that is no XML, a comment, an instruction, a text with the CDATA in it, or a tag."""
 
 _MARK_LINE = re.compile(f"^{MARK}.*$", re.MULTILINE)
 
@@ -189,9 +195,23 @@ def document_text(text: str, *, pretty: bool) -> str:
     return text if recorded() else restored(text)
 
 
-def whole_tags(text: str) -> str:
-    """Return XML with each tag on one line."""
-    return _SPLIT_TAG.sub(lambda tag: _LINE_BREAK.sub(" ", tag[0]), text)
+def with_layout_alone(text: str) -> str:
+    """Return XML of a user's with a tag on one line, and signs for the line breaks of what `laid_out` must not touch.
+
+    That is all but white space between tags: comments, CDATA, and texts that have more than one line.
+    """
+    return _PIECE.sub(_on_one_line, text)
+
+
+def _on_one_line(piece: re.Match[str]) -> str:
+    text = piece[0]
+    if text[0] == MARK or ("\n" not in text and "<" not in text[1:]):
+        return text
+    if piece["tag"]:
+        return _BREAK_IN_TAG.sub(lambda found: found[0].replace("\n", " ") if found["value"] else " ", text)
+    if piece["text"]:
+        return text.translate(_STAND_INS) if text.strip() else text
+    return f"<{text[1:].translate(_STAND_INS)}"
 
 
 def laid_out(text: str) -> list[str]:

@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
 
-from jinja2 import BaseLoader, StrictUndefined, Template, nodes
+from jinja2 import (
+    BaseLoader,
+    StrictUndefined,
+    Template,
+    TemplateRuntimeError,
+    nodes,
+    pass_context,
+    pass_eval_context,
+)
 from jinja2.compiler import CodeGenerator, Frame
 from jinja2.exceptions import SecurityError
+from jinja2.filters import FILTERS as JINJA_FILTERS
+from jinja2.filters import make_attrgetter
+from jinja2.nodes import EvalContext
 from jinja2.runtime import Context, Undefined
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from jinja2.utils import missing
 from jinja2.visitor import NodeTransformer
 
-from linkforge_compile.backends.environment import FILTERS, OPTIONS
+from linkforge_compile.backends.environment import FILTERS, OPTIONS, describe, finalize
+from linkforge_compile.backends.template_text import require_text
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.named_table import NamedTable
@@ -29,10 +42,27 @@ _READING = ("get", "has", "find", "is", "to", "volume")
 _MOST_BITS = 4096
 """Bits of a whole number that is multiplied, or is a power."""
 
+_MOST_INDENTED = 32
+"""Blanks a level in JSON."""
+
 _STEPS_OF_A_CALL = 10
 """What a call or an include takes beside a round of a loop."""
 
-_COUNTED, _MEASURED = "counted", "measured"
+_WIDE_FORMAT = re.compile(
+    r"%(?:\([^%]*\))?[-+ #0]*(?:\*|\d{5}|\d*\.(?:\*|\d{5}))"  # of %
+    r"|\{[^{}]*:[^{}]*(?:\{|\d{5})"  # of str.format
+)
+"""Part of a format of `%` or of `str.format` that makes a long text, or one as long as an argument says."""
+
+_COUNTED, _MEASURED, _WORDED = "counted", "measured", "worded"
+
+_OF_TEXT = frozenset(
+    (
+        *("capitalize", "center", "e", "escape", "forceescape", "format", "indent", "lower", "pprint", "replace"),
+        *("safe", "string", "striptags", "title", "trim", "truncate", "upper", "urlize", "wordcount", "wordwrap"),
+    )
+)
+"""The filters of Jinja2 that take any value as its text."""
 
 
 class _StrictUndefined(StrictUndefined):
@@ -47,7 +77,9 @@ class _StrictUndefined(StrictUndefined):
             return f"'{name}' is not defined{did_you_mean(str(name), NAMES)}"
         if owner is None:
             return f"this is None, which has no '{name}'; test it with '{{% if … %}}'"
-        whole = "this" if isinstance(owner, NamedTable | Mapping) else f"a {type(owner).__name__}"
+        if isinstance(owner, NamedTable) and name in {"keys", "values", "items"}:
+            return f"this has no '{name}'; it is a list: loop over it, or over its 'names'"
+        whole = "this" if isinstance(owner, NamedTable | Mapping) else describe(owner)
         return f"{whole} has no '{name}'{did_you_mean(str(name), _names_in(owner))}"
 
 
@@ -68,13 +100,15 @@ class _Counting(NodeTransformer):
 
     def visit_Concat(self, node: nodes.Concat) -> nodes.Expr:  # noqa: N802 as above
         self.generic_visit(node)
+        node.nodes = [_filtered(child, _WORDED) for child in node.nodes]
         return _filtered(node, _MEASURED)
 
     def visit_Filter(self, node: nodes.Filter) -> nodes.Expr:  # noqa: N802 as above
         self.generic_visit(node)
         if node.node is None:
             return node  # the first filter of a block: it takes the text of the block
-        node.node = _filtered(node.node, _MEASURED)
+        guard = _WORDED if node.name in _OF_TEXT else _COUNTED if node.name == "list" else _MEASURED
+        node.node = _filtered(node.node, guard)
         return _filtered(node, _MEASURED)
 
 
@@ -93,16 +127,22 @@ class _CountingCode(CodeGenerator):
 class FolderEnvironment(ImmutableSandboxedEnvironment):
     """The environment of a folder of templates, which a budget bounds.
 
-    Loops, calls and includes count as steps, texts by their characters. One operation may still make one long text,
-    as `'%999999999d' % 1` does.
+    Loops, calls and includes count as steps, texts by their characters; those that an argument makes long are counted
+    before they are made.
     """
 
     code_generator_class = _CountingCode
     intercepted_binops = frozenset({"*", "**", "+", "%"})
 
     def __init__(self, loader: BaseLoader, budget: Budget) -> None:
-        super().__init__(loader=loader, **OPTIONS | {"undefined": _StrictUndefined})
-        self.filters.update(FILTERS | {_COUNTED: self._counted, _MEASURED: self._measured})
+        super().__init__(loader=loader, **OPTIONS | {"undefined": _StrictUndefined, "finalize": self._finalize})
+        self.filters.update(FILTERS)
+        self.filters.update({_COUNTED: self._counted, _MEASURED: self._measured, _WORDED: self._worded})
+        self.filters.update({"batch": self._batch, "tojson": _to_json, "wordwrap": self._wordwrap})
+        self.filters.update({"center": self._center, "format": self._format, "indent": self._indent})
+        self.filters.update(
+            {"replace": self._replace, "join": self._join, "map": _map_to_known, "random": _refuse_random}
+        )
         del self.globals["lipsum"]
         self._budget = budget
 
@@ -151,6 +191,8 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         owner = getattr(obj, "__self__", None)
         if isinstance(owner, str | list | tuple):
             self._measured(owner)
+        if isinstance(owner, str):
+            self._foresee(_characters_made(owner, obj.__name__, args))
         return self._measured(super().call(context, obj, *args, **kwargs))
 
     def call_binop(self, context: Context, operator: str, left: Any, right: Any) -> Any:
@@ -159,11 +201,21 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
             bits = {"**": left.bit_length() * right, "*": left.bit_length() + right.bit_length()}.get(operator, 0)
             if bits > _MOST_BITS:
                 raise OverflowError(f"this number has more than {_MOST_BITS} bits")
+        elif operator == "%" and isinstance(left, str):
+            _require_narrow(left)
+            for value in right if isinstance(right, tuple) else (right,):
+                self._worded(value)
         elif operator == "*":
             for text, times in ((left, right), (right, left)):
                 if isinstance(text, str | list | tuple) and isinstance(times, int):
-                    self._budget.spend(Limit.TEMPLATE_CHARACTERS, len(text) * max(times, 0), None)
+                    self._foresee(len(text) * times)
         return self._measured(super().call_binop(context, operator, left, right))
+
+    def wrap_str_format(self, value: Any) -> Callable[..., str] | None:
+        wrapped = super().wrap_str_format(value)
+        if wrapped is not None:
+            _require_narrow(value.__self__)
+        return wrapped
 
     def get_template(self, name: str | Template, *args: Any, **kwargs: Any) -> Template:
         self._step(_STEPS_OF_A_CALL)
@@ -180,7 +232,53 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
     def _step(self, steps: int = 1) -> None:
         self._budget.spend(Limit.TEMPLATE_STEPS, steps, None)
 
+    @pass_eval_context
+    def _finalize(self, context: EvalContext, value: Any) -> object:
+        return finalize(context, value if context.autoescape else self._worded(value))
+
+    @pass_eval_context
+    def _join(self, context: EvalContext, value: Any, d: str = "", attribute: str | int | None = None) -> Any:
+        items = self._counted(value) if attribute is None else map(make_attrgetter(self, attribute), value)
+        texts = list(map(self._worded, items))
+        self._foresee(len(texts) * len(str(d)))
+        return JINJA_FILTERS["join"](context, texts, d)
+
+    def _batch(self, value: Any, linecount: int, fill_with: object = None) -> object:
+        self._foresee(linecount)
+        return JINJA_FILTERS["batch"](value, linecount, fill_with)
+
+    def _center(self, value: Any, width: int = 80) -> object:
+        self._foresee(width)
+        return JINJA_FILTERS["center"](value, width)
+
+    def _format(self, value: Any, *args: Any, **kwargs: Any) -> object:
+        _require_narrow(str(value))
+        return JINJA_FILTERS["format"](value, *map(self._worded, args), **kwargs)
+
+    def _indent(self, s: Any, width: int | str = 4, first: bool = False, blank: bool = False) -> object:
+        self._foresee((str(s).count("\n") + 1) * (width if isinstance(width, int) else len(width)))
+        return JINJA_FILTERS["indent"](s, width, first, blank)
+
+    @pass_eval_context
+    def _replace(self, context: EvalContext, s: Any, old: str, new: str, count: int | None = None) -> object:
+        self._foresee(_characters_made(str(s), "replace", (old, new)))
+        return JINJA_FILTERS["replace"](context, s, old, new, count)
+
+    def _wordwrap(self, s: str, width: int = 79, *args: Any, **kwargs: Any) -> object:
+        between = kwargs.get("wrapstring") or (args[1] if len(args) > 1 else None) or "\n"
+        self._foresee((len(s) // max(width, 1) + s.count("\n") + s.count(" ")) * len(between))
+        return JINJA_FILTERS["wordwrap"](self, s, width, *args, **kwargs)
+
+    def _foresee(self, characters: int) -> None:
+        self._budget.spend(Limit.TEMPLATE_CHARACTERS, max(characters, 0), None)
+
+    def _worded(self, value: Any) -> Any:
+        require_text(value, self._step)
+        return self._measured(value)
+
     def _counted(self, items: Iterable[object]) -> Iterator[object]:
+        if isinstance(items, set | frozenset):
+            raise TemplateRuntimeError("a set has no order, so the text would differ from run to run; write '| sort'")
         for item in items:
             self._step()
             yield item
@@ -189,3 +287,43 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         if isinstance(value, str | list | tuple | range | Mapping | NamedTable):
             self._budget.spend(Limit.TEMPLATE_CHARACTERS, len(value), None)
         return value
+
+
+def _require_narrow(text: str) -> None:
+    """Refuse a format with a width of more than four digits, or a computed one."""
+    if _WIDE_FORMAT.search(text):
+        raise TemplateRuntimeError("a width in a format is a number of at most four digits, written in it")
+
+
+def _characters_made(text: str, method: str, args: Sequence[Any]) -> int:
+    """Return how many characters a method of a text may make of its arguments; 0 where it makes few."""
+    match method, args:
+        case (("center" | "ljust" | "rjust" | "zfill"), (int(width), *_)):
+            return width
+        case "expandtabs", (int(width), *_):
+            return text.count("\t") * width
+        case "replace", (str(old), str(new), *_):
+            return text.count(old) * len(new)
+        case "join", (list() | tuple() as items, *_):
+            return len(text) * len(items)
+    return 0
+
+
+@pass_context
+def _map_to_known(context: Context, value: Any, *args: Any, **kwargs: Any) -> Iterator[object]:
+    """Map as Jinja2 does, but report a name that an item does not have."""
+    for item in JINJA_FILTERS["map"](context, value, *args, **kwargs):
+        if isinstance(item, Undefined):
+            str(item)  # reports the name
+        yield item
+
+
+@pass_eval_context
+def _to_json(context: EvalContext, value: Any, indent: int | None = None) -> object:
+    if indent is not None and indent > _MOST_INDENTED:
+        raise TemplateRuntimeError(f"'tojson' takes an indent of at most {_MOST_INDENTED}")
+    return JINJA_FILTERS["tojson"](context, value, indent)
+
+
+def _refuse_random(_: object) -> object:
+    raise TemplateRuntimeError("'random' would make another text on every run; write '| first' or an index")

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import groupby
 from traceback import walk_tb
+from typing import NamedTuple
 
 from jinja2 import TemplateNotFound, TemplateRuntimeError, TemplateSyntaxError, UndefinedError
 from jinja2.exceptions import SecurityError
@@ -14,7 +15,7 @@ from jinja2.filters import FILTERS as JINJA_FILTERS
 from jinja2.tests import TESTS as JINJA_TESTS
 
 from linkforge_compile.backends.environment import FILTERS
-from linkforge_compile.backends.template_loader import FolderLoader, OutsideError, UnreadableError
+from linkforge_compile.backends.template_loader import FolderLoader, OutsideError, UnreadableError, span_of_line
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Note
 from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
 from linkforge_compile.diagnostics.codes.templates import (
@@ -33,6 +34,11 @@ _MOST_SHOWN = 80
 
 _UNKNOWN = re.compile(r"No (?P<kind>filter|test) named '(?P<name>\w+)'")
 _KNOWN = {"filter": (*JINJA_FILTERS, *FILTERS), "test": tuple(JINJA_TESTS)}
+
+_DECLARED = re.compile(r"<\?xml\s[^>]*?encoding\s*=\s*[\"']([\w.-]+)")
+_UTF_8 = ("utf-8", "utf8")
+
+_OF_THIS = re.compile(r"this (?:is None, which )?has no '(?P<name>\w+)'")
 
 _CODES = (
     (TemplateSyntaxError, TEMPLATE_SYNTAX),
@@ -64,26 +70,28 @@ def diagnose(error: Exception, template: str, loader: FolderLoader) -> Diagnosti
         case MemoryError():
             return TEMPLATE_FAILS.at(place, reason="it takes more memory than there is", notes=notes)
     code = next((code for kind, code in _CODES if isinstance(error, kind)), TEMPLATE_FAILS)
-    return code.at(place, reason=_reason(error), notes=notes)
+    return code.at(place, reason=_naming_owner(_reason(error), place.text or ""), notes=notes)
+
+
+def _naming_owner(reason: str, line: str) -> str:
+    """Return a reason with the expression in place of "this", where the line has only one that may be it."""
+    if not (missing := _OF_THIS.match(reason)):
+        return reason
+    name = re.escape(missing["name"])
+    owners = set(re.findall(rf"""([A-Za-z_][\w.]*(?:\[[^][]*\][\w.]*)*)(?:\.{name}\b|\[["']{name}["']\])""", line))
+    return f"'{owners.pop()}'{reason.removeprefix('this')}" if len(owners) == 1 else reason
 
 
 def _places(error: Exception, files: Mapping[str, SourceFile]) -> Iterator[Span]:
     """Yield the line at fault, and then of each template around it the line that includes the one before."""
     if isinstance(error, TemplateSyntaxError):
         if error.filename is not None and error.filename in files:
-            yield _place_of_line(files[error.filename], error.lineno)
+            yield span_of_line(files[error.filename], error.lineno)
         return
     steps = [(frame.f_code.co_filename, line) for frame, line in walk_tb(error.__traceback__)]
     of_templates = [(name, line) for name, line in reversed(steps) if name in files]
     for name, lines in groupby(of_templates, key=lambda step: step[0]):
-        yield _place_of_line(files[name], next(lines)[1])
-
-
-def _place_of_line(file: SourceFile, number: int) -> Span:
-    """Return what stands on a line: Jinja2 knows no columns."""
-    text = file.line(number)
-    begin = len(text) - len(text.lstrip()) + 1
-    return Span(file, number, begin, number, max(begin, len(text.rstrip()) + 1))
+        yield span_of_line(files[name], next(lines)[1])
 
 
 def _reason(error: Exception) -> str:
@@ -94,8 +102,15 @@ def _reason(error: Exception) -> str:
     return text if text[1:2].isupper() else f"{text[:1].lower()}{text[1:]}"
 
 
-def find_xml_fault(text: str) -> str | None:
-    """Return why a text is not well-formed XML, and quote the line; None where it is."""
+class XmlFault(NamedTuple):
+    """What is wrong with a text, which quotes the line, and the whole line."""
+
+    problem: str
+    line: str
+
+
+def find_xml_fault(text: str) -> XmlFault | None:
+    """Return why a text is no well-formed XML in UTF-8; None where it is."""
     from xml.parsers import expat
 
     from linkforge_compile.source.malformed_xml import fault_of
@@ -110,5 +125,9 @@ def find_xml_fault(text: str) -> str | None:
         problem = fault.problem if fault else expat.ErrorString(error.code)
         lines = text.split("\n")
         line = lines[error.lineno - 1].strip() if error.lineno <= len(lines) else ""
-        return f"{problem}, in line {error.lineno} of it, '{line[:_MOST_SHOWN]}'"
+        return XmlFault(f"{problem}, in line {error.lineno} of it, '{line[:_MOST_SHOWN]}'", line)
+    declared = _DECLARED.match(text)
+    if declared and declared[1].lower() not in _UTF_8:
+        problem = f"it declares the encoding '{declared[1]}', and is written in UTF-8; write encoding='utf-8'"
+        return XmlFault(problem, text.partition("\n")[0].strip())
     return None

@@ -63,7 +63,7 @@ class FolderLoader(FileSystemLoader):
         if not self._roots.hold(path):
             raise OutsideError(path, self._roots)
         if is_file(path):
-            text, name = _text(path), str(path)
+            text, name = self.read(path), str(path)
             if is_xml(template) and not is_writable(text):
                 raise UnreadableError(path, "it holds a character that XML cannot")
         elif os.path.islink(path) and not exists(path):  # noqa: PTH114 it answers for what may not be looked at
@@ -75,12 +75,30 @@ class FolderLoader(FileSystemLoader):
         self.files[name] = SourceFile(name, text, Path(name))
         return text, name, lambda: True
 
+    def read(self, path: Path) -> str:
+        """Return the text of a template of the folder.
+
+        Raises:
+            OutsideError: for a link that leads out of the folders that may be read.
+            UnreadableError: for a file without text.
+
+        """
+        if not self._roots.hold(path):
+            raise OutsideError(path, self._roots)
+        return _text(path)
+
     def place_of(self, template: str) -> Span:
         """Return the place of a template as a whole; of one of ours, that of the first of the folder that it uses."""
         path = self.folder / template
         in_folder = () if os.path.lexists(path) else (file for file in self.files.values() if self.has(file))
         file = self.files.get(str(path)) or next(iter(in_folder), None) or SourceFile(str(path), "", path)
         return file.whole
+
+    def place_of_line(self, template: str, line: str) -> Span:
+        """Return the line of a template that reads so; the place of the whole where none does, or several do."""
+        whole = self.place_of(template)
+        numbers = [number for number, text in enumerate(whole.file.lines, 1) if text.strip() == line]
+        return span_of_line(whole.file, numbers[0]) if line and len(numbers) == 1 else whole
 
     def has(self, file: SourceFile) -> bool:
         """Whether a file lies in the user's folder, and is none of ours."""
@@ -91,6 +109,13 @@ class FolderLoader(FileSystemLoader):
         for folder in (self.folder, templates_folder()):
             found = (path.relative_to(folder).as_posix() for path in folder.rglob("*.j2"))
             yield from islice(found, _MOST_NAMES)
+
+
+def span_of_line(file: SourceFile, number: int) -> Span:
+    """Return what stands on a line: Jinja2 knows no columns."""
+    text = file.line(number)
+    begin = len(text) - len(text.lstrip()) + 1
+    return Span(file, number, begin, number, max(begin, len(text.rstrip()) + 1))
 
 
 def _text(path: Path) -> str:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from functools import cached_property
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.backends.markup import document_text, whole_tags, without_marks
+from linkforge_compile.backends.markup import document_text, harmless_in_comment, with_layout_alone, without_marks
 from linkforge_compile.bounds import Budget
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.diagnostics.codes.bounds import RENDERING_BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.templates import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
 from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import ANYWHERE, Roots
@@ -27,6 +29,18 @@ SUFFIX = ".j2"
 
 _NOT_DOCUMENTS = ("_", ".")
 """How the names of templates begin at the top of a folder that others include."""
+
+
+def own_names() -> frozenset[str]:
+    """Return the paths of the templates that a user's may go before."""
+    folders = (templates_folder() / format_ for format_ in ("urdf", "srdf"))
+    return frozenset(
+        path.relative_to(templates_folder()).as_posix() for folder in folders for path in folder.rglob(f"*{SUFFIX}")
+    )
+
+
+_MOST_NAMES = 1000
+"""Files of a folder without templates that are compared with the names of ours."""
 
 
 class TemplateError(Exception):
@@ -51,7 +65,7 @@ class TemplateFolder:
             OSError: for a folder that cannot be read.
 
         """
-        self.folder, self._budget = Path(folder), Budget()
+        self.folder, self._budget = Path(folder), Budget(code=RENDERING_BEYOND_LIMIT)
         self._roots = ANYWHERE if allow_outside else Roots.around(self.folder, (self.folder, *packages))
         with os.scandir(self.folder) as entries:
             names = sorted(entry.name for entry in entries if entry.is_symlink() or entry.is_file())
@@ -59,11 +73,28 @@ class TemplateFolder:
         self.documents = tuple(name.removesuffix(SUFFIX) for name in templates)
         """The names of the documents that its templates make, sorted."""
 
+    def require_templates(self) -> None:
+        """Refuse a folder that makes nothing: without a document, and without a template that goes before one of ours.
+
+        Raises:
+            ValueError: with what a template is named.
+
+        """
+        if self.documents or any(os.path.lexists(self.folder / name) for name in own_names()):
+            return
+        from linkforge_compile.diagnostics.suggest import nearest
+
+        found = sorted(path.relative_to(self.folder).as_posix() for path in islice(self.folder.rglob("*"), _MOST_NAMES))
+        near = next((f"; '{name}' is like '{own}'" for name in found if (own := nearest(name, own_names()))), "")
+        has = "NAME.j2 for a document, nor urdf/ or srdf/ with a template that goes before one of linkforge's"
+        raise ValueError(f"it has no {has}{near}")
+
     @property
-    def has_ours(self) -> bool:
-        """Whether one of its templates goes before one of ours."""
-        ours = (path.relative_to(templates_folder()) for path in templates_folder().rglob(f"*{SUFFIX}"))
-        return any(os.path.lexists(self.folder / path) for path in ours)
+    def unused(self) -> tuple[Diagnostic, ...]:
+        """A warning at each file that stands where templates go before ours, and that nothing uses."""
+        from linkforge_compile.backends.unused_templates import find_unused
+
+        return tuple(find_unused(self._environment, self._loader))
 
     @property
     def files(self) -> tuple[Path, ...]:
@@ -90,6 +121,7 @@ class TemplateFolder:
 
         require_dialect(gazebo)
         srdf = semantic_view(robot) if robot.says_semantic else None
+        banner = harmless_in_comment(banner)
         context = {"robot": robot, "urdf": robot_view(robot, gazebo), "srdf": srdf, "banner": banner}
         texts: dict[str, str] = {}
         faults: list[Diagnostic] = []
@@ -119,10 +151,11 @@ class TemplateFolder:
 
         rendered = self._text(template, context)
         place = self._loader.place_of(template)
-        if problem := find_xml_fault(without_marks(rendered).lstrip()):
-            raise TemplateError((NOT_XML_FROM_TEMPLATE.at(place, problem=problem),))
+        if fault := find_xml_fault(without_marks(rendered).lstrip()):
+            line = self._loader.place_of_line(template, fault.line)
+            raise TemplateError((NOT_XML_FROM_TEMPLATE.at(line, problem=fault.problem),))
         try:
-            return document_text(whole_tags(rendered), pretty=pretty)
+            return document_text(with_layout_alone(rendered), pretty=pretty)
         except RobotGeneratorError as error:
             raise TemplateError((TEMPLATE_FAILS.at(place, reason=error),)) from None
         except (LookupError, TypeError, ValueError):
@@ -163,7 +196,9 @@ def render_templates(
         TemplateError: with all that is wrong with the templates.
         RobotGeneratorError: for a robot whose text XML cannot hold.
         OSError: for a folder that cannot be read.
-        ValueError: for another `gazebo` than `gz` or `classic`.
+        ValueError: for a folder without templates, and for another `gazebo` than `gz` or `classic`.
 
     """
-    return TemplateFolder(folder, allow_outside=allow_outside).render(robot, banner=banner, gazebo=gazebo)
+    templates = TemplateFolder(folder, allow_outside=allow_outside)
+    templates.require_templates()
+    return templates.render(robot, banner=banner, gazebo=gazebo)

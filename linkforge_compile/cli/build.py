@@ -70,7 +70,7 @@ def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespac
 
         made_from = (*compilation.files, *order.template_files)
         refuse_to_replace(made_from, (*(output.path for output in outputs), file_to_write(arguments.depfile)))
-    stale = _stale(outputs, order.spec, compilation.robot) if arguments.check else ()
+    stale = _stale(outputs, order, compilation.robot) if arguments.check else ()
     report = (
         sorted((*compilation.diagnostics, *faults), key=lambda one: one.order) if faults else compilation.diagnostics
     )
@@ -125,9 +125,9 @@ def _of_templates(
     try:
         if targets.are_documents:
             texts = templates.render(robot, banner=banner or "", gazebo=arguments.gazebo)
-            return tuple(Output(path, texts[name]) for name, path in targets.paths.items()), ()
+            return tuple(Output(path, texts[name]) for name, path in targets.paths.items()), templates.unused
         options = {format_: {**more, "templates": templates} for format_, more in _options(arguments).items()}
-        return _rendered(robot, banner, targets, options), ()
+        return _rendered(robot, banner, targets, options), templates.unused
     except TemplateError as error:
         return (), error.diagnostics
 
@@ -143,15 +143,16 @@ def _with_maps(robot: Robot, banner: str | None, targets: Targets, options: _Opt
         yield Output(path.with_name(path.name + ENDING), map_text(mapped, path.name, path.parent))
 
 
-def _stale(outputs: Sequence[Output], spec: str, robot: Robot | None) -> Iterator[Diagnostic]:
+def _stale(outputs: Sequence[Output], order: Order, robot: Robot | None) -> Iterator[Diagnostic]:
     from linkforge_compile.cli.uptodate import difference
     from linkforge_compile.source import Span
 
     # Tools that gather diagnostics show those that have a place only.
     whole = Span(robot.source.span.file, 1, 1, 1, 1) if robot and robot.source else None
+    templates = order.templates.folder if order.templates else None
     for path, text in outputs:
         assert path is not None, "only files are compared"
-        if found := difference(path, text, spec, whole):
+        if found := difference(path, text, order.spec, whole, templates):
             yield found
 
 

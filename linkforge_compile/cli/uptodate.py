@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.backends import MISSING_OUTPUT, STALE_OUTPUT
 from linkforge_compile.source import SourceFile, Span
 
@@ -17,10 +18,13 @@ _LONGEST = 120
 """How many characters of a line a message quotes: a whole mesh's worth of numbers helps nobody."""
 
 
-def difference(path: Path, text: str, spec: str, source: Span | None) -> Diagnostic | None:
+def difference(
+    path: Path, text: str, spec: str, source: Span | None, templates: Path | None = None
+) -> Diagnostic | None:
     """Return what is wrong with a file that should hold `text`, at the first line that differs; None for nothing.
 
-    A file that is not there is told at `source`, the place of the spec.
+    `templates` is the folder of a user's templates that make it. A file that is not there is told at `source`, the
+    place of the spec.
     """
     try:
         found = path.read_bytes().decode("utf-8", errors="replace")
@@ -35,7 +39,8 @@ def difference(path: Path, text: str, spec: str, source: Span | None) -> Diagnos
     pairs = zip_longest(found.split("\n"), text.split("\n"))
     number, was, wanted = next((at, *pair) for at, pair in enumerate(pairs, 1) if pair[0] != pair[1])
     span = Span(SourceFile(str(path), found, path), number, 1, number, 1 + len(was or ""))
-    return STALE_OUTPUT.at(span, spec=spec, expected=_quoted(wanted))
+    notes = [Note(f"the templates in '{templates}' make it of the spec, and may have changed")] if templates else []
+    return STALE_OUTPUT.at(span, spec=spec, expected=_quoted(wanted), notes=notes)
 
 
 def _quoted(line: str | None) -> str:

@@ -55,7 +55,7 @@ def _explained(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
 
 
 def _let_go(error: ValidationError) -> None:
-    """Part an error from those behind it: they hold one another, and in a compile Python's collector rests."""
+    """Detach an error from those that follow it: they refer to one another while the garbage collector is paused."""
     for inner in error.context or ():
         inner.parent = None
         _let_go(inner)

@@ -5,14 +5,15 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+import yaml
 from jinja2 import DictLoader, TemplateRuntimeError, UndefinedError
 
 from linkforge_compile.backends import environment, own_templates, render_urdf
-from linkforge_compile.backends.environment import make_environment
+from linkforge_compile.backends.environment import make_environment, own_environment
 from linkforge_compile.backends.markup import Xml, document_text
 from linkforge_compile.cli.main import main
 from linkforge_compile.core import Robot
-from linkforge_compile.core.models.geometry import Vector3
+from linkforge_compile.core.models.geometry import Transform, Vector3
 
 ROBOT = SimpleNamespace(
     name="a&b", own=Xml("<own>\n<inner/>\n</own>"), none=Xml(), speed=0.1 + 0.2, axis=Vector3(0, 1, 0), missing=None
@@ -142,3 +143,24 @@ def test_a_template_of_ours_that_is_gone_is_told(folder: Path, capsys: pytest.Ca
     spec.write_text("linkforge: 1\nname: a\nlinks: {base: }\n")
     assert main(["compile", str(spec)]) == 2
     assert capsys.readouterr().err.startswith(f"linkforge: {folder / 'urdf' / 'robot.xml.j2'}:1: ")
+
+
+@pytest.mark.parametrize(
+    "text", ["y", "N", "Yes", "off", "1e5", "-1E+5", "0o17", "0x1F", ".5", "1.", "+.inf", ".NaN", "012", "1_0", "null"]
+)
+def test_yaml_quotes_what_a_reader_may_take_for_something_else(text: str):
+    assert own_environment().from_string("{{ text | to_yaml }}").render(text=text) in (f"'{text}'", f'"{text}"')
+
+
+@pytest.mark.parametrize("text", ["a\nb", "a\n\nb\n", "\n", "a\rb", "a\x85", "a\u2028b", "x y" * 999])
+def test_yaml_is_one_line_that_reads_back(text: str):
+    for value in (text, {text: [text]}):
+        written = own_environment().from_string("{{ value | to_yaml }}").render(value=value)
+        assert len(written.splitlines()) == 1
+        assert yaml.safe_load(written) == value
+
+
+def test_yaml_of_a_vector_is_a_list_and_of_a_pose_its_fields():
+    pose = Transform(Vector3(0, 0, 0.1), Vector3(0, 1, 0))
+    text = own_environment().from_string("{{ pose.xyz | to_yaml }} {{ pose | to_yaml }}").render(pose=pose)
+    assert text == "[0, 0, 0.1] {xyz: [0, 0, 0.1], rpy: [0, 1, 0]}"

@@ -68,6 +68,11 @@ def test_a_template_is_given_the_robot_its_views_and_the_banner(tmp_path: Path):
     assert render_templates(everything(), tmp_path) == {"a.md": str(len(everything().semantic.groups))}
 
 
+def test_the_banner_ends_no_comment(tmp_path: Path):
+    write(tmp_path, a_xml="<!-- {{ banner }} --><a/>")
+    assert render_templates(ARM, tmp_path, banner="from a--b.yaml") == {"a.xml": "<!-- from a- -b.yaml --><a/>\n"}
+
+
 def test_an_index_answers_to_names(tmp_path: Path):
     text = "{{ robot.joints['elbow'].child }} {{ robot.joints[1].name }} {{ robot.links.names | join('-') }}"
     assert rendered(text, tmp_path) == "upper mount base-upper-tool"
@@ -82,8 +87,8 @@ def test_a_document_of_xml_is_escaped_and_laid_out_as_urdf(tmp_path: Path):
         "<j v='{{ joint.limits.upper }}' x='{{ joint.origin.xyz }}'>\n{{ '<&>' }}\n</j>\n{% endfor %}\n</robot>"
     )
     assert rendered(text, tmp_path, "a.xml") == (
-        "<robot name='arm'>\n  <!-- one\n  two -->\n  <j v='0.30000000000000004' x='0 0 0'>\n"
-        "    &lt;&amp;&gt;\n  </j>\n</robot>\n"
+        "<robot name='arm'>\n  <!-- one\n two -->\n  <j v='0.30000000000000004' x='0 0 0'>\n"
+        "&lt;&amp;&gt;\n</j>\n</robot>\n"
     )
 
 
@@ -94,6 +99,16 @@ def test_a_document_of_xml_is_escaped_and_laid_out_as_urdf(tmp_path: Path):
         ("<a><b>\n</b></a>", "<a><b>\n</b></a>\n"),
         ("<a><!-- c -->\n</a>", "<a><!-- c -->\n</a>\n"),
         ("<a>x ></a>\n", "<a>x ></a>\n"),
+        ("<a>\n one\n   two\n</a>", "<a>\n one\n   two\n</a>\n"),
+        ("<a>\n<b>\n 1\n<c/>\n  2 </b>\n<d/>\n</a>", "<a>\n  <b>\n 1\n<c/>\n  2 </b>\n  <d/>\n</a>\n"),
+        (
+            "<r>\n<a><![CDATA[\n  <b></b>\n if x:\n   y]]>\n</a>\n</r>",
+            "<r>\n  <a><![CDATA[\n  <b></b>\n if x:\n   y]]>\n</a>\n</r>\n",
+        ),
+        ("<a><![CDATA[<b></b>]]></a>", "<a><![CDATA[<b></b>]]></a>\n"),
+        ("<a>\n<!--\n<b>\n   c\n-->\n<d/>\n</a>", "<a>\n  <!--\n<b>\n   c\n-->\n  <d/>\n</a>\n"),
+        ("<a b='>\n  c'\n  d='1'/>", "<a b='>   c' d='1'/>\n"),
+        ("<?xml version='1.0' encoding='UTF-8'?>\n<a/>", "<?xml version='1.0' encoding='UTF-8'?>\n<a/>\n"),
         ("{# head #}\n<?xml version='1.0'?>\n<a\n b='1'\n/>", "<?xml version='1.0'?>\n<a b='1' />\n"),
     ],
 )
@@ -140,12 +155,29 @@ SYNTAX, NAME, FAILS = (
             "{% for joint in robot.joints %}\n{{ joint.limts }}{% endfor %}",
             *("LF7202", 2, f"{NAME}a Joint has no 'limts'; did you mean 'limits'?"),
         ),
-        ("{{ robot.joints.elbw.child }}", "LF7202", 1, f"{NAME}this has no 'elbw'; did you mean 'elbow'?"),
+        ("{{ robot.joints.elbw.child }}", "LF7202", 1, f"{NAME}'robot.joints' has no 'elbw'; did you mean 'elbow'?"),
         (
             "{{ robot.joints.mount.limits.upper }}",
+            *(
+                "LF7202",
+                1,
+                f"{NAME}'robot.joints.mount.limits' is None, which has no 'upper'; test it with '{{% if … %}}'",
+            ),
+        ),
+        (
+            "{{ robot.joints['mount'].limits['upper'] }}",
+            *("LF7202", 1),
+            f"{NAME}'robot.joints['mount'].limits' is None, which has no 'upper'; test it with '{{% if … %}}'",
+        ),
+        (
+            "{% set b = 1 %}{{ robot.joints.mount.limits.upper }}{{ b.upper }}",
             *("LF7202", 1, f"{NAME}this is None, which has no 'upper'; test it with '{{% if … %}}'"),
         ),
-        ("{{ 1 / 0 }}", "LF7205", 1, f"{FAILS}division by zero"),
+        (
+            "{{ robot.joints.keys() }}",
+            *("LF7202", 1, f"{NAME}'robot.joints' has no 'keys'; it is a list: loop over it, or over its 'names'"),
+        ),
+        ("{{ robot.sensors }}{{ 1 / 0 }}", "LF7205", 1, f"{FAILS}division by zero"),
         ("{{ 1 + 'a' }}", "LF7205", 1, f"{FAILS}unsupported operand type(s) for +: 'int' and 'str'"),
         ("{{ robot.joints | to_yaml }}", "LF7205", 1, f"{FAILS}a Joint has no text in YAML; write its fields"),
         ("\n{% include 'a.md.j2' %}", "LF7205", 2, f"{FAILS}templates or macros use each other without an end"),
@@ -186,6 +218,76 @@ def test_a_fault_of_each_template_is_told_at_once(tmp_path: Path):
     assert str(pickle.loads(pickle.dumps(refused.value))) == str(refused.value)
 
 
+NO_TEXT = "has no text; write"
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("{{ robot.joints.names }}{{ robot.get_link }}", "'get_link' is not called, and has no text"),
+        ("{{ robot }}", f"a Robot {NO_TEXT} one of its fields, such as its name"),
+        ("{{ robot.links }}", f"a Link {NO_TEXT} one of its fields"),
+        ("{{ [1, {'a': robot.joints.elbow}] }}", f"a Joint {NO_TEXT} one of its fields"),
+        ("{{ [robot.joints.elbow.axis] }}", "a Vector3 has no text in a list; write '| join(\", \")'"),
+        ("{{ urdf.joints[0] }}", f"a JointView {NO_TEXT} one of its fields"),
+        ("{{ robot.links | map(attribute='name') }}", f"a generator {NO_TEXT} '| list' or '| join(\", \")'"),
+        ("{{ range(3) }}", f"a range {NO_TEXT} '| list'"),
+        ("{{ {}.items() }}", f"a dict_items {NO_TEXT} '| list'"),
+        ("{{ robot.graph.link_names | list }}", "a set has no order"),
+        ("{% macro m() %}{% endmacro %}{{ m }}", "'m' is not called, and has no text; write 'm()'"),
+        ("{{ robot.links[0] ~ 'x' }}", f"a Link {NO_TEXT} one of its fields"),
+        ("{{ robot.links | join(', ') }}", f"a Link {NO_TEXT} one of its fields"),
+        ("{{ '%s' % robot.links[0] }}", f"a Link {NO_TEXT} one of its fields"),
+        ("{{ robot.get_link | string }}", "'get_link' is not called"),
+        ("{{ robot.get_link | pprint }}", "'get_link' is not called"),
+        ("{{ robot.links | random }}", "'random' would make another text on every run"),
+        ("{{ robot.graph.link_names | join }}", "a set has no order"),
+        ("{{ robot.graph.link_names }}", "a set has no order"),
+    ],
+)
+def test_what_has_no_text_of_its_own_is_told(text: str, reason: str, tmp_path: Path):
+    found = fault(f"\n{text}", tmp_path)
+    assert found.span
+    assert (found.code.id, found.span.line) == ("LF7205", 2)
+    assert found.message.startswith(f"this template fails here: {reason}")
+
+
+def test_what_has_a_text_is_written_as_jinja2_does(tmp_path: Path):
+    text = "{{ none }} {{ true }} {{ [1, 'a', none] }} {{ {'a': (1.5,)} }} {{ robot.joints[0].type }}{{ 1 | string }}"
+    assert rendered(text, tmp_path) == "None True [1, 'a', None] {'a': (1.5,)} revolute1"
+    text = "{{ robot.joints[0].axis }} {{ robot.links.names }} {{ robot.links | join(', ', attribute='name') }}"
+    assert rendered(text, tmp_path) == f"{Vector3(0, 0, 1)} ('base', 'upper', 'tool') base, upper, tool"
+
+
+def test_a_kind_has_its_article(tmp_path: Path):
+    (tmp_path / "a.md.j2").write_text("{{ robot.ros2_controls[0].joints[0].command_interfaces[0].nosuch }}")
+    with pytest.raises(TemplateError, match="an Interface has no 'nosuch'"):
+        render_templates(everything(), tmp_path)
+
+
+def test_a_format_may_have_a_width(tmp_path: Path):
+    text = "{{ '%-9s|%8.3f' % ('ab', 1.5) }} {{ '{:>5}'.format(1) }} {{ 'x' | center(5) }}|{{ '%s' | format('y') }}"
+    assert rendered(text, tmp_path) == "ab       |   1.500     1   x  |y"
+    assert (
+        rendered("{{ '12345%s67890 {}' % 1 }} {{ '{{}} 12345 {}%'.format(1) }}", tmp_path)
+        == "12345167890 {} {} 12345 1%"
+    )
+    assert rendered("{{ 'a\nb' | indent(2) }} {{ 'abc' | replace('b', 'x') }}", tmp_path) == "a\n  b axc"
+
+
+def test_a_list_of_lists_that_doubles_is_refused(tmp_path: Path):
+    text = "{% set n = namespace(x=[]) %}{% for i in range(60) %}{% set n.x = [n.x, n.x] %}{% endfor %}{{ n.x }}"
+    assert fault(text, tmp_path).code.id == "LF3301"
+
+
+@pytest.mark.parametrize("behind", ["", " | list | length", " | first"])
+def test_map_reports_a_name_that_is_not_there_as_a_dot_does(behind: str, tmp_path: Path):
+    found = fault(f"{{{{ robot.links | map(attribute='nme'){behind or ' | list'} }}}}", tmp_path)
+    assert (found.code.id, found.message) == ("LF7202", f"{NAME}a Link has no 'nme'; did you mean 'name'?")
+    assert fault(f"{{{{ robot.links | map(attribute='source'){behind or ' | list'} }}}}", tmp_path).code.id == "LF7204"
+    assert rendered("{{ robot.links | map(attribute='nme', default=1) | list }}", tmp_path) == "[1, 1, 1]"
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
@@ -209,11 +311,24 @@ def test_what_xml_cannot_hold_is_told_at_its_line(text: str, reason: str, tmp_pa
         ("</a>", "invalid token, in line 1 of it, '</a>'"),
         ("<a>\n<b>\n</a>\n</a>", "expected </b>, found </a>, in line 3 of it, '</a>'"),
         ("", "the file is empty, in line 1 of it, ''"),
+        (
+            '<?xml version="1.0" encoding="iso-8859-1"?><a/>',
+            "it declares the encoding 'iso-8859-1', and is written in UTF-8; write encoding='utf-8'",
+        ),
     ],
 )
 def test_what_is_no_xml_in_the_end_is_told(text: str, problem: str, tmp_path: Path):
     found = fault(text, tmp_path, "a.xml")
     assert (found.code.id, found.message) == ("LF7206", f"this template makes XML that is not well-formed: {problem}")
+
+
+def test_what_is_no_xml_is_told_at_the_line_where_the_template_has_it(tmp_path: Path):
+    found = fault("<a>\n{{ '<b>' | safe }}\n  <c/>\n  </a>", tmp_path, "a.xml")
+    assert found.span
+    assert (found.span.line, found.span.column, found.span.text) == (4, 3, "</a>")
+    found = fault("<a>\n{{ '<b>' | safe }}\n{{ '</a>' | safe }}", tmp_path, "a.xml")
+    assert found.span
+    assert found.span.line == 1
 
 
 def test_urdf_that_is_no_xml_is_told_at_the_template_that_goes_before_ours(tmp_path: Path):
@@ -269,8 +384,9 @@ def test_methods_that_look_something_up_may_be_called(tmp_path: Path):
     assert rendered(text, tmp_path) == "base False REVOLUTE"
 
 
-STEPS = "the robot takes more than 1,000,000 steps of your templates"
-CHARACTERS = "the robot takes more than 33,554,432 characters that your templates make"
+STEPS = "rendering takes more than 1,000,000 steps of templates, where"
+CHARACTERS = "rendering takes more than 33,554,432 characters that templates handle,"
+WIDE = "this template fails here: a width in a format is a number of at most four digits, written in it"
 GROWING = "{% set n = namespace(x='a') %}{% for i in range(60) %}{% set n.x = GROWN %}{% endfor %}"
 
 BLOCK = "{% set y %}{{ n.x }}{{ n.x }}{% endset %}{% set n.x = y %}"
@@ -294,6 +410,25 @@ BLOCK = "{% set y %}{{ n.x }}{{ n.x }}{% endset %}{% set n.x = y %}"
         (GROWING.replace("{% set n.x = GROWN %}", BLOCK), CHARACTERS),
         ("{{ 'x' * 10**10 }}", CHARACTERS),
         ("{{ [1] * 10**9 }}", CHARACTERS),
+        ("{{ '' | center(999999999) }}", CHARACTERS),
+        ("{{ ''.center(999999999) }}", CHARACTERS),
+        ("{{ '1'.zfill(999999999) }}", CHARACTERS),
+        ("{{ '\\t'.expandtabs(999999999) }}", CHARACTERS),
+        ("{{ 'a\\nb' | indent(999999999) }}", CHARACTERS),
+        ("{{ ('a' * 99999) | replace('a', 'b' * 99999) }}", CHARACTERS),
+        ("{{ ('a' * 99999).replace('a', 'b' * 99999) }}", CHARACTERS),
+        ("{{ ('a' * 99999).join(range(99999) | list | map('string') | list) }}", CHARACTERS),
+        ("{{ ('a ' * 99999) | wordwrap(1, wrapstring='b' * 99999) }}", CHARACTERS),
+        ("{{ [1] | batch(999999999, 'x') | list }}", CHARACTERS),
+        ("{{ range(99999) | join('b' * 99999) }}", CHARACTERS),
+        ("{{ [1] | tojson(999999999) }}", "this template fails here: 'tojson' takes an indent of at most 32"),
+        ("{{ '%999999999d' % 1 }}", WIDE),
+        ("{{ '%*d' % (999999999, 1) }}", WIDE),
+        ("{{ '%.*f' % (999999999, 1) }}", WIDE),
+        ("{{ '%999999999d' | format(1) }}", WIDE),
+        ("{{ '%(a)-999999999.1f' % {'a': 1} }}", WIDE),
+        ("{{ '{:>999999999}'.format(1) }}", WIDE),
+        ("{{ '{:>{}}'.format(1, 999999999) }}", WIDE),
         ("{% set r = range(99999) %}{% for i in r %}{% if r | sum < 0 %}{% endif %}{% endfor %}", CHARACTERS),
         ("{% set s = 'x' * 99999 %}{% for i in range(9999) %}{% if s.count('y') %}{% endif %}{% endfor %}", CHARACTERS),
         ("{% for i in range(99999) %}" + "x" * 1000 + "{% endfor %}", CHARACTERS),

@@ -1,10 +1,12 @@
 """`linkforge compile --template`: which documents are written where, and that a fault in one leaves all as it was."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
 
+from linkforge_compile import compile_file, render_templates, render_urdf
 from tests.cli.in_process import linkforge
 
 SPEC = """\
@@ -76,6 +78,51 @@ def test_a_folder_without_documents_writes_urdf_and_srdf(folder: Path):
     assert "<mine/>" in (folder / "out" / "arm.srdf").read_text()
 
 
+def test_a_template_that_goes_before_none_of_ours_is_warned_of(folder: Path):
+    (folder / "t" / "urdf" / "sub").mkdir(parents=True)
+    for name in ("lnik.xml.j2", "joint.xml", "_used.xml.j2", "joint.xml.j2", "README.md", "sub/x.j2"):
+        (folder / "t" / "urdf" / name).write_text("{# nothing #}")
+    (folder / "t" / "urdf" / "joint.xml.j2").write_text("{% include 'urdf/_used.xml.j2' %}")
+    for words in ((), ("--format", "urdf")):
+        _, told = compile_by(folder, *words)
+        assert [line for line in told.split("\n") if "LF7208" in line] == [
+            f"t/urdf/{name}:1:1: warning: 'urdf/{name}' is unused: linkforge has no template of that name to replace, "
+            f"and no template includes it{hint} [LF7208]"
+            for name, hint in (
+                ("joint.xml", "; did you mean 'urdf/joint.xml.j2'?"),
+                ("lnik.xml.j2", "; did you mean 'urdf/link.xml.j2'?"),
+                ("sub/x.j2", ""),
+            )
+        ]
+    assert compile_by(folder, "--werror", expect=1)[0] == ""
+    (folder / "t" / "_other.j2").write_text("{% include name %}")
+    assert "LF7208" not in compile_by(folder)[1], "it may include any of them"
+
+
+def test_the_only_document_may_have_a_file_of_another_name(folder: Path):
+    assert compile_by(folder, "-o", "TABLE.md")[1] == "wrote TABLE.md\n"
+    assert (folder / "TABLE.md").read_text() == f"# {BANNER}\n2 links\n"
+    assert compile_by(folder, "-o", "TABLE.md", "--check")[1] == "TABLE.md is up to date\n"
+    assert compile_by(folder, "-o", "docs/")[1] == "wrote docs/notes.md\n"
+    assert compile_by(folder, "-o", "v1.d/")[1] == "wrote v1.d/notes.md\n"
+    assert "would be replaced" in compile_by(folder, "-o", "arm.robot.yaml", expect=2)[1]
+
+
+def test_a_folder_without_templates_is_refused_in_python_as_by_the_command(folder: Path):
+    (folder / "other" / "urdf").mkdir(parents=True)
+    (folder / "other" / "urdf" / "lnik.xml.j2").touch()
+    robot = compile_file(folder / "arm.robot.yaml").result()
+    reason = (
+        "it has no NAME.j2 for a document, nor urdf/ or srdf/ with a template that goes before one of linkforge's; "
+        "'urdf/lnik.xml.j2' is like 'urdf/link.xml.j2'"
+    )
+    for render in (render_templates, lambda robot, folder: render_urdf(robot, templates=folder)):
+        with pytest.raises(ValueError, match=f"^{re.escape(reason)}$"):
+            render(robot, folder / "other")
+    done = linkforge("compile", "arm.robot.yaml", "--template", "other", cwd=folder)
+    assert (done.returncode, reason in done.stderr) == (2, True)
+
+
 def test_standard_input_has_no_banner(folder: Path):
     done = linkforge("compile", "-", "--template", "t", cwd=folder, stdin=SPEC)
     assert done.stdout == "# \n2 links\n"
@@ -111,6 +158,7 @@ def test_check_compares_documents(folder: Path):
     (folder / "t" / "notes.md.j2").write_text("# other\n")
     _, told = compile_by(folder, "-o", "out/", "--check", expect=1)
     assert told.startswith("out/notes.md:1:1: error: here 'arm.robot.yaml' compiles to '# other'")
+    assert "note: the templates in 't' make it of the spec, and may have changed" in told
 
 
 def test_a_depfile_names_the_templates_that_were_read(folder: Path):
@@ -130,16 +178,20 @@ def test_no_template_is_written_over(folder: Path):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("--template", "nosuch"), "--template takes a folder, found 'nosuch': No such file or directory"),
-        (("--template", "arm.robot.yaml"), "--template takes a folder, found 'arm.robot.yaml': Not a directory"),
-        (("--template", "a\0b"), "--template takes a folder, found 'a\\x00b': "),
+        (("--template", "nosuch"), "--template takes a folder of templates, found 'nosuch': No such file or directory"),
+        (
+            ("--template", "arm.robot.yaml"),
+            "--template takes a folder of templates, found 'arm.robot.yaml': Not a directory",
+        ),
+        (("--template", "a\0b"), "--template takes a folder of templates, found 'a\\x00b': "),
         (
             ("--template", "empty"),
-            "--template: 'empty' has no NAME.j2 for a document, nor urdf/ or srdf/ with",
+            "--template takes a folder of templates, found 'empty': it has no NAME.j2 for a document, nor urdf/",
         ),
+        (("--template", ""), "--template takes a folder, found '': is a variable of the shell empty?"),
         (("--template", "t", "--source-map", "-o", "out/"), "--source-map is of what linkforge's own templates write"),
         (
-            ("--template", "t", "-o", "notes.md"),
+            ("--template", "two", "-o", "notes.md"),
             "-o takes a folder, or a file that ends in .urdf, .srdf or",
         ),
         (("--template", "t", "--check"), "--check compares with files"),
@@ -147,6 +199,9 @@ def test_no_template_is_written_over(folder: Path):
 )
 def test_what_cannot_be_meant_is_wrong_usage(words: tuple[str, ...], told: str, folder: Path):
     (folder / "empty").mkdir()
+    (folder / "two").mkdir()
+    (folder / "two" / "a.md.j2").touch()
+    (folder / "two" / "b.md.j2").touch()
     done = linkforge("compile", "arm.robot.yaml", *words, cwd=folder)
     assert done.returncode == 2
     assert done.stderr.startswith(f"linkforge compile: {told}")

@@ -102,15 +102,15 @@ def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:
     from linkforge_compile.backends.user_templates import TemplateFolder
 
     folder = arguments.template
+    if not folder:
+        raise UsageError("--template takes a folder, found '': is a variable of the shell empty?")
     packages = map(Path, packages_of(arguments).values())
     try:
         templates = TemplateFolder(folder, packages=packages, allow_outside=arguments.allow_outside)
+        templates.require_templates()
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
-        raise UsageError(f"--template takes a folder, found '{folder}': {reason}") from None
-    if not templates.documents and not templates.has_ours:
-        has = "NAME.j2 for a document, nor urdf/ or srdf/ with a template that goes before one of linkforge's"
-        raise UsageError(f"--template: '{folder}' has no {has}")
+        raise UsageError(f"--template takes a folder of templates, found '{folder}': {reason}") from None
     return templates
 
 

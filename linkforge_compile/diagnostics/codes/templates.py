@@ -11,3 +11,8 @@ REFUSED_IN_TEMPLATE = Code("LF7204", _E, "a template may only read the robot: {r
 TEMPLATE_FAILS = Code("LF7205", _E, "this template fails here: {reason}")
 NOT_XML_FROM_TEMPLATE = Code("LF7206", _E, "this template makes XML that is not well-formed: {problem}")
 UNREADABLE_TEMPLATE = Code("LF7207", _E, "template '{path}' cannot be read: {reason}")
+UNUSED_TEMPLATE = Code(
+    "LF7208",
+    Severity.WARNING,
+    "'{name}' is unused: linkforge has no template of that name to replace, and no template includes it",
+)
