@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.backends.markup import document_text, harmless_in_comment, with_layout_alone, without_marks
 from linkforge_compile.bounds import Budget
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.diagnostics.codes.bounds import RENDERING_BEYOND_LIMIT
+from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.templates import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
 from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import ANYWHERE, Roots
@@ -26,6 +27,11 @@ if TYPE_CHECKING:
 
 SUFFIX = ".j2"
 """How the names of templates end; without it, that of a document's template is the document's."""
+
+_BEYOND_LIMIT = replace(
+    BEYOND_LIMIT, message=BEYOND_LIMIT.message.replace("the robot takes", "rendering takes"), in_xml=""
+)
+"""What exceeds a bound is a user's template, and no robot."""
 
 _NOT_DOCUMENTS = ("_", ".")
 """How the names of templates begin at the top of a folder that others include."""
@@ -65,7 +71,7 @@ class TemplateFolder:
             OSError: for a folder that cannot be read.
 
         """
-        self.folder, self._budget = Path(folder), Budget(code=RENDERING_BEYOND_LIMIT)
+        self.folder, self._budget = Path(folder), Budget(code=_BEYOND_LIMIT)
         self._roots = ANYWHERE if allow_outside else Roots.around(self.folder, (self.folder, *packages))
         with os.scandir(self.folder) as entries:
             names = sorted(entry.name for entry in entries if entry.is_symlink() or entry.is_file())

@@ -1,7 +1,5 @@
 """LF33xx: the limits that all files of one compile share."""
 
-from dataclasses import replace
-
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
 
 BEYOND_LIMIT = Code(
@@ -13,13 +11,6 @@ BEYOND_LIMIT = Code(
     "environment allows ten times as much",
     ends_report=True,
 )
-RENDERING_BEYOND_LIMIT = replace(
-    BEYOND_LIMIT,
-    message="rendering takes more than {most} {counted}; {way_out} (LINKFORGE_LIMITS=10 in the environment allows ten "
-    "times as much)",
-    in_xml="",
-)
-"""The same of a user's templates."""
 TOO_MANY_ERRORS = Code(
     "LF3302", Severity.ERROR, "nothing is read behind so many {what}; mend some of them first", ends_report=True
 )
