@@ -54,6 +54,9 @@ _WIDE_FORMAT = re.compile(
 )
 """Part of a format of `%` or of `str.format` that makes a long text, or one as long as an argument says."""
 
+_UNCOUNTED = frozenset({"encode", "to_bytes", "translate"})
+"""Methods that a template has no need of, and that make much of little before it can be counted."""
+
 _COUNTED, _MEASURED, _WORDED = "counted", "measured", "worded"
 
 _OF_TEXT = frozenset(
@@ -138,7 +141,9 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         super().__init__(loader=loader, **OPTIONS | {"undefined": _StrictUndefined, "finalize": self._finalize})
         self.filters.update(FILTERS)
         self.filters.update({_COUNTED: self._counted, _MEASURED: self._measured, _WORDED: self._worded})
-        self.filters.update({"batch": self._batch, "tojson": _to_json, "wordwrap": self._wordwrap})
+        self.filters.update(
+            {"batch": self._batch, "tojson": self._to_json, "to_yaml": self._to_yaml, "wordwrap": self._wordwrap}
+        )
         self.filters.update({"center": self._center, "format": self._format, "indent": self._indent})
         self.filters.update(
             {"replace": self._replace, "join": self._join, "map": _map_to_known, "random": _refuse_random}
@@ -162,6 +167,8 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         home = (getattr(obj, "__module__", None) or "builtins").partition(".")[0]
         if isinstance(obj, Undefined):
             return True  # to call it reports the name
+        if getattr(obj, "__name__", "") in _UNCOUNTED:
+            return False
         if home == "linkforge_compile":
             return not isinstance(obj, type) and obj.__name__.partition("_")[0] in _READING
         return home in {"builtins", "jinja2", "markupsafe"} and super().is_safe_callable(obj)
@@ -192,7 +199,7 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         if isinstance(owner, str | list | tuple):
             self._measured(owner)
         if isinstance(owner, str):
-            self._foresee(_characters_made(owner, obj.__name__, args))
+            self._foresee(_characters_made(owner, obj.__name__, (*args, *kwargs.values())))
         return self._measured(super().call(context, obj, *args, **kwargs))
 
     def call_binop(self, context: Context, operator: str, left: Any, right: Any) -> Any:
@@ -264,6 +271,26 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
         self._foresee(_characters_made(str(s), "replace", (old, new)))
         return JINJA_FILTERS["replace"](context, s, old, new, count)
 
+    @pass_eval_context
+    def _to_json(self, context: EvalContext, value: Any, indent: int | None = None) -> object:
+        if indent is not None and indent > _MOST_INDENTED:
+            raise TemplateRuntimeError(f"'tojson' takes an indent of at most {_MOST_INDENTED}")
+        self._count_all(value)
+        return JINJA_FILTERS["tojson"](context, value, indent)
+
+    def _to_yaml(self, value: Any) -> object:
+        self._count_all(value)
+        return FILTERS["to_yaml"](value)
+
+    def _count_all(self, value: Any) -> None:
+        """Count the values in nested lists and maps: a short one may hold the same list again and again."""
+        self._step()
+        if isinstance(value, Mapping):
+            value = [*value, *value.values()]
+        if isinstance(value, list | tuple):
+            for item in value:
+                self._count_all(item)
+
     def _wordwrap(self, s: str, width: int = 79, *args: Any, **kwargs: Any) -> object:
         between = kwargs.get("wrapstring") or (args[1] if len(args) > 1 else None) or "\n"
         self._foresee((len(s) // max(width, 1) + s.count("\n") + s.count(" ")) * len(between))
@@ -316,13 +343,6 @@ def _map_to_known(context: Context, value: Any, *args: Any, **kwargs: Any) -> It
         if isinstance(item, Undefined):
             str(item)  # reports the name
         yield item
-
-
-@pass_eval_context
-def _to_json(context: EvalContext, value: Any, indent: int | None = None) -> object:
-    if indent is not None and indent > _MOST_INDENTED:
-        raise TemplateRuntimeError(f"'tojson' takes an indent of at most {_MOST_INDENTED}")
-    return JINJA_FILTERS["tojson"](context, value, indent)
 
 
 def _refuse_random(_: object) -> object:

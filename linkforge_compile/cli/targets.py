@@ -90,18 +90,19 @@ def targets_of_documents(names: Sequence[str], outputs: Sequence[str]) -> Target
             found = f"found {len(names)}: {', '.join(names)}"
             raise UsageError(f"standard output takes one document of --template, {found}; write -o FOLDER/")
         return Targets({names[0]: None}, are_documents=True)
-    if len(outputs) == len(names) == 1 and _is_document(outputs[0]):
+    if len(outputs) == len(names) == 1 and _is_document(outputs[0], names[0]):
         return Targets({names[0]: Path(outputs[0])}, are_documents=True)
     if len(outputs) > 1 or not outputs[0] or _is_file(outputs[0]):
         return None
     return Targets({name: Path(outputs[0], name) for name in names}, are_documents=True)
 
 
-def _is_document(output: str) -> bool:
-    """Whether `-o` names the file of a document: one with an ending, but that of a format."""
+def _is_document(output: str, name: str) -> bool:
+    """Whether `-o` names the file of a document: one with an ending, that of a format if the document has it."""
     path = Path(output)
     is_folder = output.endswith(("/", "\\")) or path.is_dir()
-    return not is_folder and bool(path.suffix) and path.suffix not in _FILE_ENDINGS
+    is_of_format = path.suffix in {".urdf", ".srdf"} and path.suffix != Path(name).suffix
+    return not is_folder and bool(path.suffix) and not is_of_format
 
 
 def file_to_write(output: str | None) -> Path | None:

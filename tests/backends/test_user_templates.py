@@ -384,6 +384,9 @@ def test_methods_that_look_something_up_may_be_called(tmp_path: Path):
     assert rendered(text, tmp_path) == "base False REVOLUTE"
 
 
+NESTED = (
+    "{% set n = namespace(x=[1]) %}{% for i in range(25) %}{% set n.x = [n.x, n.x] %}{% endfor %}{{ n.x | FILTER }}"
+)
 STEPS = "rendering takes more than 1,000,000 steps of templates, where"
 CHARACTERS = "rendering takes more than 33,554,432 characters that templates handle,"
 WIDE = "this template fails here: a width in a format is a number of at most four digits, written in it"
@@ -414,7 +417,10 @@ BLOCK = "{% set y %}{{ n.x }}{{ n.x }}{% endset %}{% set n.x = y %}"
         ("{{ ''.center(999999999) }}", CHARACTERS),
         ("{{ '1'.zfill(999999999) }}", CHARACTERS),
         ("{{ '\\t'.expandtabs(999999999) }}", CHARACTERS),
+        ("{{ '\\t'.expandtabs(tabsize=999999999) }}", CHARACTERS),
         ("{{ 'a\\nb' | indent(999999999) }}", CHARACTERS),
+        (NESTED.replace("FILTER", "to_yaml"), STEPS),
+        (NESTED.replace("FILTER", "tojson"), STEPS),
         ("{{ ('a' * 99999) | replace('a', 'b' * 99999) }}", CHARACTERS),
         ("{{ ('a' * 99999).replace('a', 'b' * 99999) }}", CHARACTERS),
         ("{{ ('a' * 99999).join(range(99999) | list | map('string') | list) }}", CHARACTERS),

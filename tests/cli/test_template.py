@@ -108,6 +108,16 @@ def test_the_only_document_may_have_a_file_of_another_name(folder: Path):
     assert "would be replaced" in compile_by(folder, "-o", "arm.robot.yaml", expect=2)[1]
 
 
+@pytest.mark.parametrize("name", ["scene.xml", "scene.urdf"])
+def test_a_document_of_xml_is_not_taken_for_the_urdf(name: str, folder: Path):
+    (folder / "own").mkdir()
+    (folder / "own" / f"{name}.j2").write_text("<mujoco/>")
+    (folder / "t").rename(folder / "notes")
+    (folder / "own").rename(folder / "t")
+    compile_by(folder, "-o", f"my_{name}")
+    assert (folder / f"my_{name}").read_text() == "<mujoco/>\n"
+
+
 def test_a_folder_without_templates_is_refused_in_python_as_by_the_command(folder: Path):
     (folder / "other" / "urdf").mkdir(parents=True)
     (folder / "other" / "urdf" / "lnik.xml.j2").touch()
