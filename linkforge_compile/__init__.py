@@ -17,11 +17,12 @@ from typing import TYPE_CHECKING
 from linkforge_compile._version import __version__
 
 if TYPE_CHECKING:
-    from linkforge_compile.backends import render_srdf, render_urdf
-    from linkforge_compile.backends.source_map import SourceMap, render_srdf_with_map, render_urdf_with_map
-    from linkforge_compile.backends.user_templates import TemplateError, render_templates
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
+    from linkforge_compile.export_spec import write_spec
+    from linkforge_compile.formats import render_srdf, render_urdf
+    from linkforge_compile.formats.source_map import SourceMap, render_srdf_with_map, render_urdf_with_map
+    from linkforge_compile.formats.user_templates import TemplateError, render_templates
     from linkforge_compile.importing import Import, import_urdf
     from linkforge_compile.pipeline import (
         Compilation,
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
         compile_text,
     )
     from linkforge_compile.source import Span
-    from linkforge_compile.writers import write_spec
 
 __all__ = [
     "Compilation",
@@ -67,20 +67,20 @@ _HOMES = {
     "Import": "importing",
     "Robot": "core",
     "Severity": "diagnostics",
-    "SourceMap": "backends.source_map",
+    "SourceMap": "formats.source_map",
     "Span": "source",
-    "TemplateError": "backends.user_templates",
+    "TemplateError": "formats.user_templates",
     "check_file": "pipeline",
     "check_text": "pipeline",
     "compile_file": "pipeline",
     "compile_text": "pipeline",
     "import_urdf": "importing",
-    "render_srdf": "backends",
-    "render_srdf_with_map": "backends.source_map",
-    "render_templates": "backends.user_templates",
-    "render_urdf": "backends",
-    "render_urdf_with_map": "backends.source_map",
-    "write_spec": "writers",
+    "render_srdf": "formats",
+    "render_srdf_with_map": "formats.source_map",
+    "render_templates": "formats.user_templates",
+    "render_urdf": "formats",
+    "render_urdf_with_map": "formats.source_map",
+    "write_spec": "export_spec",
 }
 
 

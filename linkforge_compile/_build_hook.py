@@ -19,7 +19,7 @@ class MadeFiles(BuildHookInterface[Any]):  # Any: the configuration of whatever 
             return
         # The sources that are built, whatever linkforge is installed.
         sys.path.insert(0, self.root)
-        from linkforge_compile.backends.environment import compile_templates
+        from linkforge_compile.formats.environment import compile_templates
         from linkforge_compile.schema.registry import linked_schema_text
 
         self._folder = TemporaryDirectory()

@@ -7,25 +7,25 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.backends import render_srdf, render_urdf
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.suggest import suggesting
+from linkforge_compile.expand import XACRO, Arguments, Loader, SpecFile, Used
+from linkforge_compile.expand.assembly import count_entries
+from linkforge_compile.formats import render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.importers.document import Imported
-from linkforge_compile.lowering import MeshSolids
-from linkforge_compile.modules import XACRO, Arguments, Loader, SpecFile, Used
-from linkforge_compile.modules.assembly import count_entries
+from linkforge_compile.lower import MeshSolids
 from linkforge_compile.pipeline import Judged, Packages, Parameters, Settings, gc_paused, judged
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlMap, read
 
 if TYPE_CHECKING:
-    from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
-    from linkforge_compile.modules.semantic import Semantic
+    from linkforge_compile.expand.semantic import Semantic
+    from linkforge_compile.formats.urdf.sensor import Gazebo
 
 _RENDERED = (render_urdf, render_srdf)
 """What makes the documents of an import again, in their order."""
@@ -144,9 +144,9 @@ def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
 
 
 def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
-    from linkforge_compile.backends.limits import check_written_twice
-    from linkforge_compile.backends.parts import doubtful_parts_of_urdf
-    from linkforge_compile.backends.relative_paths import lost_on_the_way
+    from linkforge_compile.formats.limits import check_written_twice
+    from linkforge_compile.formats.parts import doubtful_parts_of_urdf
+    from linkforge_compile.formats.relative_paths import lost_on_the_way
     from linkforge_compile.importers.srdf import with_srdf
 
     loader = settings.loader(urdf.path)
@@ -204,8 +204,8 @@ _Read = tuple[SourceFile, Imported]
 
 
 def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnostics) -> Semantic | None:
-    from linkforge_compile.modules.semantic import open_semantic
-    from linkforge_compile.modules.xacro import XacroUse
+    from linkforge_compile.expand.semantic import open_semantic
+    from linkforge_compile.expand.xacro import XacroUse
 
     # Its user named it as he named the URDF, and a xacro of MoveIt includes what lies in a package of its own.
     loader.roots = loader.roots.with_those_around(srdf)
@@ -231,7 +231,7 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader,
 
 
 def _read_xacro(xacro: Path, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
-    from linkforge_compile.modules.xacro import XacroUse, read_xacro
+    from linkforge_compile.expand.xacro import XacroUse, read_xacro
 
     expanded = read_xacro(
         XacroUse(xacro, Used(str(xacro), None), arguments, taken=taken), loader, sink, keeps_refused=True

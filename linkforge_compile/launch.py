@@ -24,7 +24,7 @@ from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.parameter_descriptions import ParameterValue
 
-from linkforge_compile.modules import XACRO
+from linkforge_compile.expand import XACRO
 from linkforge_compile.pipeline import CompileError, Packages, Told, compile_file, parameters_of
 from linkforge_compile.stamps import Stamps
 
@@ -33,9 +33,9 @@ if TYPE_CHECKING:
 
     from launch import LaunchContext
 
-    from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
-    from linkforge_compile.modules.listing import ListedParameter
+    from linkforge_compile.expand.listing import ListedParameter
+    from linkforge_compile.formats.urdf.sensor import Gazebo
 
     Asked: TypeAlias = tuple[str | None, Mapping[str, Told]]
     Words: TypeAlias = str | Substitution | Sequence[str | Substitution]
@@ -168,7 +168,7 @@ class RobotDescription:
         self._require_values(variant, values)
         asked = (variant, values)
         if self._made is None or not self._made.holds(context, asked):
-            from linkforge_compile.backends import render_srdf, render_urdf
+            from linkforge_compile.formats import render_srdf, render_urdf
 
             began, files = time_ns(), Stamps(())
             robot, read = self._compile(variant, values)

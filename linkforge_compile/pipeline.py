@@ -12,16 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.backends import require_dialect, srdf_limits, urdf_limits
 from linkforge_compile.bounds import Budget
 from linkforge_compile.checks import check
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.bounds import VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
 from linkforge_compile.diagnostics.suggest import suggesting
-from linkforge_compile.fresh_stack import on_fresh_stack
-from linkforge_compile.lowering import MeshSolids, lower
-from linkforge_compile.modules import (
+from linkforge_compile.expand import (
     XACRO,
     Arguments,
     Loader,
@@ -33,13 +30,16 @@ from linkforge_compile.modules import (
     arguments_from_values,
     expand,
 )
+from linkforge_compile.formats import require_dialect, srdf_limits, urdf_limits
+from linkforge_compile.fresh_stack import on_fresh_stack
+from linkforge_compile.lower import MeshSolids, lower
 from linkforge_compile.roots import ANYWHERE, Roots
 
 if TYPE_CHECKING:
-    from linkforge_compile.backends.urdf.sensor import Gazebo
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics.ignores import Ignore
-    from linkforge_compile.modules.listing import Listing
+    from linkforge_compile.expand.listing import Listing
+    from linkforge_compile.formats.urdf.sensor import Gazebo
 
 __all__ = [
     "Compilation",
@@ -202,7 +202,7 @@ def check_variants(
 
     Together they may take what five compiles may: LF3304 is told of the one that takes more, the last that is checked.
     """
-    from linkforge_compile.modules.variants import names_of_variants
+    from linkforge_compile.expand.variants import names_of_variants
 
     file, whole = Path(path), Budget(times=5, code=VARIANTS_BEYOND_LIMIT)
     settings = Settings(parameters, packages, None, gazebo, Unset.NOTE, allow_outside=allow_outside, whole=whole)
@@ -218,13 +218,13 @@ def parameters_of(
 
     Those of a xacro file are the arguments that it and what it includes declare; none is declared by a URDF.
     """
-    from linkforge_compile.modules.listing import list_parameters
+    from linkforge_compile.expand.listing import list_parameters
 
     sink, loader = Diagnostics(), Settings(packages=packages, allow_outside=allow_outside).loader(Path(path))
     listing = None
     try:
         if Path(path).suffix.lower() == XACRO:
-            from linkforge_compile.modules.xacro_arguments import list_arguments
+            from linkforge_compile.expand.xacro_arguments import list_arguments
 
             listing = list_arguments(Path(path), loader, sink)
         elif spec := loader.open(Path(path), sink):
@@ -269,7 +269,7 @@ def _compile_file(path: str | Path, settings: Settings) -> Compilation:
         return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
 
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
-        from linkforge_compile.modules.xacro import XacroUse, open_xacro
+        from linkforge_compile.expand.xacro import XacroUse, open_xacro
 
         return open_xacro(XacroUse(file, Used(str(path), None), settings.arguments(loader, sink)), loader, sink)
 
@@ -301,7 +301,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
         robot = robot_of(spec, settings, loader, meshes, sink) if spec else None
         if robot is not None and robot.extra_elements:
             # Not asked of a robot that is judged: an import keeps raw what has the name of another.
-            from linkforge_compile.backends.raw_names import check_raw_names
+            from linkforge_compile.formats.raw_names import check_raw_names
 
             sink.report_all(check_raw_names(robot))
         ignores = loader.ignores
@@ -333,7 +333,7 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
         sink.report_all(urdf_limits(lowered.robot, gazebo=settings.gazebo))
         sink.report_all(srdf_limits(lowered.robot))
         if settings.output is not None:
-            from linkforge_compile.backends.relative_paths import lost_on_the_way
+            from linkforge_compile.formats.relative_paths import lost_on_the_way
 
             sink.report_all(lost_on_the_way(lowered.robot, settings.output))
     return lowered.robot

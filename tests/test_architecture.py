@@ -27,28 +27,27 @@ MAY_IMPORT = {
     "schema": "source diagnostics syntax units resources expressions",
     "core": "manifest source units roots shape_order",
     "importers": "banner source diagnostics bounds units syntax core shape_order",
-    "modules": "source diagnostics bounds units syntax schema expressions importers manifest roots",
-    "lowering": "source diagnostics bounds units syntax modules core roots shape_order",
+    "expand": "source diagnostics bounds units syntax schema expressions importers manifest roots",
+    "lower": "source diagnostics bounds units syntax expand core roots shape_order",
     "checks": "source diagnostics units core roots",
-    "backends": "source diagnostics bounds units core resources roots shape_order",
-    "_build_hook": "schema backends",
-    "writers": "source units syntax core modules shape_order",
-    "compare": "units core backends shape_order",
+    "formats": "source diagnostics bounds units core resources roots shape_order",
+    "_build_hook": "schema formats",
+    "export_spec": "source units syntax core expand shape_order",
+    "compare": "units core formats shape_order",
     "pipeline": (
-        "source diagnostics bounds units syntax schema importers modules lowering checks backends core roots "
-        "fresh_stack"
+        "source diagnostics bounds units syntax schema importers expand lower checks formats core roots fresh_stack"
     ),
-    "importing": "source diagnostics bounds syntax importers modules core lowering backends pipeline fresh_stack",
-    "launch": "diagnostics backends core modules pipeline stamps",
-    "editor": "diagnostics syntax schema modules lowering core roots resources backends fresh_stack",
+    "importing": "source diagnostics bounds syntax importers expand core lower formats pipeline fresh_stack",
+    "launch": "diagnostics formats core expand pipeline stamps",
+    "editor": "diagnostics syntax schema expand lower core roots resources formats fresh_stack",
     "cli": (
-        "banner source diagnostics bounds roots core checks schema modules pipeline importing backends writers compare "
-        "editor resources stamps _version"
+        "banner source diagnostics bounds roots core checks schema expand pipeline importing formats export_spec "
+        "compare editor resources stamps _version"
     ),
 }
 
 # `Robot.export_urdf` and `export_srdf` are methods because the contract says so: the one place that reaches up.
-REACHES_UP = {("core/models/robot.py", room) for room in ("diagnostics", "checks", "backends")}
+REACHES_UP = {("core/models/robot.py", room) for room in ("diagnostics", "checks", "formats")}
 
 FACES = {"__init__", "__main__"}
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 
 from linkforge_compile import compile_text, pipeline
-from linkforge_compile.lowering import lower
+from linkforge_compile.lower import lower
 
 BALL = "linkforge: 1\nname: ball\nlinks: {base: }\n"
 

@@ -72,7 +72,7 @@ def test_the_sdist_builds_the_same_wheel(wheel: Path, tmp_path: Path):
     assert built_by_hatchling(source, "wheel", tmp_path / "wheel").read_bytes() == wheel.read_bytes()
 
 
-LOADER = "from linkforge_compile.backends.environment import own_environment as e; print(type(e().loader).__name__)"
+LOADER = "from linkforge_compile.formats.environment import own_environment as e; print(type(e().loader).__name__)"
 
 
 def test_an_installed_wheel_uses_its_compiled_templates_as_long_as_they_are_of_this_jinja2(wheel: Path, tmp_path: Path):

@@ -16,10 +16,10 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator, Mapping, Sequence
 
-    from linkforge_compile.backends.user_templates import TemplateFolder
     from linkforge_compile.cli.targets import Targets
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.formats.user_templates import TemplateFolder
     from linkforge_compile.pipeline import Compilation
 
 _Options: TypeAlias = "Mapping[str, Mapping[str, object]]"
@@ -109,7 +109,7 @@ def _options(arguments: argparse.Namespace) -> _Options:
 
 
 def _rendered(robot: Robot, banner: str | None, targets: Targets, options: _Options) -> tuple[Output, ...]:
-    from linkforge_compile.backends import BACKENDS
+    from linkforge_compile.formats import BACKENDS
 
     return tuple(
         Output(path, BACKENDS[format_](robot, banner=banner, **options[format_]))
@@ -120,7 +120,7 @@ def _rendered(robot: Robot, banner: str | None, targets: Targets, options: _Opti
 def _of_templates(
     robot: Robot, banner: str | None, targets: Targets, templates: TemplateFolder, arguments: argparse.Namespace
 ) -> tuple[tuple[Output, ...], tuple[Diagnostic, ...]]:
-    from linkforge_compile.backends.user_templates import TemplateError
+    from linkforge_compile.formats.user_templates import TemplateError
 
     try:
         if targets.are_documents:
@@ -133,8 +133,8 @@ def _of_templates(
 
 
 def _with_maps(robot: Robot, banner: str | None, targets: Targets, options: _Options) -> Iterator[Output]:
-    from linkforge_compile.backends.map_file import ENDING, map_text
-    from linkforge_compile.backends.source_map import WITH_MAP
+    from linkforge_compile.formats.map_file import ENDING, map_text
+    from linkforge_compile.formats.source_map import WITH_MAP
 
     for format_, path in targets.paths.items():
         assert path is not None, "a map lies beside a file"

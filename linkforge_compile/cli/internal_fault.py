@@ -17,7 +17,7 @@ def confess(fault: Exception, words: Sequence[str]) -> int:
     """
     import traceback
 
-    from linkforge_compile.backends.own_templates import TemplateFaultError
+    from linkforge_compile.formats.own_templates import TemplateFaultError
     from linkforge_compile.source.characters import on_one_line
 
     if isinstance(fault, TemplateFaultError):

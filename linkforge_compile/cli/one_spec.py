@@ -15,7 +15,7 @@ from linkforge_compile.cli.options import packages_of
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.backends.urdf.sensor import Gazebo
+    from linkforge_compile.formats.urdf.sensor import Gazebo
     from linkforge_compile.pipeline import Compilation
 
 STDIN = "<stdin>"

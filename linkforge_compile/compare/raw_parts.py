@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from linkforge_compile.backends.node import Node, inline, is_text
-from linkforge_compile.backends.raw import nodes_of
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.formats.node import Node, inline, is_text
+from linkforge_compile.formats.raw import nodes_of
 
 
 @dataclass(frozen=True)

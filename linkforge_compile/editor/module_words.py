@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from linkforge_compile.modules.listing import ListedParameter
+from linkforge_compile.expand.listing import ListedParameter
 from linkforge_compile.schema.json_types import Schema
 
 

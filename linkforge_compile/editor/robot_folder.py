@@ -69,7 +69,7 @@ class RobotFolder:
         }
 
     def _texts(self, name: str) -> dict[str, str]:
-        from linkforge_compile.backends.own_templates import render_own
+        from linkforge_compile.formats.own_templates import render_own
 
         words = {
             "name": name,

@@ -10,17 +10,17 @@ from pathlib import Path
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.diagnostics.suggest import suggesting
-from linkforge_compile.fresh_stack import on_fresh_stack
-from linkforge_compile.lowering import lower
-from linkforge_compile.modules import (
+from linkforge_compile.expand import (
     Arguments,
     Instance,
     Loader,
     Unset,
     expand,
 )
-from linkforge_compile.modules.assembly import joint_name_of
-from linkforge_compile.modules.listing import ListedParameter, list_parameters, list_used
+from linkforge_compile.expand.assembly import joint_name_of
+from linkforge_compile.expand.listing import ListedParameter, list_parameters, list_used
+from linkforge_compile.fresh_stack import on_fresh_stack
+from linkforge_compile.lower import lower
 from linkforge_compile.roots import Roots
 from linkforge_compile.syntax import YamlEntry, YamlMap
 

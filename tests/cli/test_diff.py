@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft7Validator
 
-from linkforge_compile.writers import write_spec
-from tests.backends.everything import everything
+from linkforge_compile.export_spec import write_spec
 from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
+from tests.formats.everything import everything
 
 SCHEMA = Draft7Validator(json.loads((ROOT / "docs" / "diff.schema.json").read_text("utf-8")))
 

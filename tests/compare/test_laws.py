@@ -19,9 +19,9 @@ from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.part import Inside
+from tests.export_spec.test_every_field import full, parts
 from tests.strategies import robots
 from tests.test_coverage import CLASSES
-from tests.writers.test_every_field import full, parts
 
 UNTOLD = {"source", "resource_resolver", "axis_as_written", "shape_order", "after_links"}
 """Fields that say where and how it was written."""

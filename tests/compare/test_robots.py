@@ -23,8 +23,8 @@ from linkforge_compile.core import (
     Vector3,
     Visual,
 )
-from linkforge_compile.writers import write_spec
-from tests.backends.everything import everything
+from linkforge_compile.export_spec import write_spec
+from tests.formats.everything import everything
 
 SPEC = """\
 linkforge: 1

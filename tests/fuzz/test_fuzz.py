@@ -43,5 +43,5 @@ def test_fuzzing_finds_nothing(
     if target in ("compile", "import"):
         log = capfd.readouterr().err
         watched = {line.rpartition(" ")[2] for line in log.splitlines() if line.startswith("INFO: Instrumenting")}
-        modules = ("pipeline", "importing", "lowering.joint", "checks.joints", "backends.urdf", "importers.urdf")
+        modules = ("pipeline", "importing", "lower.joint", "checks.joints", "formats.urdf", "importers.urdf")
         assert watched >= {f"linkforge_compile.{module}" for module in modules}

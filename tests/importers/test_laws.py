@@ -15,7 +15,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.importers.orders import named_colors
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.source import SourceFile
-from tests.writers.test_laws import compiled, few, robots
+from tests.export_spec.test_laws import compiled, few, robots
 
 
 def said_by_urdf(robot: Robot) -> Robot:

@@ -15,7 +15,7 @@ from linkforge_compile.cli.telling import add_telling_options
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.backends.user_templates import TemplateFolder
+    from linkforge_compile.formats.user_templates import TemplateFolder
 
 _EXAMPLES = """\
 examples:
@@ -99,7 +99,7 @@ def order(arguments: argparse.Namespace) -> Order:
 
 
 def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:
-    from linkforge_compile.backends.user_templates import TemplateFolder
+    from linkforge_compile.formats.user_templates import TemplateFolder
 
     folder = arguments.template
     if not folder:

@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     if tell(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import refuse_to_replace, write_if_changed, write_to_stdout
-    from linkforge_compile.writers import write_spec
+    from linkforge_compile.export_spec import write_spec
 
     output = file_to_write(arguments.output)
     refuse_to_replace(compilation.files, [output])

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import argparse
 
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.writers import ComputedFrom, Explanation, NameStory, Place, UnknownPathError
+    from linkforge_compile.export_spec import ComputedFrom, Explanation, NameStory, Place, UnknownPathError
 
 _EXAMPLES = """\
 PATH is that of the value in the finished robot: the language's keys in their long form, and final names.
@@ -80,7 +80,7 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     if tell(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import write_to_stdout
-    from linkforge_compile.writers import UnknownPathError, explain
+    from linkforge_compile.export_spec import UnknownPathError, explain
 
     try:
         explanation = explain(compilation.robot, path)

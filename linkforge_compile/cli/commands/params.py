@@ -12,7 +12,7 @@ from linkforge_compile.cli.telling import add_telling_options, tell
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.modules.listing import ListedParameter, Listing, Plain
+    from linkforge_compile.expand.listing import ListedParameter, Listing, Plain
 
 _EXAMPLES = """\
 examples:

@@ -15,8 +15,8 @@ from linkforge_compile.source import SourceFile
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.backends.map_file import MapFile, Stretch
     from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.formats.map_file import MapFile, Stretch
     from linkforge_compile.source import Span
 
 _EXAMPLES = """\
@@ -88,7 +88,7 @@ def _text_of(path: Path) -> str:
 
 def _map_of(path: Path, document: str) -> MapFile:
     """Read the map of a document; UsageError for none, with how to get one."""
-    from linkforge_compile.backends.map_file import ENDING, NoMapError, read_map
+    from linkforge_compile.formats.map_file import ENDING, NoMapError, read_map
 
     beside = path.with_name(path.name + ENDING)
     if not beside.exists():
@@ -103,7 +103,7 @@ def _map_of(path: Path, document: str) -> MapFile:
 
 
 def _faults_of(path: Path, document: str, source_map: MapFile) -> list[Diagnostic]:
-    from linkforge_compile.backends.map_file import hash_of
+    from linkforge_compile.formats.map_file import hash_of
 
     if source_map.sha256 == hash_of(document):
         return []
@@ -173,8 +173,8 @@ class _Sources:
         return whole._replace(line=line, column=column, end_line=line, end_column=end)
 
     def _whole(self, number: int) -> Span:
-        from linkforge_compile.backends.map_file import hash_of
         from linkforge_compile.diagnostics.codes.backends import SOURCE_NOT_SHOWN
+        from linkforge_compile.formats.map_file import hash_of
 
         source = self.map.sources[number]
         name = _from_here(self._folder / source.path)

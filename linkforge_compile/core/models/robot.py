@@ -310,7 +310,7 @@ class Robot(RobotParts):
 
         """
         # The contract makes exporting a method: here alone the core reaches up to the rooms that use it.
-        from linkforge_compile.backends import render_urdf
+        from linkforge_compile.formats import render_urdf
 
         if validate:
             self._refuse_errors()
@@ -323,7 +323,7 @@ class Robot(RobotParts):
             RobotGeneratorError: With `validate`, the errors that were found, a line each.
 
         """
-        from linkforge_compile.backends import render_srdf
+        from linkforge_compile.formats import render_srdf
 
         if validate:
             self._refuse_errors()

@@ -1,0 +1,164 @@
+"""Where values come from: what gave each name its value, what that beat, and where a value was written in the end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.expand.values import describe
+from linkforge_compile.expressions import FAULT, forgotten_expression, handed_on
+from linkforge_compile.source import ComputedSpan, Key, Origin
+from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
+
+if TYPE_CHECKING:
+    from linkforge_compile.expand.evaluate_tree import TreeEvaluator
+
+Path: TypeAlias = tuple[str | int, ...]
+
+_AXES = {"x": 0, "y": 1, "z": 2}
+_MOST_STEPS = 10_000
+_LONGEST_TEXT = 60
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """What gives a name its value.
+
+    `by` says who: "with", "the default". The value is the part at `path` of what `node` says, which `tree` computes;
+    `tree` is None where no `$(` is an expression. `is_made` where the value itself stands nowhere, as those that a
+    `for` counts. `named_by` is what names the file in which `node` stands, and `instead_of` what would have set the
+    name otherwise, the next in line first.
+    """
+
+    by: str
+    node: YamlNode
+    tree: TreeEvaluator | None = None
+    path: Path = ()
+    is_made: bool = False
+    named_by: YamlNode | None = None
+    instead_of: tuple[Setting, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class ExpressionTrace:
+    """One expression and the scope in which it was computed: from there its value can be followed back."""
+
+    scalar: YamlScalar
+    tree: TreeEvaluator
+
+    def origin(self, path: Path) -> Origin | None:
+        """Return where the part at a path of the value was written; None where the expression itself made it."""
+        node, is_data, key, _ = _written(self.scalar, self.tree, path)
+        if node is self.scalar or isinstance(node, YamlFault):
+            return None
+        return Origin((node.key_span(key) if key else None) or node.span, is_data)
+
+    def meant(self, path: Path) -> str | None:
+        """Return the expression that the part at a path seems meant for, which is text; None for anything else."""
+        written = _written(self.scalar, self.tree, path)
+        node, tree = written.node, written.tree
+        if tree is None or written.key or not isinstance(node, YamlScalar) or has_expression(node.text):
+            return None
+        return forgotten_expression(node.text, node.span, tree.scope) if isinstance(node.value, str) else None
+
+
+class NameOrigin(NamedTuple):
+    """How a name of an expression got its value: `names` are those that the value was computed from in turn."""
+
+    name: str
+    value: str
+    setting: Setting
+    names: tuple[NameOrigin, ...]
+
+
+def names_behind(node: YamlNode) -> tuple[NameOrigin, ...]:
+    """Return how the names got their values that the expressions use from which a node was computed.
+
+    A name that several others take is told of once.
+    """
+    return tuple(_names_of(node, None, set()))
+
+
+def _names_of(node: YamlNode, writer: TreeEvaluator | None, told: set[Setting]) -> Iterator[NameOrigin]:
+    for name, tree in _names_in(node, writer):
+        setting = tree.settings.get(name)
+        if setting is None or setting in told:
+            continue
+        told.add(setting)
+        value = tree.scope.lookup(name, Diagnostics())
+        shown = "unknown" if value is FAULT else describe(value)
+        if isinstance(value, str):
+            shown = shown if len(shown) < _LONGEST_TEXT else f"{shown[:_LONGEST_TEXT]}…'"
+        else:
+            shown = shown.strip("'")
+        within = tuple(_names_of(setting.named_by or setting.node, setting.tree, told))
+        yield NameOrigin(name, shown, setting, within)
+
+
+def _names_in(node: YamlNode, tree: TreeEvaluator | None) -> Iterator[tuple[str, TreeEvaluator]]:
+    """Yield the names that the expressions in a node use, in the order of the text, and what computed each."""
+    span = node.span
+    if isinstance(span, ComputedSpan) and isinstance(span.trace, ExpressionTrace):
+        node, tree = span.trace.scalar, span.trace.tree
+    match node:
+        case YamlScalar() if tree:
+            template = tree.expressions.template(node, Diagnostics()) if has_expression(node.text) else None
+            yield from ((name, tree) for name in (template.names_in_order if template else ()))
+        case YamlList():
+            for item in node:
+                yield from _names_in(item, tree)
+        case YamlMap():
+            for entry in node:
+                yield from _names_in(entry.value, tree)
+
+
+class _Written(NamedTuple):
+    """A node that says a value; `key` where it is the key of the node that is meant, not what stands under it.
+
+    `tree` is what computes the node, None where no `$(` is an expression.
+    """
+
+    node: YamlNode
+    is_data: bool
+    key: Key | None = None
+    tree: TreeEvaluator | None = None
+
+
+def _written(node: YamlNode, tree: TreeEvaluator | None, path: Path) -> _Written:
+    """Follow a value through the names that hand it on; what computes it is where it was written."""
+    is_data = False
+    for _ in range(_MOST_STEPS):
+        span = node.span
+        if isinstance(span, ComputedSpan) and isinstance(span.trace, ExpressionTrace):
+            node, tree, path = span.trace.scalar, span.trace.tree, (*span.path, *path)
+        elif isinstance(node, YamlScalar) and tree and has_expression(node.text):
+            template = tree.expressions.template(node, Diagnostics())
+            taken = handed_on(template, tree.scope_of(node)) if template else None
+            setting = tree.settings.get(taken[0]) if taken else None
+            if taken is None or setting is None or setting.is_made:
+                break
+            node, tree, path = setting.node, setting.tree, (*setting.path, *taken[1], *path)
+            is_data = is_data or setting.named_by is not None
+        elif not path:
+            break
+        elif isinstance(path[0], Key):
+            return _Written(node, is_data, path[0])
+        else:
+            inner = _part(node, path[0])
+            if inner is None:
+                break
+            node, path = inner, path[1:]
+    return _Written(node, is_data, None, tree)
+
+
+def _part(node: YamlNode, key: str | int) -> YamlNode | None:
+    """Return what a node says under a key, as expressions reach into values."""
+    if isinstance(node, YamlMap):
+        return node.child(str(key))
+    if isinstance(node, YamlList):
+        position = _AXES.get(key) if isinstance(key, str) else key
+        if position is not None and -len(node) <= position < len(node):
+            return node.items[position]
+    return None

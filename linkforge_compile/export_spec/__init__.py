@@ -1,0 +1,43 @@
+"""A robot written back as a spec, and how each of its values came to be."""
+
+from __future__ import annotations
+
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.export_spec.computed_inertia import ComputedFrom
+from linkforge_compile.export_spec.explain import Explanation, UnknownPathError, explain
+from linkforge_compile.export_spec.pen import Pen
+from linkforge_compile.export_spec.place import Place
+from linkforge_compile.export_spec.provenance import compiled_folder, origin_of
+from linkforge_compile.export_spec.robot import spec_of
+from linkforge_compile.export_spec.stories import NameStory
+from linkforge_compile.syntax.writer import write
+
+__all__ = [
+    "ComputedFrom",
+    "Explanation",
+    "NameStory",
+    "Pen",
+    "Place",
+    "UnknownPathError",
+    "explain",
+    "spec_of",
+    "write_spec",
+]
+
+
+def write_spec(robot: Robot, *, banner: str | None = None, origins: bool = False) -> str:
+    """Return a robot as a flat spec; compiled, it gives an equal robot and the same URDF and SRDF (see `spec_of`).
+
+    `banner` becomes a comment at the top, None for none. With `origins`, each part of a robot that was compiled is
+    preceded by a comment that says where it was written.
+
+    Raises:
+        RobotGeneratorError: for two parts of one name where a spec can hold only one.
+
+    """
+    pen = Pen()
+    tree = spec_of(robot, pen)
+    folder = compiled_folder(robot)
+    comments = {key: origin_of(source, folder) for key, source in pen.parts.items()} if origins else {}
+    heading = "".join(f"# {line}\n" for line in (banner or "").splitlines())
+    return heading + write(tree, comments)

@@ -1,0 +1,216 @@
+"""How a value of a finished robot came to be: what it is, where it was written, and through which files it came."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.export_spec.computed_inertia import ComputedFrom, computed_from
+from linkforge_compile.export_spec.pen import Pen
+from linkforge_compile.export_spec.place import Place, place_of
+from linkforge_compile.export_spec.robot import spec_of
+from linkforge_compile.export_spec.stories import NameStory, stories
+from linkforge_compile.source import Change, Span
+from linkforge_compile.source.ref import Located
+from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.writer import write
+
+_SHORT_FORMS = {"origin": "xyz", "box": "size", "sphere": "radius", "mesh": "file", "color": "rgba"}
+"""What an object means of which only one value is written: `origin: [x, y, z]` is its `xyz`."""
+
+
+class UnknownPathError(LookupError):
+    """A path leads nowhere: `owner` is as far as it leads, "" for the robot itself, and `names` is what is there.
+
+    `paths` lead to what has a name, by that name: for who gives the name alone.
+    """
+
+    def __init__(self, owner: str, name: str, names: Sequence[str], paths: Mapping[str, str]) -> None:
+        self.owner = owner
+        self.name = name
+        self.names = tuple(names)
+        self.paths = paths
+        place = f"'{owner}'" if owner else "the robot"
+        super().__init__(f"there is no '{name}' in {place}")
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """A value of a finished robot.
+
+    `text` is what a spec writes for it, after its path, with the unit of a number. `place` is where it was written;
+    where `is_written` is False, nothing was for the value itself, and `place` is the nearest thing around it that
+    was; None for a robot that was built in Python. `expression` is what was computed there, None if nothing, `names`
+    how the names in it got their values, and `origin` where the value was written that it hands on as it is, None for
+    one that it makes itself, or where `names` say so.
+    `trail` lists the `use` that brought the file in, and so on outwards. `replaced` is where that was written which
+    this value took the place of, as an override or as an entry's own word before a default; the last one first.
+    `overridden` is what overrides changed in it, by the path from it.
+    `computed_from` is what a link's inertial was computed from, None for all else.
+    """
+
+    text: str
+    is_written: bool = False
+    place: Place | None = None
+    expression: str | None = None
+    origin: Span | None = None
+    names: tuple[NameStory, ...] = ()
+    trail: tuple[Span, ...] = ()
+    replaced: tuple[Place, ...] = ()
+    overridden: tuple[Change, ...] = ()
+    computed_from: ComputedFrom | None = None
+
+
+class _Step(NamedTuple):
+    """A key, or a position in a list, and what stands there."""
+
+    key: str
+    node: YamlNode
+
+
+def explain(robot: Robot, path: str) -> Explanation:
+    """Explain the value at a path of the language's keys and the robot's final names: `links/base/inertial/mass`.
+
+    Every object has its long form: `links/base/visual/0/origin/xyz/2`; of one visual the 0 may be left out. Names
+    may hold slashes, and the longest is taken with which the rest of the path leads somewhere.
+
+    Raises:
+        UnknownPathError: where the path leads nowhere.
+        RobotGeneratorError: for two parts of one name.
+
+    """
+    pen = Pen(full=True)
+    whole = spec_of(robot, pen)
+    steps = (_Step("", whole), *_steps(whole, path.strip("/"), ""))
+    text = _text("/".join(step.key for step in steps[1:]), steps[-1].node, pen)
+    last = max((place for place, step in enumerate(steps) if step.node in pen.written), default=None)
+    if last is None:
+        return Explanation(text)
+    source, field = pen.written[steps[last].node]
+    keys = (*field, *(step.key for step in steps[last + 1 :]))
+    node, is_written = _deepest(source.node, steps[last].key, keys)
+    place = source.span if node is source.node else node.span
+    trail, computed = source.trail_to(place), computed_from(robot, [step.key for step in steps[1:]])
+    if not is_written:
+        return Explanation(text, False, place_of(place), trail=trail, computed_from=computed)
+    expression = _expression(place)
+    names, origin = ((), None) if expression is None or not isinstance(node, YamlNode) else stories(node)
+    replaced = _replaced(source.node, steps[last].key, keys)
+    overridden = tuple(_overridden(node, ""))
+    return Explanation(text, True, place_of(place), expression, origin, names, trail, replaced, overridden, computed)
+
+
+def _steps(node: YamlNode, path: str, before: str) -> tuple[_Step, ...]:
+    """Return the steps of a path from a node, which lies at `before`."""
+    if not path:
+        return ()
+    fault: UnknownPathError | None = None
+    for step, rest in _ways(node, path, before.rpartition("/")[2]):
+        here = f"{before}/{step.key}".strip("/")
+        try:
+            return (step, *_steps(step.node, rest, here))
+        except UnknownPathError as error:
+            fault = fault or error
+    paths = {} if before else _paths(node)
+    raise fault or UnknownPathError(before, path.partition("/")[0], _names(node), paths)
+
+
+def _ways(node: YamlNode, path: str, key: str) -> Iterator[tuple[_Step, str]]:
+    """Yield the first steps that a path may begin with and what remains of it, longest names first.
+
+    `key` is that of the node: of an object with a short form, `box/0` is `box/size/0`.
+    """
+    if isinstance(node, YamlMap):
+        for name in sorted(node.entries, key=len, reverse=True):
+            if f"{path}/".startswith(f"{name}/"):
+                yield _Step(name, node.entries[name].value), path[len(name) + 1 :]
+        short = _SHORT_FORMS.get(key, "")
+        if isinstance(inner := node.get(short), YamlList) and path.partition("/")[0].isdecimal():
+            yield _Step(short, inner), path
+    elif isinstance(node, YamlList):
+        first, _, rest = path.partition("/")
+        if first.isdecimal() and int(first) < len(node):
+            yield _Step(first, node.items[int(first)]), rest
+        elif len(node) == 1:
+            yield _Step("0", node.items[0]), path
+
+
+def _names(node: YamlNode) -> Sequence[str]:
+    if isinstance(node, YamlMap):
+        return tuple(node.entries)
+    return tuple(map(str, range(len(node)))) if isinstance(node, YamlList) else ()
+
+
+def _paths(robot: YamlNode) -> Mapping[str, str]:
+    """Return the path of every entry of a robot's sections by its name, that of the first of a name."""
+    paths: dict[str, str] = {}
+    for section in robot if isinstance(robot, YamlMap) else ():
+        for name in section.value.entries if isinstance(section.value, YamlMap) else ():
+            paths.setdefault(name, f"{section.name}/{name}")
+    return paths
+
+
+def _deepest(node: Located, name: str, keys: Sequence[str]) -> tuple[Located, bool]:
+    """Follow the keys from what was written under `name`, and return how far that leads; True for all the way."""
+    for key in keys:
+        inner = _written_child(node, name, key)
+        if inner is None:
+            return node, False
+        node, name = inner, key
+    return node, True
+
+
+def _replaced(node: Located, name: str, keys: Sequence[str]) -> tuple[Place, ...]:
+    """Return where what the value took the place of was written: at the deepest key of its way that replaced any."""
+    entry: YamlEntry | None = None
+    for key in keys:
+        if isinstance(node, YamlMap) and key in node.entries and node.entries[key].replaced:
+            entry = node.entries[key].replaced
+        inner = _written_child(node, name, key)
+        if inner is None:
+            break
+        node, name = inner, key
+    places = []
+    while entry:
+        places.append(place_of(entry.value.span))
+        entry = entry.replaced
+    return tuple(places)
+
+
+def _overridden(node: Located, path: str) -> Iterator[Change]:
+    """Yield what overrides changed in what is written at a node, and deeper in it, each with its path."""
+    for change in node.span.changes:
+        yield Change(f"{path}{change.key}", change.span)
+    for entry in node if isinstance(node, YamlMap) else ():
+        yield from _overridden(entry.value, f"{path}{entry.name}/")
+    for position, item in enumerate(node) if isinstance(node, YamlList) else ():
+        yield from _overridden(item, f"{path}{position}/")
+
+
+def _written_child(node: Located, name: str, key: str) -> Located | None:
+    """Return what was written for a key of the long form; what was written short stands for all of it."""
+    if not isinstance(node, YamlMap):
+        is_short = key == _SHORT_FORMS.get(name) or (isinstance(node, YamlScalar) and key.isdecimal())
+        return node if is_short else node.child(int(key)) if key.isdecimal() else None
+    inner = node.get(key)
+    # One object is a list of one.
+    return node if inner is None and key == "0" else inner
+
+
+def _expression(place: Span) -> str | None:
+    text = place.text
+    return text if text and "$(" in text.replace("$$(", "") else None
+
+
+def _text(path: str, node: YamlNode, pen: Pen) -> str:
+    """Return `path: value` as a spec would write it, with the unit of a number or of the numbers in a list."""
+    key = YamlScalar(path, path, node.span)
+    if not path:
+        assert isinstance(node, YamlMap), "a robot is a map"
+        return write(node).rstrip("\n")
+    text = write(YamlMap({path: YamlEntry(key, node)}, node.span)).rstrip("\n")
+    number = node.items[0] if isinstance(node, YamlList) and len(node) else node
+    unit = pen.units.get(number)
+    return text if unit is None else f"{text} {unit.si_unit}"

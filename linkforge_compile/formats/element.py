@@ -1,0 +1,207 @@
+"""Parts of the robot as elements: what their fields state, and then what no field says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Protocol
+
+from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.fields import written_numbers
+from linkforge_compile.core.part import Element, Inside, attribute_pairs
+from linkforge_compile.core.raw_xml import RawXml
+from linkforge_compile.formats.marks import mark, mark_of_attribute, recorded
+from linkforge_compile.formats.markup import NOTHING, Spellable, Xml, escaped, is_xml_name, spelled
+from linkforge_compile.source import SourceRef
+from linkforge_compile.units import double_text
+
+if TYPE_CHECKING:
+    from linkforge_compile.formats.raw import Path
+
+_MOST_SHOWN = 80
+"""Characters of raw XML that a message quotes."""
+
+
+class Extended(Protocol):
+    """A part of the robot that may hold attributes and elements that no field says."""
+
+    @property
+    def extra_attributes(self) -> Sequence[tuple[str, str]] | Mapping[str, str]: ...
+    @property
+    def extra_elements(self) -> Sequence[str]: ...
+    @property
+    def source(self) -> SourceRef | None: ...
+
+
+class RestatedAttributeError(RobotGeneratorError):
+    """An extra attribute, `name`, says again what a field of its part says; `source` is where the part was written."""
+
+    def __init__(self, name: str, source: SourceRef | None) -> None:
+        self.name = name
+        self.source = source
+        super().__init__(f"the attribute '{name}' is stated twice")
+
+
+class RawXmlError(RobotGeneratorError):
+    """Raw XML that cannot be read: `problem` is what is wrong at the index `at` of `text`.
+
+    `begun` is the index of the element that lacks its end, None where it is not that.
+    """
+
+    def __init__(self, problem: str, text: str, at: int, begun: int | None = None) -> None:
+        self.problem, self.text, self.at, self.begun = problem, text, at, begun
+        super().__init__(f"{problem}, in line {text.count(chr(10), 0, at) + 1} of {shown(text)}")
+
+
+def shown(text: str) -> str:
+    """Return raw XML as a message quotes it."""
+    return repr(text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}…")
+
+
+class InsideError(RobotGeneratorError):
+    """What `extra_inside` says cannot be laid into its element.
+
+    `mark` is the line of `marks_of` that said it, `key` the outermost element inside, `others` are further such faults
+    of the same document.
+    """
+
+    def __init__(self, reason: str) -> None:
+        self.mark = self.key = ""
+        self.others: tuple[InsideError, ...] = ()
+        super().__init__(reason)
+
+
+def attributes(part: Extended | None = None, /, **stated: Spellable | None) -> Xml:
+    """Return ` name="value"` for each attribute that is stated, then for those that no field of the part says.
+
+    Raises:
+        RobotGeneratorError: for an extra attribute that says a stated one again, or that is no XML name.
+
+    """
+    if part is None or not (part.extra_attributes or recorded()):
+        return Xml(_stated_alone(stated))
+    extra = attribute_pairs(part.extra_attributes)
+    _require_attributes(part, stated, extra)
+    if recorded():
+        return _marked_attributes(part, stated, extra)
+    return Xml(_stated_alone(stated) + "".join([f' {name}="{escaped(value)}"' for name, value in extra]))
+
+
+def _stated_alone(stated: Mapping[str, Spellable | None]) -> str:
+    text = ""
+    for name, value in stated.items():
+        if value is not None:
+            said = double_text(value) if value.__class__ is float else _quotable(value)  # half of them are floats
+            text = f'{text} {name}="{said}"'
+    return text
+
+
+def attributes_at(source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
+    """Return ` name="value"` for what is no part of its own, but written under a path of one."""
+    return Xml(mark(source, *path) + _stated_alone(stated))
+
+
+def _marked_attributes(part: Extended, stated: Mapping[str, Spellable | None], extra: Iterable[tuple[str, str]]) -> Xml:
+    own = (
+        f'{mark_of_attribute(part.source, name)} {name}="{_quotable(value)}"'
+        for name, value in stated.items()
+        if value is not None
+    )
+    raw = (f'{mark(*place_of_attribute(name, part.source), name)} {name}="{escaped(value)}"' for name, value in extra)
+    return Xml("".join((mark(part.source), *own, *raw)))
+
+
+def place_of_attribute(name: str, where: SourceRef | None) -> tuple[SourceRef | None, *tuple[str, ...]]:
+    """Return where an extra attribute of a part was written that was itself written at `where`, without its name.
+
+    A robot's may come from the files of its modules, so a name that knows its own place stands there.
+    """
+    return (name.source,) if isinstance(name, RawXml) else (where, "extra_attributes")
+
+
+def _quotable(value: Spellable) -> str:
+    return escaped(value) if isinstance(value, str) else spelled(value)
+
+
+def _require_attributes(part: Extended, stated: Mapping[str, object], extra: Iterable[tuple[str, str]]) -> None:
+    seen = {name for name, value in stated.items() if value is not None}
+    for name, _ in extra:
+        require_attribute_name(name)
+        if name in seen:
+            raise RestatedAttributeError(name, part.source)
+        seen.add(name)
+
+
+def require_attribute_name(name: str) -> None:
+    """Raise RobotGeneratorError for what cannot be the name of an attribute."""
+    if not is_xml_name(name):
+        raise RobotGeneratorError(f"'{name}' cannot be the name of an XML attribute")
+
+
+def elements(part: Extended) -> Xml:
+    """Return the elements that no field of the part says, each well-formed by itself; templates place them last.
+
+    Raises:
+        RobotGeneratorError: for raw XML that is not well-formed.
+
+    """
+    inside = inside_of(part)
+    if not inside:
+        return raw(part) if part.extra_elements else NOTHING
+    from linkforge_compile.formats.inside import marks_of
+
+    return Xml("\n".join([*marks_of(inside), raw(part)]))
+
+
+def inside_of(part: Extended) -> Sequence[Inside]:
+    """Return what a part says of elements inside; a link and a robot hold none but parts."""
+    insides: Sequence[Inside] = getattr(part, "extra_inside", ())
+    return insides
+
+
+def raw(part: Extended) -> Xml:
+    """Return the elements that a part says raw.
+
+    Raises:
+        RobotGeneratorError: for raw XML that is not well-formed.
+
+    """
+    if not part.extra_elements:
+        return NOTHING
+    from linkforge_compile.formats.raw import raw_elements
+
+    return Xml("\n".join(raw_elements(text, source, *path) for text, source, path in raw_texts(part, part.source)))
+
+
+def raw_texts(part: Extended, where: SourceRef | None) -> Iterator[tuple[str, SourceRef | None, Path]]:
+    """Yield what a part, which was written at `where`, says raw; each with the path of an object that it stands under.
+
+    A robot's may come from the files of its modules, so what knows its own place stands there.
+    """
+    for number, text in enumerate(part.extra_elements):
+        yield (text, text.source, ()) if isinstance(text, RawXml) else (text, where, ("extra", number))
+
+
+def leaf_at(tag: str, source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
+    """Return an element of attributes that is no part of its own, but written under a path of one."""
+    return Xml(f"<{tag}{attributes_at(source, *path, **stated)}/>")
+
+
+def leaf(tag: str, part: Element, /, **stated: Spellable | None) -> Xml:
+    """Return an element whose fields are all attributes."""
+    if part.extra_attributes or part.extra_elements or part.extra_inside or recorded():
+        return whole(tag, part, NOTHING, **stated)
+    return Xml(f"<{tag}{_stated_alone(stated)}/>")  # nine of ten
+
+
+def numbers_leaf(part: Element, /, **stated: Spellable | None) -> Xml:
+    """Return an element whose attributes are `stated` and its numbers."""
+    return leaf(part.TAG, part, **stated, **dict(written_numbers(part)))
+
+
+def whole(tag: str, part: Element, text: Xml, /, **stated: Spellable | None) -> Xml:
+    """Return an element whose fields are attributes and its text."""
+    start, inner = f"<{tag}{attributes(part, **stated)}", elements(part)
+    if not text:
+        return Xml(f"{start}>\n{inner}\n</{tag}>" if inner else f"{start}/>")
+    # Text and elements side by side are one line: whatever stood between them would be text.
+    return Xml(f"{start}>{text}{inner.replace(chr(10), '')}</{tag}>")

@@ -1,0 +1,173 @@
+"""The Jinja2 environment that renders our own templates, and what that of a user's folder has in common with it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import jinja2
+from jinja2 import (
+    BaseLoader,
+    Environment,
+    FileSystemLoader,
+    ModuleLoader,
+    StrictUndefined,
+    TemplateRuntimeError,
+    pass_eval_context,
+)
+from jinja2.nodes import EvalContext
+
+from linkforge_compile.core.models.geometry import Transform, Vector3
+from linkforge_compile.formats.markup import Spellable, Xml, escaped, spelled
+from linkforge_compile.resources import compiled_templates_folder, templates_folder
+from linkforge_compile.units import number_text
+
+if TYPE_CHECKING:
+    import yaml
+
+XML_ENDINGS = (".xml.j2", ".urdf.j2", ".srdf.j2")
+"""How the names of templates end that write XML."""
+
+_MADE_BY = "jinja2.txt"
+"""The file beside compiled templates that names the version of Jinja2 whose code they are."""
+
+
+def is_xml(template: str | None) -> bool:
+    """Whether a template writes XML, by its name."""
+    return template is not None and template.endswith(XML_ENDINGS)
+
+
+@pass_eval_context
+def finalize(context: EvalContext, value: Spellable | None) -> object:
+    """Return a value as a template writes it: in XML as URDF spells it, escaped, elsewhere as Jinja2 does.
+
+    Raises:
+        TemplateRuntimeError: for what XML has no text for: None, or a part of a robot.
+
+    """
+    if not context.autoescape or hasattr(value, "__html__"):
+        return value
+    if value is None:
+        raise TemplateRuntimeError("this is None, which has no text in XML; test it with '{% if … is not none %}'")
+    try:
+        return Xml(escaped(spelled(value)))
+    except (TypeError, ValueError):
+        raise TemplateRuntimeError(f"{describe(value)} has no text in XML; write one of its fields") from None
+
+
+def describe(value: object) -> str:
+    """Return the kind of a value with its article, for a message."""
+    name = type(value).__name__
+    return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
+
+
+def format_vector(values: Iterable[float]) -> str:
+    """Return numbers as URDF writes a vector: with a space between them."""
+    return " ".join(map(number_text, values))
+
+
+def format_yaml(value: object) -> str:
+    """Return a value as YAML on one line: text in quotes where it needs them, 1e-05 as 1.0e-05.
+
+    Raises:
+        TemplateRuntimeError: for what is no text, number, truth, None, list, map, vector or pose.
+
+    """
+    import yaml
+
+    text: str = yaml.dump(
+        _plain(value), Dumper=_dumper(), default_flow_style=True, allow_unicode=True, sort_keys=False, width=math.inf
+    )
+    return text.removesuffix("\n").removesuffix("\n...")
+
+
+@cache
+def _dumper() -> type[yaml.SafeDumper]:
+    """Return a dumper that writes line breaks as escapes, and quotes what readers other than PyYAML resolve."""
+    import yaml
+
+    class Dumper(yaml.SafeDumper):
+        pass
+
+    def text_node(dumper: Dumper, text: str) -> yaml.ScalarNode:
+        is_on_one_line = text.splitlines() in ([], [text])
+        style = '"' if not is_on_one_line else "'" if _NOT_PLAIN.fullmatch(text) else None
+        return dumper.represent_scalar("tag:yaml.org,2002:str", text, style)
+
+    Dumper.add_representer(str, text_node)
+    return Dumper
+
+
+_NOT_PLAIN = re.compile(
+    r"y|n|yes|no|on|off|[-+]?(\.\d+|\d+(\.\d*)?)(e[-+]?\d+)?|0o[0-7]+|0x[0-9a-f]+|[-+]?\.inf|\.nan", re.IGNORECASE
+)
+"""Text that a reader of YAML 1.1 or of the core schema of 1.2 takes for a truth or a number."""
+
+
+def _plain(value: object) -> object:
+    """Return a value as one of the types that PyYAML knows: those of the model derive from them."""
+    match value:
+        case None | bool():
+            return value
+        case str() | int() | float():
+            return next(kind(value) for kind in (str, int, float) if isinstance(value, kind))
+        case Mapping():
+            return {_plain(key): _plain(item) for key, item in value.items()}
+        case Transform(xyz=xyz, rpy=rpy):
+            return {"xyz": _plain(xyz), "rpy": _plain(rpy)}
+        case Sequence() | Vector3() if not hasattr(value, "_fields"):
+            return [_plain(item) for item in value]
+    raise TemplateRuntimeError(f"{describe(value)} has no text in YAML; write its fields")
+
+
+FILTERS: dict[str, Callable[..., object]] = {
+    "number": number_text,
+    "vector": format_vector,
+    "degrees": math.degrees,
+    "to_yaml": format_yaml,
+}
+"""The filters that templates have beside those of Jinja2."""
+
+OPTIONS: dict[str, Any] = {  # Any: the keyword arguments of Environment, each of its own type
+    "autoescape": is_xml,
+    "finalize": finalize,
+    "undefined": StrictUndefined,
+    "trim_blocks": True,
+    "lstrip_blocks": True,
+    "keep_trailing_newline": True,  # an included template ends its last line
+    "auto_reload": False,
+}
+"""The options of every environment."""
+
+
+@cache
+def own_environment() -> Environment:
+    """Return the environment of our own templates, compiled when the wheel was built where that is possible."""
+    return make_environment(_compiled() or FileSystemLoader(templates_folder()))
+
+
+def compile_templates(folder: Path) -> None:
+    """Write our own templates into a folder as modules of Python, for `own_environment` to load."""
+    make_environment(FileSystemLoader(templates_folder())).compile_templates(folder, zip=None, ignore_errors=False)
+    (folder / _MADE_BY).write_text(f"{jinja2.__version__}\n", "utf-8")
+
+
+def make_environment(loader: BaseLoader) -> Environment:
+    """Return an environment of templates that are trusted."""
+    environment = Environment(loader=loader, **OPTIONS)
+    environment.filters.update(FILTERS)
+    return environment
+
+
+def _compiled() -> BaseLoader | None:
+    """Return what loads compiled templates; None where there are none, or another Jinja2 has compiled them."""
+    folder = compiled_templates_folder()
+    try:
+        made_by = (folder / _MADE_BY).read_text("utf-8").strip()
+    except FileNotFoundError:
+        return None
+    return ModuleLoader(folder) if made_by == jinja2.__version__ else None

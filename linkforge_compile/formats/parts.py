@@ -1,0 +1,206 @@
+"""The parts of a robot that XML may be unable to write, at any depth: looked for once, for whoever looks into them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import fields
+from functools import cache
+from itertools import chain
+from operator import attrgetter
+from types import NoneType
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from linkforge_compile.core.fields import number_fields
+from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.link import Link, LinkPhysics
+from linkforge_compile.core.part import Element
+from linkforge_compile.core.part import Part as BasePart
+from linkforge_compile.formats.element import inside_of
+from linkforge_compile.formats.markup import is_writable
+from linkforge_compile.source import SourceRef
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+Part: TypeAlias = Element | Link | Interface
+"""What becomes an XML element, and may hold what no field says."""
+
+
+class Held(NamedTuple):
+    """A part, where it was written, else what holds it, and the parts around it, outermost first.
+
+    `doubtful` are its fields, by name, with texts in them that XML may be unable to hold.
+    """
+
+    part: Part
+    where: SourceRef | None
+    around: tuple[Part, ...]
+    doubtful: list[tuple[str, object]]
+
+
+class Doubtful(NamedTuple):
+    """The parts that may be unwritable, by their fields or what no field says, and those of them that say such."""
+
+    parts: list[Held]
+    with_extras: list[Held]
+
+
+def doubtful_parts_of_urdf(robot: Robot) -> Doubtful:
+    """Return such parts of what the URDF of a robot writes."""
+    return doubtful_parts_in(
+        tuple(robot.materials.values()),
+        robot.links,
+        robot.joints,
+        robot.sensors,
+        robot.transmissions,
+        robot.ros2_controls,
+        robot.gazebo_elements,
+    )
+
+
+def doubtful_parts_in(*sections: object) -> Doubtful:
+    """Return such parts among parts, or collections of them, and what is in these, `extra_inside` among them.
+
+    Those of numbers and plain texts alone, which are nearly all, are left out: XML can write every one of these.
+    """
+    found = Doubtful([], [])
+    for section in sections:
+        if not _are_plain((section,)):
+            _gather(section, None, (), found)
+    return found
+
+
+def _are_plain(values: Collection[object]) -> bool:
+    """Whether there is certainly no doubtful part in values of any classes.
+
+    Those of a class are asked together, and then the values of each of its fields: a tenth of the walk through all.
+    """
+    return all(_are_plain_of(kind, values) for kind in set(map(type, values)))
+
+
+def _are_plain_of(kind: type, values: Collection[object]) -> bool:
+    """Answer for those of the values that are of a class."""
+    if issubclass(kind, _PARTS):
+        return _are_plain_parts([value for value in values if value.__class__ is kind and isinstance(value, _PARTS)])
+    if issubclass(kind, str):
+        return "".join([value for value in values if isinstance(value, str)]).isprintable()
+    if issubclass(kind, tuple):
+        collections = [value for value in values if isinstance(value, tuple)]
+        return _are_plain(list(chain.from_iterable(collections)))
+    return issubclass(kind, _WITHOUT_TEXT) or all(
+        _is_surely_writable(value) for value in values if value.__class__ is kind
+    )
+
+
+def _are_plain_parts(parts: Sequence[Part]) -> bool:
+    kind: type = parts[0].__class__
+    names, values_of, extras_of = _ways_into(kind)
+    if any(map(any, map(extras_of, parts))):
+        return False
+    columns = zip(*map(values_of, parts), strict=True) if names else ()
+    return all(
+        _are_plain(column) and not (name == RAW_XML and any(column))
+        for name, column in zip(names, columns, strict=True)
+    )
+
+
+def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], found: Doubtful) -> None:
+    if isinstance(value, _PARTS):
+        _gather_part(value, where, around, found)
+    elif isinstance(value, tuple):  # before what is asked of base classes, which takes long
+        for inner in value:
+            _gather(inner, where, around, found)
+    elif isinstance(value, _HOLD_NONE):
+        return
+    elif isinstance(value, Mapping):
+        for inner in value.values():
+            _gather(inner, where, around, found)
+    elif isinstance(value, Sequence):
+        for inner in value:
+            _gather(inner, where, around, found)
+
+
+def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], found: Doubtful) -> None:
+    kind: type = part.__class__
+    names, values_of, extras_of = _ways_into(kind)
+    has_extras = any(extras_of(part))
+    if not (names or has_extras):
+        return
+    inside: list[object] = []
+    doubtful: list[tuple[str, object]] = []
+    for name, value in zip(names, values_of(part), strict=True):
+        if isinstance(value, Element):
+            inside.append(value)
+        elif value:
+            if name == RAW_XML or not _is_surely_writable(value):
+                doubtful.append((name, value))
+            if value.__class__ is not str:
+                inside.append(value)
+    where = part.source or where
+    if doubtful or has_extras:
+        held = Held(part, where, around, doubtful)
+        found.parts.append(held)
+        if has_extras:
+            found.with_extras.append(held)
+            inside.insert(0, inside_of(part))
+    around = (*around, part)
+    for inner in inside:
+        _gather(inner, where, around, found)
+
+
+def _is_surely_writable(value: object) -> bool:
+    """Whether a field is texts that XML can hold, or parts, which are looked at by themselves; any other may be so."""
+    if isinstance(value, str):
+        # What Python would print as it stands has none of the characters that XML cannot hold.
+        return value.isprintable() or is_writable(value)
+    if isinstance(value, LinkPhysics):
+        return type(value.self_collide) is type(value.gravity) is bool
+    return isinstance(value, BasePart) or (isinstance(value, tuple) and all(map(_is_surely_writable, value)))
+
+
+# A union takes three times as long to ask.
+_PARTS = (Element, Link, Interface)
+
+_WITHOUT_TEXT = (float, int, NoneType)
+
+# What is neither one of them nor a collection.
+_HOLD_NONE = (str, BasePart)
+
+RAW_XML = "raw_xml"
+"""The field of a plugin that is XML, and not text."""
+
+_Values: TypeAlias = Callable[[Part], tuple[object, ...]]
+
+
+@cache
+def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
+    """Return the names of a class's own fields that may hold more than numbers, what gets their values, and extras.
+
+    Half of the parts are of a class without such a field.
+    """
+    if issubclass(kind, Element | Link):
+        own = (
+            field for field in fields(kind) if field.name not in _EVERYWHERE and field.name not in number_fields(kind)
+        )
+        names = tuple(field.name for field in own if not _holds_numbers(str(field.type), is_compared=field.compare))
+    else:
+        names = ("parameters",)
+    extras = tuple(name for name in _EXTRAS if hasattr(kind, name))
+    return names, _getter(names), _getter(extras)
+
+
+def _holds_numbers(kind: str, *, is_compared: bool) -> bool:
+    """Whether a field holds neither parts nor text: its class refuses them, or it is how a file said it, unwritten."""
+    return _NUMBERS.issuperset(kind.split(" | ")) or (kind == "bool" and not is_compared)
+
+
+def _getter(names: tuple[str, ...]) -> _Values:
+    return attrgetter(*names) if len(names) > 1 else lambda part: tuple([getattr(part, name) for name in names])
+
+
+_NUMBERS = frozenset({"float", "int", "Vector3", "None"})
+"""What constructors refuse anything else for; a truth is taken as it comes, and written."""
+
+_EXTRAS = ("extra_attributes", "extra_elements", "extra_inside")
+
+_EVERYWHERE = frozenset(field.name for field in fields(Element))

@@ -1,0 +1,112 @@
+"""Source maps: which line of a spec wrote a line of a document."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.formats.marks import MARK, Marks, Place, recording
+from linkforge_compile.formats.markup import restored
+from linkforge_compile.formats.srdf import render_srdf
+from linkforge_compile.formats.urdf import render_urdf
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.formats.urdf.sensor import Gazebo
+
+
+class Segment(NamedTuple):
+    """What begins at a column of a line, counted from 1, and goes on to the next segment; the first begins at 1."""
+
+    column: int
+    place: Place
+
+
+@dataclass(frozen=True)
+class SourceMap:
+    """Where each line of a document was written, and each attribute on it; `lines` has none for what nobody wrote."""
+
+    lines: tuple[tuple[Segment, ...], ...]
+
+    def at(self, line: int, column: int | None = None) -> Place | None:
+        """Return where what stands on a line was written, or more closely what stands at a column of it.
+
+        Both count from 1. None for what nobody wrote, and beyond the document.
+        """
+        segments = self.lines[line - 1] if 0 < line <= len(self.lines) else ()
+        places = [place for begin, place in segments if begin <= (column or 1)]
+        return places[-1] if places else None
+
+
+class Mapped(NamedTuple):
+    """A document and its map."""
+
+    text: str
+    map: SourceMap
+
+
+def render_urdf_with_map(robot: Robot, *, banner: str | None = None, gazebo: Gazebo = "gz") -> Mapped:
+    """Return the robot as a URDF document, the same as without a map, and where each of its lines was written.
+
+    Raises:
+        RobotGeneratorError: as `render_urdf`.
+
+    """
+    with recording() as marks:
+        return _unmarked(render_urdf(robot, banner=banner, gazebo=gazebo), marks)
+
+
+def render_srdf_with_map(robot: Robot, *, banner: str | None = None) -> Mapped:
+    """Return the robot's semantic part as an SRDF document, and where each of its lines was written.
+
+    Raises:
+        RobotGeneratorError: as `render_srdf`.
+
+    """
+    with recording() as marks:
+        return _unmarked(render_srdf(robot, banner=banner), marks)
+
+
+WITH_MAP: Mapping[str, Callable[..., Mapped]] = {"urdf": render_urdf_with_map, "srdf": render_srdf_with_map}
+"""The renderer of each format that can have a map, by the name that is also its file's ending."""
+
+
+def _unmarked(text: str, marks: Marks) -> Mapped:
+    """Take the marks out of a document that is laid out, one tag a line.
+
+    A line without a mark is part of the element around it, and a closing tag of its element: both by the indent.
+    """
+    places = marks.places
+    lines: list[str] = []
+    segments: list[tuple[Segment, ...]] = []
+    around: dict[int, tuple[Segment, ...]] = {}
+    for marked in text.split("\n"):
+        line, own = _line(marked, places)
+        content = line.lstrip(" ")
+        indent = len(line) - len(content)
+        if content.startswith("</"):
+            own = around.get(indent, ())
+        elif content:
+            own = own or around.get(indent - 2, ())[:1]
+            around[indent] = own[:1]
+        for part in restored(line).split("\n"):
+            lines.append(part)
+            segments.append(own)
+            own = own[-1:] and (own[-1]._replace(column=1),)
+    return Mapped("\n".join(lines), SourceMap(tuple(segments)))
+
+
+def _line(marked: str, places: tuple[Place, ...]) -> tuple[str, tuple[Segment, ...]]:
+    pieces = MARK.split(marked)
+    if len(pieces) == 1:
+        return marked, ()
+    line = pieces[0]
+    segments: list[Segment] = []
+    for number, piece in zip(pieces[1::2], pieces[2::2], strict=True):
+        place = places[int(number)]
+        if not segments or segments[-1].place != place:
+            segments.append(Segment(len(line) + 1 if segments else 1, place))
+        line += piece
+    return line, tuple(segments)

@@ -1,0 +1,210 @@
+"""A user's folder of templates: documents of his own at its top, and templates that go before ours."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from functools import cached_property
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.bounds import Budget
+from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
+from linkforge_compile.diagnostics.codes.templates import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
+from linkforge_compile.formats.markup import document_text, harmless_in_comment, with_layout_alone, without_marks
+from linkforge_compile.resources import templates_folder
+from linkforge_compile.roots import ANYWHERE, Roots
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.formats.sandbox import FolderEnvironment
+    from linkforge_compile.formats.template_loader import FolderLoader
+    from linkforge_compile.formats.urdf.sensor import Gazebo
+
+SUFFIX = ".j2"
+"""How the names of templates end; without it, that of a document's template is the document's."""
+
+_BEYOND_LIMIT = replace(
+    BEYOND_LIMIT, message=BEYOND_LIMIT.message.replace("the robot takes", "rendering takes"), in_xml=""
+)
+"""What exceeds a bound is a user's template, and no robot."""
+
+_NOT_DOCUMENTS = ("_", ".")
+"""How the names of templates begin at the top of a folder that others include."""
+
+
+def own_names() -> frozenset[str]:
+    """Return the paths of the templates that a user's may go before."""
+    folders = (templates_folder() / format_ for format_ in ("urdf", "srdf"))
+    return frozenset(
+        path.relative_to(templates_folder()).as_posix() for folder in folders for path in folder.rglob(f"*{SUFFIX}")
+    )
+
+
+_MOST_NAMES = 1000
+"""Files of a folder without templates that are compared with the names of ours."""
+
+
+class TemplateError(Exception):
+    """A user's templates cannot be rendered; `diagnostics` has the faults, at their lines."""
+
+    def __init__(self, diagnostics: tuple[Diagnostic, ...]) -> None:
+        self.diagnostics = diagnostics
+        super().__init__("\n".join(map(str, diagnostics)))
+
+    def __reduce__(self) -> tuple[type[TemplateError], tuple[tuple[Diagnostic, ...]]]:
+        return TemplateError, (self.diagnostics,)
+
+
+class TemplateFolder:
+    """A user's folder of templates; each is read once, when it is first used."""
+
+    def __init__(self, folder: str | Path, *, packages: Iterable[Path] = (), allow_outside: bool = False) -> None:
+        """Templates may be links to what lies in the folder's repository or in `packages`, else with `allow_outside`.
+
+        Raises:
+            NotADirectoryError: for what is no folder.
+            OSError: for a folder that cannot be read.
+
+        """
+        self.folder, self._budget = Path(folder), Budget(code=_BEYOND_LIMIT)
+        self._roots = ANYWHERE if allow_outside else Roots.around(self.folder, (self.folder, *packages))
+        with os.scandir(self.folder) as entries:
+            names = sorted(entry.name for entry in entries if entry.is_symlink() or entry.is_file())
+        templates = [name for name in names if name.endswith(SUFFIX) and not name.startswith(_NOT_DOCUMENTS)]
+        self.documents = tuple(name.removesuffix(SUFFIX) for name in templates)
+        """The names of the documents that its templates make, sorted."""
+
+    def require_templates(self) -> None:
+        """Refuse a folder that makes nothing: without a document, and without a template that goes before one of ours.
+
+        Raises:
+            ValueError: with what a template is named.
+
+        """
+        if self.documents or any(os.path.lexists(self.folder / name) for name in own_names()):
+            return
+        from linkforge_compile.diagnostics.suggest import nearest
+
+        found = sorted(path.relative_to(self.folder).as_posix() for path in islice(self.folder.rglob("*"), _MOST_NAMES))
+        near = next((f"; '{name}' is like '{own}'" for name in found if (own := nearest(name, own_names()))), "")
+        has = "NAME.j2 for a document, nor urdf/ or srdf/ with a template that goes before one of linkforge's"
+        raise ValueError(f"it has no {has}{near}")
+
+    @property
+    def unused(self) -> tuple[Diagnostic, ...]:
+        """A warning at each file that stands where templates go before ours, and that nothing uses."""
+        from linkforge_compile.formats.unused_templates import find_unused
+
+        return tuple(find_unused(self._environment, self._loader))
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """The templates that were read, those of ours among them."""
+        return tuple(map(Path, self._loader.files))
+
+    @property
+    def unread(self) -> tuple[Path, ...]:
+        """What was looked for in the folder and is not there: when it is, the result is another."""
+        return tuple(self._loader.missing)
+
+    def render(self, robot: Robot, *, banner: str = "", gazebo: Gazebo = "gz") -> dict[str, str]:
+        """Render all documents and return their texts by name; XML is laid out as URDF is.
+
+        Raises:
+            RobotGeneratorError: for a robot whose text XML cannot hold.
+            TemplateError: with all that is wrong, one fault a document.
+            ValueError: for another `gazebo` than `gz` or `classic`.
+
+        """
+        from linkforge_compile.formats.environment import is_xml
+        from linkforge_compile.formats.srdf_view import semantic_view
+        from linkforge_compile.formats.urdf import require_dialect, robot_view
+
+        require_dialect(gazebo)
+        srdf = semantic_view(robot) if robot.says_semantic else None
+        banner = harmless_in_comment(banner)
+        context = {"robot": robot, "urdf": robot_view(robot, gazebo), "srdf": srdf, "banner": banner}
+        texts: dict[str, str] = {}
+        faults: list[Diagnostic] = []
+        for name in self.documents:
+            template = f"{name}{SUFFIX}"
+            try:
+                if is_xml(template):
+                    texts[name] = f"{self.xml(template, context, pretty=True)}\n"
+                else:
+                    texts[name] = self._text(template, context)
+            except TemplateError as error:
+                faults += error.diagnostics
+                if self._budget.is_spent:
+                    break
+        if faults:
+            raise TemplateError(tuple(faults))
+        return texts
+
+    def xml(self, template: str, context: Mapping[str, object], *, pretty: bool) -> str:
+        """Render a template of XML, check that it is well-formed, and return it laid out.
+
+        Raises:
+            TemplateError: for what is wrong with it.
+
+        """
+        from linkforge_compile.formats.template_faults import find_xml_fault
+
+        rendered = self._text(template, context)
+        place = self._loader.place_of(template)
+        if fault := find_xml_fault(without_marks(rendered).lstrip()):
+            line = self._loader.place_of_line(template, fault.line)
+            raise TemplateError((NOT_XML_FROM_TEMPLATE.at(line, problem=fault.problem),))
+        try:
+            return document_text(with_layout_alone(rendered), pretty=pretty)
+        except RobotGeneratorError as error:
+            raise TemplateError((TEMPLATE_FAILS.at(place, reason=error),)) from None
+        except (LookupError, TypeError, ValueError):
+            reason = "the 'elements' of a view need the other elements of that view before them"
+            raise TemplateError((TEMPLATE_FAILS.at(place, reason=reason),)) from None
+
+    def _text(self, template: str, context: Mapping[str, object]) -> str:
+        try:
+            return self._environment.text_of(template, context)
+        # A template may raise whatever Python can: each is a fault of the template.
+        except Exception as error:
+            from linkforge_compile.formats.template_faults import diagnose
+
+            raise TemplateError((diagnose(error, template, self._loader),)) from None
+
+    @cached_property
+    def _loader(self) -> FolderLoader:
+        from linkforge_compile.formats.template_loader import FolderLoader
+
+        return FolderLoader(self.folder, self._roots)
+
+    @cached_property
+    def _environment(self) -> FolderEnvironment:
+        from linkforge_compile.formats.sandbox import FolderEnvironment
+
+        return FolderEnvironment(self._loader, self._budget)
+
+
+def render_templates(
+    robot: Robot, folder: str | Path, *, banner: str = "", gazebo: Gazebo = "gz", allow_outside: bool = False
+) -> dict[str, str]:
+    """Return what each template at the top of a folder makes of the robot, by its name without `.j2`.
+
+    Templates see the robot as `robot`, its URDF and SRDF as `urdf` and `srdf`, and `banner`. They run in a sandbox.
+    A link among them leads within the folder's repository, unless `allow_outside` lets it lead anywhere.
+
+    Raises:
+        TemplateError: with all that is wrong with the templates.
+        RobotGeneratorError: for a robot whose text XML cannot hold.
+        OSError: for a folder that cannot be read.
+        ValueError: for a folder without templates, and for another `gazebo` than `gz` or `classic`.
+
+    """
+    templates = TemplateFolder(folder, allow_outside=allow_outside)
+    templates.require_templates()
+    return templates.render(robot, banner=banner, gazebo=gazebo)

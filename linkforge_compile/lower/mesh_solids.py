@@ -1,0 +1,177 @@
+"""Meshes as solid bodies for the links whose inertia is computed: found, read once, and their faults reported."""
+
+from __future__ import annotations
+
+import gc
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.bounds import Budget, Limit
+from linkforge_compile.core.meshes import MeshError, MeshFault, solid_in
+from linkforge_compile.core.models.geometry import Mesh
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.physics import (
+    EMPTY_MESH,
+    FLAT_MESH,
+    INSIDE_OUT_MESH,
+    MESH_OF_OTHER_FORMAT,
+    MESH_TOO_LARGE,
+    NO_MESH_LIBRARY,
+    NO_SUCH_MESH,
+    OPEN_MESH,
+    TWISTED_MESH,
+    UNREADABLE_MESH,
+    WIDE_MESH,
+)
+from linkforge_compile.expand.file_text import TooLargeError, UnreadableError, file_bytes
+from linkforge_compile.expand.mesh_files import FindMesh, misspelt_part
+from linkforge_compile.expand.noted import used_from
+from linkforge_compile.expand.path_starts import looked_for, written_place
+from linkforge_compile.expand.paths import as_typed
+from linkforge_compile.roots import identity
+from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.syntax.nodes import YamlScalar
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.solid import Solid
+
+MAX_BYTES = 128 * 1024 * 1024
+
+_MAX_WIDTH = 100.0  # [m]
+
+_BYTES_UNTIL_COLLECTION = 8 * 1024 * 1024
+"""After so many bytes of meshes the garbage collector runs, which is paused while compiling."""
+
+_CODES = {
+    MeshFault.NO_LIBRARY: NO_MESH_LIBRARY,
+    MeshFault.NO_FORMAT: MESH_OF_OTHER_FORMAT,
+    MeshFault.UNREADABLE: UNREADABLE_MESH,
+    MeshFault.TOO_LARGE: MESH_TOO_LARGE,
+    MeshFault.EMPTY: EMPTY_MESH,
+    MeshFault.OPEN: OPEN_MESH,
+    MeshFault.TWISTED: TWISTED_MESH,
+    MeshFault.INSIDE_OUT: INSIDE_OUT_MESH,
+    MeshFault.FLAT: FLAT_MESH,
+}
+
+
+class MeshSolids:
+    """The solids of all mesh files of one compile, each read once."""
+
+    def __init__(self, budget: Budget | None = None) -> None:
+        """`budget` is what the files of the compile share; without one it is a compile by itself."""
+        self._budget = budget or Budget()
+        self._known: dict[str, Solid | MeshError] = {}  # by real path
+        self._files: list[Path] = []
+        self._unread: list[Path] = []
+        self._uncollected = 0
+        self.is_without_library = False
+        """Whether a package that reads meshes is missing, which is reported once."""
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """Every mesh file that was read, in that order, as its user would type it."""
+        return tuple(self._files)
+
+    @property
+    def unread(self) -> tuple[Path, ...]:
+        """Every mesh file that is missing or too large, in the order of requests."""
+        return tuple(dict.fromkeys(self._unread))
+
+    def solid(self, path: Path, where: Span) -> Solid | None:
+        """Return the solid in a file that is named at a place, in the unit of the file; None for a missing file.
+
+        Raises:
+            MeshError: The file holds no solid.
+            BeyondLimitError: The meshes of the compile are too large together.
+
+        """
+        real = identity(path)
+        known = self._known.get(real)
+        if known is None and (known := self._read(path, where)) is not None:
+            self._known[real] = known
+        if isinstance(known, MeshError):
+            raise known
+        return known
+
+    def _read(self, path: Path, where: Span) -> Solid | MeshError | None:
+        content = self._content(path)
+        if content is None:
+            return None
+        self._budget.spend(Limit.MESH_BYTES, len(content), where)
+        self._files.append(as_typed(path))
+        self._collect(len(content))
+        try:
+            return solid_in(content, path.name, times=self._budget.times)
+        except MeshError as error:
+            # The traceback of the error would keep its frames, and with them the mesh, in memory.
+            return MeshError(error.fault, error.message)
+
+    def _collect(self, read: int) -> None:
+        """Free the memory of earlier meshes once it is large; `read` bytes come now."""
+        self._uncollected += read
+        if self._uncollected > _BYTES_UNTIL_COLLECTION:
+            gc.collect()
+            self._uncollected = 0
+
+    def _content(self, path: Path) -> bytes | None:
+        """Return the content of a file, None for a missing one; record one that cannot be read."""
+        try:
+            content = file_bytes(path, MAX_BYTES, only_regular=True)
+        except UnreadableError as error:
+            self._unread.append(as_typed(path))
+            fault = MeshFault.TOO_LARGE if isinstance(error, TooLargeError) else MeshFault.UNREADABLE
+            raise MeshError(fault, str(error)) from error
+        if content is None:
+            self._unread.append(as_typed(path))
+        return content
+
+
+class MeshReader:
+    """Reads the meshes of one imported file as solids."""
+
+    def __init__(self, find: FindMesh, solids: MeshSolids) -> None:
+        """`find` is that of the import, `solids` are those of the whole compile."""
+        self._find = find
+        self._solids = solids
+
+    def solid(self, mesh: Mesh, inertial: SourceRef, sink: Diagnostics) -> Solid | None:
+        """Return a mesh as a solid in its own frame [m], scaled; None after reporting a fault.
+
+        `inertial` is the inertial that needs it.
+
+        Raises:
+            RobotPhysicsError: The scale leaves no volume.
+
+        """
+        written, where = _written(mesh)
+        path = self._find(written, written_place(where.node), used_from(sink, where.trail))
+        if path is None:
+            return None
+        request = Note("its inertia is needed here", inertial.span)
+        try:
+            solid = self._solids.solid(path, where.span)
+        except MeshError as error:
+            if not self._solids.is_without_library:
+                facts = {"path": written, "reason": error.message, "library": error.message}
+                sink.report(_CODES[error.fault].at(where, notes=[request], **facts))
+            self._solids.is_without_library |= error.fault is MeshFault.NO_LIBRARY
+            return None
+        if solid is None:
+            name, near = misspelt_part(path)
+            notes = [looked_for(path, written, where.node.span), request]
+            sink.report(NO_SUCH_MESH.at(where, path=written, name=name, near=near, notes=notes))
+            return None
+        scaled = solid.scaled(mesh.scale)
+        if (widest := max(scaled.size)) > _MAX_WIDTH:
+            sink.report(WIDE_MESH.at(where, path=written, size=f"{widest:.4g}"))
+        return scaled
+
+
+def _written(mesh: Mesh) -> tuple[str, SourceRef]:
+    """Return a mesh's path as its file writes it, and the place."""
+    assert mesh.source is not None, "what is lowered was written"
+    node = mesh.source.node
+    file = node.child("file") or node
+    assert isinstance(file, YamlScalar), "a mesh has a file"
+    return file.text, SourceRef(file, None, mesh.source.trail)

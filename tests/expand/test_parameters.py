@@ -1,0 +1,183 @@
+"""Parameters: their types, how text and Python values set them, and where faults are told."""
+
+import pytest
+
+from linkforge_compile import compile_text
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.expand import Loader, arguments_from_text, arguments_from_values, expand
+from linkforge_compile.units import Dimension, Quantity
+from tests.expand.assembling import assemble, metadata_of, write
+
+LENGTH = Dimension.LENGTH
+
+
+@pytest.mark.parametrize(
+    ("declared", "text", "value"),
+    [
+        ("{type: number}", "1e-3", 0.001),
+        ("{type: integer}", "3.0", 3),
+        ("{type: boolean}", "true", True),
+        ("{type: string}", "1.10", "1.10"),
+        ("{type: string}", "3 kg", "3 kg"),
+        ("{type: string}", "$(1)", "$(1)"),
+        ("{type: string}", "", ""),
+        ("{type: string}", "null", "null"),
+        ("{type: length}", "70 cm", Quantity(0.7, LENGTH)),
+        ("{type: length}", "2", Quantity(2.0, LENGTH)),
+        ("{type: vector}", "[0, 0, 10 mm]", [0, 0, Quantity(0.01, LENGTH)]),
+        ("{type: list}", "[a, 1]", ["a", 1]),
+        ("{type: map}", "{a: {b: 1}}", {"a": {"b": 1}}),
+        ("2.5", "3", 3),
+        ("0.8 m", "70 cm", Quantity(0.7, LENGTH)),
+        ("[0, 0, 1]", "[1, 2, 3]", [1, 2, 3]),
+        ("[0, 0]", "[1]", [1]),
+        ("true", "false", False),
+        ("left", "7", "7"),
+    ],
+)
+def test_text_is_read_by_the_declared_type(declared: str, text: str, value: object):
+    for pair in (f"p={text}", f"p:={text}"):
+        assembled = assemble(f"parameters: {{p: {declared}}}\nmetadata: {{p: $(p)}}", pair)
+        assert not assembled.told
+        assert assembled.metadata == {"p": value}
+
+
+@pytest.mark.parametrize(
+    ("declared", "given", "value"),
+    [
+        ("{type: length}", 0.7, Quantity(0.7, LENGTH)),
+        ("{type: length}", "70 cm", Quantity(0.7, LENGTH)),
+        ("{type: length}", Quantity(0.7, LENGTH), Quantity(0.7, LENGTH)),
+        ("{type: vector}", (1, 2.0, 3), [1, 2.0, 3]),
+        ("{type: map}", {"a": [1, None]}, {"a": [1, None]}),
+        ("{type: boolean}", False, False),
+        ("0.8 m", None, Quantity(0.8, LENGTH)),
+    ],
+)
+def test_python_values_set_parameters(declared: str, given: object, value: object):
+    assembled = assemble(f"parameters: {{p: {declared}}}\nmetadata: {{p: $(p)}}", p=given)
+    assert not assembled.told
+    assert assembled.metadata == {"p": value}
+
+
+def test_a_python_value_that_no_spec_can_say_is_a_type_error():
+    with pytest.raises(TypeError, match="'p' cannot be object"):
+        arguments_from_values({"p": object()})
+
+
+@pytest.mark.parametrize(
+    ("given", "remedy"),
+    [
+        (None, "parameters={'reach': …} or variant='long'"),
+        ({"size": 2}, "parameters={'reach': …} or variant='long'"),
+        ([], "'-p reach=LENGTH' or '--variant long'"),
+        (["size=2"], "'-p reach=LENGTH' or '--variant long'"),
+    ],
+)
+def test_who_lacks_a_parameter_is_told_how_it_is_set_there(given: object, remedy: str):
+    spec = "linkforge: 1\nname: a\nparameters: {reach: {type: length}, size: 1}\nvariants: {long: {reach: 2 m}}\n"
+    told = [one.message for one in compile_text(f"{spec}links: {{a: }}\n", parameters=given).diagnostics]
+    assert told == [f"parameter 'reach' has no default and must be set; write {remedy}"]
+
+
+def test_a_default_may_name_other_parameters_in_any_order():
+    text = """
+        parameters: {half: $(reach / 2), reach: {type: length, default: 1 m, maximum: $(longest)}, longest: 2 m}
+        metadata: {half: $(half)}
+    """
+    assert assemble(text, "reach=1.5 m").metadata == {"half": Quantity(0.75, LENGTH)}
+    assert assemble(text, "half=3 kg").told == ["parameter 'half' takes a length in m, cm or mm, found '3 kg'"]
+
+
+def test_an_argument_of_null_leaves_the_default(tmp_path):
+    write(
+        tmp_path,
+        {
+            "robot.robot.yaml": "modules: {a: {use: arm.robot.yaml, with: {reach: null, side: $(null)}}}",
+            "arm.robot.yaml": "parameters: {reach: 1, side: left}\nmetadata: {a: $(reach), b: $(side)}",
+        },
+    )
+    sink, loader = Diagnostics(), Loader()
+    spec = loader.open(tmp_path / "robot.robot.yaml", sink)
+    (arm,) = expand(spec, arguments_from_text((), sink), loader, sink).modules
+    assert metadata_of(arm) == {"a": 1, "b": "left"}
+
+
+def test_a_default_that_is_computed_is_so_only_where_it_is_used():
+    text = "parameters: {teeth: 0, ratio: {type: number, default: $(1 / teeth)}}"
+    assert assemble(text).told == ["'/' divides by zero"]
+    assert not assemble(text, "ratio=2").told
+
+
+def test_a_value_that_makes_no_sense_is_told_on_the_command_line_with_the_declaration():
+    sink, loader = Diagnostics(), Loader()
+    spec = loader.parse("linkforge: 1\nname: a\nparameters:\n  reach: {type: length}\n", "a.yaml", None, sink)
+    expand(spec, arguments_from_text(["reach:=3 kg"], sink), loader, sink)
+    (told,) = sink
+    assert str(told.span) == "<command line>:1:8"
+    assert told.span.text == "3 kg"
+    assert [(note.message, str(note.span)) for note in told.notes] == [("the parameter is declared here", "a.yaml:4:3")]
+
+
+def test_an_unknown_parameter_offers_a_near_one():
+    assert assemble("parameters: {reach: 1 m}", "raech=2").told == ["no parameter named 'raech'; did you mean 'reach'?"]
+
+
+def test_what_is_no_assignment_and_what_is_set_twice_is_told():
+    sink = Diagnostics()
+    arguments = arguments_from_text(["reach", "=1", "a=1", "a:=2", "url=x:=y"], sink)
+    assert [diagnostic.message for diagnostic in sink] == [
+        "a parameter is set by NAME=VALUE, found 'reach'",
+        "a parameter is set by NAME=VALUE, found '=1'",
+        "parameter 'a' is set twice",
+    ]
+    assert {name: entry.value.text for name, entry in arguments.entries.items()} == {"a": "1", "url": "x:=y"}
+
+
+def test_a_list_on_the_command_line_that_is_no_yaml_is_told():
+    assert assemble("parameters: {p: [0, 0]}", "p=[1, 2").told == ["expected ',' or ']' before this"]
+
+
+def test_a_wrong_default_is_told_even_where_it_is_not_used():
+    told = assemble("parameters: {reach: {type: length, default: 3 kg}}", "reach=1").told
+    assert told == ["parameter 'reach' takes a length in m, cm or mm, found '3 kg'"]
+
+
+def test_a_bare_angle_beyond_a_whole_turn_is_doubted():
+    text = "parameters: {tilt: {type: angle, default: 0}}"
+    assert "write '90 deg' if degrees are meant" in assemble(text, "tilt=90").told[0]
+    assert not assemble(text, "tilt=720 deg").told
+
+
+def test_a_file_is_relative_to_the_file_that_writes_it_and_comes_out_relative_to_the_compiled_one(tmp_path):
+    write(
+        tmp_path,
+        {
+            "robot.robot.yaml": """
+                modules:
+                  a: {use: arms/arm.robot.yaml, with: {shell: meshes/a.stl}}
+                  b: {use: arms/arm.robot.yaml}
+                  c: {use: arms/arm.robot.yaml, with: {shell: package://p/a.stl}}
+                  d: {use: package://arms/arm.robot.yaml, with: {shell: meshes/a.stl}}
+                packages: {arms: arms}
+            """,
+            "arms/arm.robot.yaml": """
+                parameters: {shell: {type: file, default: own.stl}}
+                metadata: {shell: $(shell)}
+            """,
+        },
+    )
+    sink, loader = Diagnostics(), Loader()
+    spec = loader.open(tmp_path / "robot.robot.yaml", sink)
+    instance = expand(spec, arguments_from_text((), sink), loader, sink)
+    assert [metadata_of(module) for module in instance.modules] == [
+        {"shell": "meshes/a.stl"},
+        {"shell": "arms/own.stl"},
+        {"shell": "package://p/a.stl"},
+        {"shell": (tmp_path / "meshes/a.stl").as_posix()},
+    ]
+
+
+def test_a_parameter_is_set_by_its_name():
+    with pytest.raises(TypeError, match="a parameter is set by its name, which is text, found 1"):
+        arguments_from_values({1: 2})

@@ -1,0 +1,82 @@
+"""Names that are not there because `when` or an override took them out: whoever misses them is shown where."""
+
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile import compile_file
+from tests.expand.assembling import write
+
+ARM = """
+    parameters: {has_tool: {type: boolean, default: false}}
+    links: {base: , link1: {when: $(has_tool)}}
+    joints: {j1: {when: $(has_tool), type: fixed, parent: base, child: link1}}
+    frames: {tcp: {when: $(has_tool), parent: base}, eye: {when: $(has_tool), parent: base, joint: eyeball}}
+    semantic: {groups: {g: {when: $(has_tool), links: [base]}}}
+"""
+PAIR = """
+    links: {base: }
+    semantic: {groups: {g: {links: [base]}}}
+    modules:
+      a1: {use: arm.robot.yaml, parent: base}
+      a2: {use: arm.robot.yaml, parent: base, joint: wrist}
+      a3: {use: arm.robot.yaml, parent: base, joint: {name: thumb}}
+"""
+CELL = """
+    links: {table: }
+    modules:
+      left: {use: arm.robot.yaml, parent: table}
+      right: {when: false, use: arm.robot.yaml, parent: table, prefix: r_, joint: mount}
+      pair: {use: pair.robot.yaml, parent: table, override:
+        {modules: {a1: null, a2: null, a3: null}, semantic: {groups: {g: null}}}}
+      w$(i): {for: {i: 2}, when: $(i > 0), use: arm.robot.yaml, parent: table}
+"""
+
+
+@pytest.mark.parametrize(
+    ("use", "code", "why"),
+    [
+        ("{joints: [left_j1]}", "LF4103", "'j1' is disabled by 'when' here arm.robot.yaml:5:21"),
+        ("{links: [left_tcp]}", "LF4102", "'tcp' is disabled by 'when' here arm.robot.yaml:6:22"),
+        ("{joints: [left_tcp_joint]}", "LF4103", "'tcp' is disabled by 'when' here arm.robot.yaml:6:22"),
+        ("{joints: [left_eyeball]}", "LF4103", "'eye' is disabled by 'when' here arm.robot.yaml:6:62"),
+        ("{subgroups: [left_g]}", "LF4104", "'g' is disabled by 'when' here arm.robot.yaml:7:31"),
+        ("{links: [r_base]}", "LF4102", "'right' is disabled by 'when' here cell.robot.yaml:6:17"),
+        ("{subgroups: [r_g]}", "LF4104", "'right' is disabled by 'when' here cell.robot.yaml:6:17"),
+        ("{joints: [mount]}", "LF4103", "'right' is disabled by 'when' here cell.robot.yaml:6:17"),
+        ("{links: [w0_base]}", "LF4102", "'w0' is disabled by 'when' here cell.robot.yaml:9:30"),
+        ("{links: [pair_a1_base]}", "LF4102", "'a1' is deleted by this override cell.robot.yaml:8:16"),
+        ("{joints: [pair_a1_joint]}", "LF4103", "'a1' is deleted by this override cell.robot.yaml:8:16"),
+        ("{joints: [pair_wrist]}", "LF4103", "'a2' is deleted by this override cell.robot.yaml:8:26"),
+        ("{joints: [pair_thumb]}", "LF4103", "'a3' is deleted by this override cell.robot.yaml:8:36"),
+        ("{subgroups: [pair_g]}", "LF4104", "'g' is deleted by this override cell.robot.yaml:8:67"),
+    ],
+)
+def test_a_name_that_was_taken_out_is_told_once_with_the_place(tmp_path: Path, use: str, code: str, why: str):
+    group = f"    semantic: {{groups: {{all: {use}}}}}\n"
+    write(tmp_path, {"arm.robot.yaml": ARM, "pair.robot.yaml": PAIR, "cell.robot.yaml": CELL + group})
+    (told,) = compile_file(tmp_path / "cell.robot.yaml").diagnostics
+    assert told.code.id == code
+    (note,) = told.notes
+    assert note.span
+    assert f"{note.message} {note.span.file.path.name}:{note.span.line}:{note.span.column}" == why
+    assert "did you mean" not in told.message
+
+
+def test_a_joint_that_goes_with_its_link_is_told_with_what_deletes_the_link(tmp_path: Path):
+    arm = """
+        links: {base: , link1: }
+        joints: {j1: {type: fixed, parent: base, child: link1}}
+    """
+    cell = """
+        links: {table: }
+        modules:
+          arm: {use: arm.robot.yaml, parent: table, override: {
+            joints: {j1: {origin: [0, 0, 1]}},
+            links: {link1: null}}}
+        semantic: {groups: {all: {joints: [arm_j1]}}}
+    """
+    write(tmp_path, {"arm.robot.yaml": arm, "cell.robot.yaml": cell})
+    (told,) = compile_file(tmp_path / "cell.robot.yaml").diagnostics
+    (note,) = told.notes
+    assert (note.message, note.span and note.span.line) == ("to delete link 'link1' deletes 'j1', the joint to it", 7)

@@ -1,0 +1,149 @@
+"""`variants`: what beats what, and what is told of those that nobody chose."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from linkforge_compile import compile_file, compile_text
+from linkforge_compile.bounds import Limit
+from linkforge_compile.pipeline import check_variants
+from tests.expand.assembling import write
+
+SPEC = """\
+linkforge: 1
+name: arm
+parameters: {hardware: {enum: [mock, gazebo, real], default: mock}, reach: 1 m, size: $(reach / 2)}
+variants:
+  sim: {hardware: gazebo, size: $(reach * 3)}
+  lab: {reach: 20 cm}
+  plain:
+links: {base: }
+metadata: {hardware: $(hardware), reach: $(reach), size: $(size)}
+"""
+
+
+def values(**options):
+    robot = compile_text(SPEC, **options).result()
+    return [robot.metadata[name] for name in ("hardware", "reach", "size")]
+
+
+@pytest.mark.parametrize(
+    ("options", "found"),
+    [
+        ({}, ["mock", "1", "0.5"]),
+        ({"variant": "plain"}, ["mock", "1", "0.5"]),
+        ({"variant": "sim"}, ["gazebo", "1", "3"]),
+        ({"variant": "lab"}, ["mock", "0.2", "0.1"]),
+        ({"variant": "sim", "parameters": ["hardware=real"]}, ["real", "1", "3"]),
+        ({"variant": "sim", "parameters": {"reach": 2}}, ["gazebo", "2", "6"]),
+    ],
+)
+def test_a_parameter_beats_the_variant_beats_the_default(options, found):
+    assert values(**options) == found
+
+
+def test_an_unknown_variant_is_told_as_it_was_typed():
+    (told,) = compile_text(SPEC, name="arm.robot.yaml", variant="simm").diagnostics
+    assert str(told) == (
+        "<command line>:1:11: error: arm.robot.yaml has no variant named 'simm'; did you mean 'sim'? [LF3080]"
+    )
+
+
+@pytest.mark.parametrize(
+    ("variants", "said"),
+    [
+        ("{sim: {}, lab: {}}", "its variants are 'sim' and 'lab'"),
+        (
+            "{" + ", ".join(f"v{number}: {{}}" for number in range(9)) + "}",
+            "its variants are 'v0', 'v1', 'v2', 'v3', 'v4', 'v5', 'v6', 'v7' and 1 more",
+        ),
+        ("{}", "it declares no variants"),
+    ],
+)
+def test_an_unknown_variant_is_told_with_those_that_there_are(variants: str, said: str):
+    spec = f"linkforge: 1\nname: arm\nvariants: {variants}\nlinks: {{base: }}\n"
+    (told,) = compile_text(spec, variant="other").diagnostics
+    assert told.message == f"<text> has no variant named 'other'; {said}"
+
+
+def test_an_expression_of_a_variant_is_read_even_where_nobody_chose_it():
+    spec = SPEC.replace("$(reach * 3)", "$(reech * 3)")
+    assert [one.code.id for one in compile_text(spec).diagnostics] == ["LF3107"]
+    assert not compile_text(SPEC.replace("$(reach * 3)", "$(1 / (reach - reach))")).diagnostics
+
+
+def test_a_required_parameter_is_set_by_a_variant():
+    spec = SPEC.replace("reach: 1 m", "reach: {type: length}")
+    assert [one.code.id for one in compile_text(spec).diagnostics] == ["LF3021"]
+    assert not compile_text(spec, variant="lab").diagnostics
+
+
+def test_the_variants_of_a_module_mean_nothing(tmp_path: Path):
+    write(tmp_path, {"robot.robot.yaml": "variants: {sim: {}}\nmodules: {arm: {use: arm.robot.yaml}}\n"})
+    (tmp_path / "arm.robot.yaml").write_text(SPEC.replace("lab: {reach: 20 cm}", "lab: {rich: 20 cm}"))
+    assert not compile_file(tmp_path / "robot.robot.yaml", variant="sim").diagnostics
+    assert compile_file(tmp_path / "arm.robot.yaml").robot is None
+
+
+def test_a_path_in_a_variant_is_relative_to_its_file(tmp_path: Path):
+    write(
+        tmp_path,
+        {
+            "arms/arm.robot.yaml": """
+                parameters: {mesh: {type: file, default: a.stl}}
+                variants: {other: {mesh: meshes/b.stl}}
+                links: {base: {visual: {mesh: $(mesh)}}}
+            """
+        },
+    )
+    robot = compile_file(tmp_path / "arms/arm.robot.yaml", variant="other").result()
+    assert robot.links[0].visuals[0].geometry.resource == "meshes/b.stl"
+
+
+def test_every_variant_is_checked_and_the_defaults(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(SPEC + "joints: {$(hardware): {type: fixed, parent: base, child: tip}}\n")
+    compilations = check_variants(tmp_path / "arm.robot.yaml")
+    assert list(compilations) == [None, "sim", "lab", "plain"]
+    assert {one.diagnostics[0].code.id for one in compilations.values()} == {"LF4102"}
+
+
+MANY = f"""\
+linkforge: 1
+name: arm
+variants: {{{", ".join(f"v{number}: " for number in range(12))}}}
+links: {{base: }}
+modules: {{tool: {{use: tool.robot.yaml, parent: base}}}}
+"""
+TOOL = "linkforge: 1\nname: tool\nlinks: {tip: }\n"
+
+
+@pytest.mark.parametrize(
+    ("limit", "text", "before"),
+    [
+        (Limit.CHARACTERS_READ, TOOL + "#" * 800, 4 * ["LF3301"]),
+        (Limit.VALUES, TOOL + "metadata: {x: [" + "0, " * 600 + "0]}", 4 * ["LF3301"]),
+        (Limit.VALUES, TOOL + "metadata: {x: [" + "0, " * 500 + "0]}", 5 * [""]),
+        (Limit.VALUES, TOOL + "metadata: {x: [" + "0, " * 500 + "0}", 5 * ["LF1009"]),
+        (Limit.ROUNDS, TOOL.replace("tip:", "tip_$(i): {for: {i: 601}}"), 4 * ["LF3301"]),
+    ],
+)
+def test_variants_share_what_five_compiles_may_take(
+    limit: Limit, text: str, before: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(limit, "_value_", replace(limit.value, most=600))
+    (tmp_path / "tool.robot.yaml").write_text(text)
+    (tmp_path / "arm.robot.yaml").write_text(MANY)
+    found = check_variants(tmp_path / "arm.robot.yaml").values()
+    codes = [one and " ".join(told.code.id for told in one.diagnostics) for one in found]
+    assert codes == [*before, "LF3304", *[None] * (12 - len(before))]
+
+
+def test_what_is_judged_for_a_variant_counts_for_all_of_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    # Without what is judged the defaults and all variants take no more than five times as many.
+    monkeypatch.setattr(Limit.ENTRIES, "_value_", replace(Limit.ENTRIES.value, most=28))
+    (tmp_path / "tool.urdf").write_text("<robot name='tool'><link name='tip'/></robot>")
+    (tmp_path / "tool.srdf").write_text("<robot name='tool'><group name='all'><link name='tip'/></group></robot>")
+    (tmp_path / "arm.robot.yaml").write_text(MANY.replace("tool.robot.yaml", "tool.urdf, srdf: tool.srdf"))
+    found = check_variants(tmp_path / "arm.robot.yaml")
+    assert [name for name, one in found.items() if one is None] == ["v9", "v10", "v11"]
