@@ -6,10 +6,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from linkforge_compile.core.fields import Choice, Flag, Noise, Number, Spec, Text, field_specs, number_fields
+from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.part import Element, Part
-from linkforge_compile.lower.extra import besides
+from linkforge_compile.lower.extra import common_kwargs
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import Measure, measure_of
+from linkforge_compile.lower.quantities import ANGLE, LENGTH, measure_of
+from linkforge_compile.source import SourceRef
+from linkforge_compile.syntax.nodes import YamlList
 from linkforge_compile.units import FieldUnit, Motion
 
 if TYPE_CHECKING:
@@ -21,17 +24,22 @@ E = TypeVar("E", bound=Element)
 def lower_element(kind: type[E], fields: Fields, motion: Motion = Motion.OTHER, **values: Any) -> E | None:
     """Read an element whose other fields are `values`; None where it cannot be made, which is reported."""
     values |= lower_fields(kind, fields, motion)
-    if is_incomplete(kind, values):
+    if _is_incomplete(kind, values):
         return None
-    return fields.build(lambda: kind(**values, **besides(fields)))
+    return fields.build(lambda: kind(**values, **common_kwargs(fields)))
 
 
-def lower_fields(kind: type[Part], fields: Fields, motion: Motion = Motion.OTHER) -> dict[str, Any]:
-    """Read the fields that a model class describes, numbers in SI; what is faulty is reported, and replaced."""
-    return {name: _lower_field(name, spec, fields, motion) for name, spec in field_specs(kind).items()}
+def lower_fields(
+    kind: type[Part], fields: Fields, motion: Motion = Motion.OTHER, unit: FieldUnit | None = None
+) -> dict[str, Any]:
+    """Read the fields that a model class describes, numbers in SI; what is faulty is reported, and replaced.
+
+    `unit` is that of its numbers, where they are the noise on a value; None for the units that the class describes.
+    """
+    return {name: _lower_field(name, spec, fields, motion, unit) for name, spec in field_specs(kind).items()}
 
 
-def is_incomplete(kind: type[Part], values: dict[str, Any]) -> bool:
+def _is_incomplete(kind: type[Part], values: dict[str, Any]) -> bool:
     """Whether a field that the language requires has no value."""
     specs = field_specs(kind).items()
     return any(isinstance(spec, Number | Text) and spec.example and values[name] is None for name, spec in specs)
@@ -42,10 +50,10 @@ def stated_numbers(kind: type[Part], fields: Fields) -> Sequence[str]:
     return [name for name in number_fields(kind) if fields.node.get(name) is not None]
 
 
-def _lower_field(name: str, spec: Spec, fields: Fields, motion: Motion) -> Any:
+def _lower_field(name: str, spec: Spec, fields: Fields, motion: Motion, unit: FieldUnit | None) -> Any:
     match spec:
         case Number():
-            return _lower_number(name, spec, fields, measure_of(spec.unit, spec.bound, motion, spec.may_be_far), motion)
+            return _lower_number(name, spec, fields, motion, unit or spec.unit)
         case Noise():
             return _lower_noise(name, spec.unit, fields)
         case Text():
@@ -58,7 +66,8 @@ def _lower_field(name: str, spec: Spec, fields: Fields, motion: Motion) -> Any:
     return spec.implied if value is None else value
 
 
-def _lower_number(name: str, spec: Number, fields: Fields, measure: Measure, motion: Motion) -> float | None:
+def _lower_number(name: str, spec: Number, fields: Fields, motion: Motion, unit: FieldUnit) -> float | None:
+    measure = measure_of(unit, spec.bound, motion, spec.may_be_far)
     read = fields.integer if spec.is_whole else fields.number
     value = read(name, measure, required=spec.example_for(motion))
     if value is not None:
@@ -75,12 +84,22 @@ def _lower_noise(name: str, unit: FieldUnit, fields: Fields) -> SensorNoise | No
     # Most robots have no sensors, whose classes take their time to define.
     from linkforge_compile.core.models.sensor import SensorNoise
 
-    measure = measure_of(unit, None, Motion.UNKNOWN)
-    numbers = {
-        name: _lower_number(name, spec, noise, measure, Motion.UNKNOWN)
-        for name, spec in number_fields(SensorNoise).items()
-    }
-    kind = noise.text("type")
-    stated = [name for name in stated_numbers(SensorNoise, noise) if name.startswith("bias") and numbers[name] == 0]
-    values: dict[str, Any] = numbers if kind is None else {"type": kind, **numbers}
-    return noise.build(lambda: SensorNoise(**values, stated=stated, **besides(noise)))
+    values = lower_fields(SensorNoise, noise, Motion.UNKNOWN, unit)
+    stated = [name for name in stated_numbers(SensorNoise, noise) if name.startswith("bias") and values[name] == 0]
+    return noise.build(lambda: SensorNoise(**values, stated=stated, **common_kwargs(noise)))
+
+
+def lower_origin(fields: Fields) -> Transform:
+    """Read `origin`, a pose in the parent's frame: `[x, y, z]` or `{xyz, rpy}`; an absent or faulty part is 0."""
+    node = fields.said("origin")
+    if node is None:
+        return IDENTITY
+    if isinstance(node, YamlList):
+        xyz = fields.vector3_at(node, "origin", LENGTH)
+        return Transform(xyz, is_stated=True, source=SourceRef(node, None, fields.trail)) if xyz else IDENTITY
+    pose = fields.map_at(node, "origin")
+    if pose is None:
+        return IDENTITY
+    xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
+    is_stated = pose.said("xyz") is not None or pose.said("rpy") is not None
+    return Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **common_kwargs(pose))

@@ -7,7 +7,7 @@ from enum import StrEnum
 from functools import cache
 from typing import TypeVar
 
-from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
+from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT
 from linkforge_compile.diagnostics.codes.model import (
@@ -17,11 +17,8 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.diagnostics.codes.names import INVALID_NAME, NAME_TWICE
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
-from linkforge_compile.lower.extra import with_extras
 from linkforge_compile.lower.quantities import (
-    ANGLE,
     BARE,
-    LENGTH,
     Measure,
     Refusal,
     doubt,
@@ -33,7 +30,7 @@ from linkforge_compile.lower.quantities import (
     si_number,
 )
 from linkforge_compile.lower.spec_object import SpecObject
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source import SourceRef
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
@@ -73,18 +70,6 @@ class Fields(SpecObject):
             return None
         plain = plain_number(node, measure)
         return self.number_at(node, key, measure) if plain is None else plain
-
-    def numbers(self, *asked: tuple[str, Measure, str]) -> list[float | None]:
-        """Read several numbers, each by its key, its measure and, where it is required, an example of it."""
-        entries = self.node.entries
-        numbers: list[float | None] = []
-        for key, measure, required in asked:
-            entry = entries.get(key)
-            number = plain_number(entry.value, measure) if entry else None
-            if number is None and (entry or required):
-                number = self.number(key, measure, required=required)
-            numbers.append(number)
-        return numbers
 
     def integer(self, key: str, measure: Measure = BARE, *, required: str = "") -> int | None:
         """Read a whole number without a unit; 3.0 is one."""
@@ -141,29 +126,11 @@ class Fields(SpecObject):
         text = self.text(key, required=required)
         if text is None:
             return None
-        by_word = _by_word(choices)
-        if text not in by_word:
+        words = by_word(choices)
+        if text not in words:
             node = self.node.entries[key].value
-            self.tell(UNKNOWN_CHOICE, node, near=by_word, field=key, choices=", ".join(by_word), name=text)
-        return by_word.get(text)
-
-    def origin(self) -> Transform:
-        """Read `origin`, a pose in the parent's frame: `[x, y, z]` or `{xyz, rpy}`; what is unsaid or faulty is 0."""
-        node = self.said("origin")
-        if node is None:
-            return IDENTITY
-        if plain := _plain_pose(node, self.trail):
-            return plain
-        if isinstance(node, YamlList):
-            xyz = self.vector3_at(node, "origin", LENGTH)
-            return Transform(xyz, is_stated=True, source=SourceRef(node, None, self.trail)) if xyz else IDENTITY
-        pose = self.map_at(node, "origin")
-        if pose is None:
-            return IDENTITY
-        xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
-        is_stated = bool(xyz or rpy) or pose.said("xyz") is not None or pose.said("rpy") is not None
-        made = Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, source=pose.ref)
-        return with_extras(made, pose)
+            self.tell(UNKNOWN_CHOICE, node, near=words, field=key, choices=", ".join(words), name=text)
+        return words.get(text)
 
     # Opening what is nested
 
@@ -297,26 +264,9 @@ class Fields(SpecObject):
         return False
 
 
-def _plain_pose(node: YamlNode, trail: tuple[Span, ...]) -> Transform | None:
-    """Return the pose of a map of plain vectors, without opening it; None for what has to be looked at."""
-    vectors: dict[str, Vector3] = {}
-    for key, entry in node.entries.items() if isinstance(node, YamlMap) else ():
-        measure = _OF_A_POSE.get(key)
-        numbers = plain_numbers(entry.value, measure) if measure else ()
-        if len(numbers) != 3:
-            return None
-        vectors[key] = Vector3(*numbers)
-    if not vectors:
-        return None
-    xyz, rpy = vectors.get("xyz", IDENTITY.xyz), vectors.get("rpy", IDENTITY.rpy)
-    return Transform(xyz, rpy, is_stated=True, source=SourceRef(node, None, trail))
-
-
-_OF_A_POSE = {"xyz": LENGTH, "rpy": ANGLE}
-
-
 @cache
-def _by_word(choices: type[Choice]) -> Mapping[str, Choice]:
+def by_word(choices: type[Choice]) -> Mapping[str, Choice]:
+    """Return the members of an enumeration by the words that the language has for them."""
     return {str(choice): choice for choice in choices}
 
 

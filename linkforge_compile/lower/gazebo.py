@@ -9,9 +9,8 @@ from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, Ga
 from linkforge_compile.core.models.link import PHYSICS_TAGS
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import TAG_TWICE
-from linkforge_compile.lower.extra import besides
+from linkforge_compile.lower.extra import common_kwargs, free_elements, is_absent
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.free_part import free_elements, is_unsaid
 from linkforge_compile.lower.joint import joints_of, positions_of_type
 from linkforge_compile.lower.quantities import AMOUNT, ANGLE_OR_LENGTH, BARE, LENGTH, SHARE, Measure
 from linkforge_compile.source import SourceRef
@@ -66,7 +65,7 @@ def _element(block: Fields, reference: str | None, position: Measure) -> GazeboE
             block.number("stop_erp", SHARE),
             block.flag("provide_feedback"),
             block.flag("implicit_spring_damper"),
-            **besides(block),
+            **common_kwargs(block),
         )
     )
 
@@ -93,7 +92,7 @@ def _plugin(plugin: Fields, name: str | None) -> GazeboPlugin | None:
     filename, parameters = plugin.text("filename", required="libcontroller.so"), free_elements(plugin, "parameters")
     if name is None or filename is None:
         return None
-    return plugin.build(lambda: GazeboPlugin(name, filename, parameters, **besides(plugin)))
+    return plugin.build(lambda: GazeboPlugin(name, filename, parameters, **common_kwargs(plugin)))
 
 
 def _refuse_repeated_tags(block: Fields, said_by_physics: Mapping[str, YamlEntry]) -> None:
@@ -120,7 +119,7 @@ def _tags_of_block(block: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
             yield tag, entry
     properties = block.get("properties")
     for entry in properties if isinstance(properties, YamlMap) else ():
-        if not is_unsaid(entry.value):
+        if not is_absent(entry.value):
             yield entry.name, entry
 
 

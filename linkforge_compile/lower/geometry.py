@@ -8,7 +8,7 @@ from linkforge_compile.core.fields import NOT_ZERO
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Vector3
 from linkforge_compile.diagnostics.codes.model import NO_GEOMETRY, NO_MESH_FILE, SEVERAL_GEOMETRIES
 from linkforge_compile.lower.elements import lower_element
-from linkforge_compile.lower.extra import Besides, besides
+from linkforge_compile.lower.extra import CommonKwargs, common_kwargs
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.quantities import EXTENT, Measure
 from linkforge_compile.lower.scope import FileScope
@@ -35,7 +35,7 @@ def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
 def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
     body = shape.map_at(node, "box") if isinstance(node, YamlMap) else None
     if body:
-        size, rest = body.vector3("size", EXTENT, required="[0.1, 0.1, 0.1]"), besides(body)
+        size, rest = body.vector3("size", EXTENT, required="[0.1, 0.1, 0.1]"), common_kwargs(body)
     else:
         size, rest = shape.vector3_at(node, "box", EXTENT), _short(shape, node)
     return None if size is None else Box(size, **rest)
@@ -67,11 +67,11 @@ def _mesh(shape: Fields, node: YamlNode, scope: FileScope) -> Geometry | None:
         return None
     file = mesh.text("file", required="meshes/part.stl")
     scale = _scale(mesh)
-    return None if scale is None else _mesh_file(mesh, file, node, scale, scope, besides(mesh))
+    return None if scale is None else _mesh_file(mesh, file, node, scale, scope, common_kwargs(mesh))
 
 
 def _mesh_file(  # noqa: PLR0917 both forms of a mesh end here
-    fields: Fields, file: str | None, node: YamlNode, scale: Vector3, scope: FileScope, rest: Besides
+    fields: Fields, file: str | None, node: YamlNode, scale: Vector3, scope: FileScope, rest: CommonKwargs
 ) -> Geometry | None:
     if file is None:
         return None
@@ -93,7 +93,7 @@ def _scale(mesh: Fields) -> Vector3 | None:
     return None if number is None else Vector3(number, number, number)
 
 
-def _short(shape: Fields, node: YamlNode) -> Besides:
+def _short(shape: Fields, node: YamlNode) -> CommonKwargs:
     """Return what there is besides in a short form, which has no place for what is said raw."""
     return {"source": SourceRef(node, None, shape.trail)}
 

@@ -25,9 +25,9 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_AXIS,
     ZERO_AXIS,
 )
-from linkforge_compile.lower.elements import E, lower_element, lower_fields, stated_numbers
-from linkforge_compile.lower.extra import besides
-from linkforge_compile.lower.fields import Fields
+from linkforge_compile.lower.elements import E, lower_element, lower_fields, lower_origin, stated_numbers
+from linkforge_compile.lower.extra import common_kwargs
+from linkforge_compile.lower.fields import Fields, by_word
 from linkforge_compile.lower.quantities import (
     ANGLE_OR_LENGTH,
     BARE,
@@ -81,8 +81,7 @@ def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
 def positions_of_type(joint: Located | None) -> Measure:
     """Return what a position of a joint that is written somewhere is measured in; see `position_measure`."""
     kind = joint.child("type") if joint else None
-    known = {str(each): each for each in JointType}
-    return _position_measure(known.get(kind.text) if isinstance(kind, YamlScalar) else None)
+    return _position_measure(by_word(JointType).get(kind.text) if isinstance(kind, YamlScalar) else None)
 
 
 class Ends(NamedTuple):
@@ -104,7 +103,7 @@ def read_joint_of_any_type(fields: Fields, name: str) -> None:
     """Read what a joint may say of its motion, for what there is to tell of it where its type may not be known."""
     joint_type = fields.choice("type", JointType)
     motion = joint_type.motion if joint_type else Motion.UNKNOWN
-    fields.origin()
+    lower_origin(fields)
     _axis(fields, joint_type)
     _limits(fields, joint_type, motion)
     for part in (JointDynamics, JointSafetyController, JointCalibration):
@@ -117,7 +116,7 @@ def _joint(fields: Fields, name: str, links: Sequence[str]) -> Joint | None:
     valid_name = name if fields.name_is_valid(name, "joint") else None
     joint_type = fields.choice("type", JointType, required="revolute")
     base = _some_base(fields, links) if fields.said("parent") is None else ""
-    ends = Ends(fields.text("parent", required=base), fields.text("child", required="arm"), fields.origin())
+    ends = Ends(fields.text("parent", required=base), fields.text("child", required="arm"), lower_origin(fields))
     return joint_between(fields, valid_name, joint_type, ends)
 
 
@@ -160,7 +159,7 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
             safety,
             calibration,
             axis_as_written=axis_as_written,
-            **besides(fields),
+            **common_kwargs(fields),
         )
     )
 
@@ -215,7 +214,7 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: Motion) -> Joi
     if joint_type is JointType.CONTINUOUS:
         # It has no range, and one that is stated is reported; what stands in for a faulty one is not.
         values |= {name: None for name in ("lower", "upper") if values[name] in (-UNKNOWN, UNKNOWN)}
-    return limits.build(lambda: JointLimits(**values, **besides(limits)))
+    return limits.build(lambda: JointLimits(**values, **common_kwargs(limits)))
 
 
 def _tell_crossed(limits: Fields) -> None:
@@ -238,7 +237,7 @@ def _mimic(fields: Fields, motion: Motion) -> JointMimic | None:
     if joint is None:
         return None
     stated = stated_numbers(JointMimic, mimic)
-    return mimic.build(lambda: JointMimic(joint, **numbers, stated=stated, **besides(mimic)))
+    return mimic.build(lambda: JointMimic(joint, **numbers, stated=stated, **common_kwargs(mimic)))
 
 
 def _refuse(fields: Fields, key: str, joint_type: JointType) -> None:

@@ -27,8 +27,8 @@ from linkforge_compile.diagnostics.codes.model import (
     ORIGIN_WITHOUT_INERTIA,
     WRONG_KIND,
 )
-from linkforge_compile.lower.elements import lower_element, lower_fields
-from linkforge_compile.lower.extra import besides, outer_extras_of, with_extras
+from linkforge_compile.lower.elements import lower_element, lower_fields, lower_origin
+from linkforge_compile.lower.extra import common_kwargs, outer_extras_of
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.geometry import lower_geometry
 from linkforge_compile.lower.material import lower_visual_material
@@ -108,10 +108,9 @@ def _physics(link: Fields) -> LinkPhysics:
 def _visual(shape: Fields | None, scope: FileScope) -> Visual | None:
     if shape is None:
         return None
-    geometry, origin = lower_geometry(shape, scope), shape.origin()
+    geometry, origin = lower_geometry(shape, scope), lower_origin(shape)
     material, name = lower_visual_material(shape, scope), shape.text("name")
-    made = Visual(geometry, origin, material, name, source=shape.ref) if geometry else None
-    return made and with_extras(made, shape)
+    return Visual(geometry, origin, material, name, **common_kwargs(shape)) if geometry else None
 
 
 def _collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) -> list[Collision | None]:
@@ -131,9 +130,8 @@ def _collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) ->
 def _collision(shape: Fields | None, scope: FileScope) -> Collision | None:
     if shape is None:
         return None
-    geometry, origin, name = lower_geometry(shape, scope), shape.origin(), shape.text("name")
-    made = Collision(geometry, origin, name, source=shape.ref) if geometry else None
-    return made and with_extras(made, shape)
+    geometry, origin, name = lower_geometry(shape, scope), lower_origin(shape), shape.text("name")
+    return Collision(geometry, origin, name, **common_kwargs(shape)) if geometry else None
 
 
 def _inertial(link: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
@@ -147,9 +145,9 @@ def _inertial(link: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None
 
 def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
     written = inertial.node.get("inertia") is not None
-    mass_taken = _MASS if written else _MASS_TO_SPREAD
-    mass, density = inertial.numbers(("mass", mass_taken, ""), ("density", _DENSITY, ""))
-    origin = inertial.origin()
+    mass = inertial.number("mass", _MASS if written else _MASS_TO_SPREAD)
+    density = inertial.number("density", _DENSITY)
+    origin = lower_origin(inertial)
     if written:
         return _written(inertial, mass, origin)
     if (node := inertial.node.get("origin")) is not None:
@@ -168,7 +166,7 @@ def _written(inertial: Fields, mass: float | None, origin: Transform) -> Inertia
         inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass'")
     if mass is None or tensor is None:
         return None
-    return with_extras(Inertial(mass, origin, tensor, source=inertial.ref), inertial)
+    return Inertial(mass, origin, tensor, **common_kwargs(inertial))
 
 
 def _tensor(inertial: Fields) -> InertiaTensor | None:
@@ -206,6 +204,6 @@ def _computed(
         if len(bodies) < len(shapes) or len(solids) < len(read) or (mass is None and density is None):
             return None
         computed = inertial_of_shapes(bodies, mass=mass, density=density, meshes=solids)
-        return replace(computed, **besides(inertial))
+        return replace(computed, **common_kwargs(inertial))
 
     return inertial.build(compute)

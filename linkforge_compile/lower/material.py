@@ -9,7 +9,7 @@ from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL, OUT_OF_RANGE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.lower.extra import Besides, besides
+from linkforge_compile.lower.extra import CommonKwargs, common_kwargs
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.quantities import SHARE
 from linkforge_compile.lower.scope import FileScope
@@ -53,7 +53,7 @@ def _material(fields: Fields, name: str, scope: FileScope) -> Material | None:
         return None
     image = scope.resource(file, texture) if file is not None and texture is not None else None
     after_links = fields.flag("after_links") or False
-    return fields.build(lambda: Material(name, rgba, image, after_links=after_links, **besides(fields)))
+    return fields.build(lambda: Material(name, rgba, image, after_links=after_links, **common_kwargs(fields)))
 
 
 def _color_in_comment(key: Span | None) -> str:
@@ -79,7 +79,7 @@ def _color(fields: Fields) -> Color | None:
     rgba = None if numbers is None else fields.numbers_at(numbers, "color", SHARE, 3, 4)
     if node is None or rgba is None:
         return None
-    rest: Besides = besides(long) if long else {"source": SourceRef(node, None, fields.trail)}
+    rest: CommonKwargs = common_kwargs(long) if long else {"source": SourceRef(node, None, fields.trail)}
     return fields.build(lambda: Color(*rgba, **rest))
 
 

@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.expand.assembly import Instance
 from linkforge_compile.lower.duplicates import tell_duplicate
+from linkforge_compile.lower.elements import lower_origin
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.joint import Ends, joint_between
 from linkforge_compile.lower.module_joint import ModuleJoint, gazebo_of, module_fields
@@ -75,7 +76,7 @@ def hung_by(mount: ModuleJoint, module: Instance, root: str | None, sink: Diagno
         return whole
     if (said := written.node.get("joint")) is not None:
         written.tell(MOUNT_AND_JOINT, said, owner=written.owner, joint=mount.name)
-    parent, origin = written.text("parent"), written.origin()
+    parent, origin = written.text("parent"), lower_origin(written)
     if parent is None or not _holds_root(whole, root, module.prefix, sink):
         return whole._replace(joint=None)
     joint = replace(whole.joint, source=_with_ends_of(written.node, whole.joint.source))

@@ -15,9 +15,8 @@ from linkforge_compile.core.models.ros2_control import (
     Ros2ControlJoint,
     Ros2ControlSensor,
 )
-from linkforge_compile.lower.extra import EXTRA_KEYS, besides
+from linkforge_compile.lower.extra import EXTRA_KEYS, common_kwargs, free_texts, texts_in
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.free_part import free_texts, texts_in
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlMap
 
@@ -55,7 +54,7 @@ def _control(fields: Fields, name: str) -> Ros2Control | None:
             [sensor for sensor in sensors.values() if sensor],
             parameters,
             gpios=[gpio for gpio in gpios.values() if gpio],
-            **besides(fields),
+            **common_kwargs(fields),
         )
     )
 
@@ -64,13 +63,13 @@ def _commanded(kind: type[Commanded], part: Fields, name: str) -> Commanded | No
     commands = tuple(_interfaces(part, "command_interfaces"))
     states = tuple(_interfaces(part, "state_interfaces"))
     parameters = free_texts(part, "parameters")
-    make = partial(kind, name, commands, states, parameters, **besides(part))
+    make = partial(kind, name, commands, states, parameters, **common_kwargs(part))
     return part.build(make)
 
 
 def _sensor(part: Fields, name: str) -> Ros2ControlSensor | None:
     states, parameters = tuple(_interfaces(part, "state_interfaces")), free_texts(part, "parameters")
-    return part.build(lambda: Ros2ControlSensor(name, states, parameters, **besides(part)))
+    return part.build(lambda: Ros2ControlSensor(name, states, parameters, **common_kwargs(part)))
 
 
 def _interfaces(part: Fields, key: str) -> Iterator[Interface]:
@@ -84,4 +83,4 @@ def _interfaces(part: Fields, key: str) -> Iterator[Interface]:
 
 def _interface(interface: Fields, name: str) -> Interface:
     parameters = texts_in(interface, *EXTRA_KEYS)
-    return Interface(name, parameters, **besides(interface))
+    return Interface(name, parameters, **common_kwargs(interface))

@@ -17,8 +17,8 @@ from linkforge_compile.core.models.sensor import (
     SensorType,
 )
 from linkforge_compile.core.part import Element
-from linkforge_compile.lower.elements import lower_element, lower_fields
-from linkforge_compile.lower.extra import besides
+from linkforge_compile.lower.elements import lower_element, lower_fields, lower_origin
+from linkforge_compile.lower.extra import common_kwargs
 from linkforge_compile.lower.fields import Fields, or_default
 from linkforge_compile.lower.gazebo import lower_plugin
 
@@ -48,9 +48,9 @@ def _sensor(fields: Fields, name: str) -> Sensor | None:
     sensor_type, link = fields.choice("type", SensorType, required="camera"), fields.text("link", required="head")
     update_rate = lower_fields(Sensor, fields)["update_rate"]
     always_on, visualize = fields.flag("always_on"), fields.flag("visualize")
-    origin, topic, frame = fields.origin(), fields.text("topic"), fields.text("frame")
+    origin, topic, frame = lower_origin(fields), fields.text("topic"), fields.text("frame")
     plugin = fields.map("plugin")
-    lowered_plugin, rest = lower_plugin(plugin) if plugin else None, besides(fields)
+    lowered_plugin, rest = lower_plugin(plugin) if plugin else None, common_kwargs(fields)
     own = _OWN_INFO.get(sensor_type) if sensor_type else None
     infos = _infos(fields, own)
     if sensor_type is None or link is None or (own and getattr(infos, own) is None):

@@ -22,9 +22,8 @@ from linkforge_compile.core.models.srdf import (
 )
 from linkforge_compile.diagnostics.codes.model import EMPTY_GROUP, PAIR_WITH_ITSELF
 from linkforge_compile.lower.duplicates import tell_duplicate
-from linkforge_compile.lower.extra import besides
+from linkforge_compile.lower.extra import common_kwargs, is_absent
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.free_part import is_unsaid
 from linkforge_compile.lower.quantities import LENGTH, Measure
 from linkforge_compile.lower.srdf_states import WrittenState, written_states
 from linkforge_compile.source import SourceRef
@@ -69,7 +68,7 @@ def lower_semantic(file: Fields) -> Semantic | None:
         no_default_collision_links=semantic.names("no_default_collision_links"),
         link_sphere_approximations=tuple(_sphere_approximations(semantic)),
         joint_properties=tuple(_joint_properties(semantic)),
-        **besides(semantic),
+        **common_kwargs(semantic),
     )
     named = (*groups.items(), *virtual_joints.items())
     lost = frozenset(name for name, part in named if part is None)
@@ -82,7 +81,7 @@ def _virtual_joint(fields: Fields, name: str) -> VirtualJoint | None:
     child_link = fields.text("child_link", required="base")
     if joint_type is None or parent_frame is None or child_link is None:
         return None
-    return fields.build(lambda: VirtualJoint(name, joint_type.value, parent_frame, child_link, **besides(fields)))
+    return fields.build(lambda: VirtualJoint(name, joint_type.value, parent_frame, child_link, **common_kwargs(fields)))
 
 
 def _group(fields: Fields, name: str) -> PlanningGroup | None:
@@ -94,7 +93,7 @@ def _group(fields: Fields, name: str) -> PlanningGroup | None:
     whole = [chain for chain in chains if chain]
     if not (whole or links or joints or subgroups):
         return None  # all its members are faulty and told
-    return fields.build(lambda: PlanningGroup(name, links, joints, whole, subgroups, **besides(fields)))
+    return fields.build(lambda: PlanningGroup(name, links, joints, whole, subgroups, **common_kwargs(fields)))
 
 
 def _chain(group: Fields, node: YamlNode) -> Chain | None:
@@ -104,7 +103,7 @@ def _chain(group: Fields, node: YamlNode) -> Chain | None:
     base, tip = chain.text("base_link", required="base"), chain.text("tip_link", required="tool0")
     if base is None or tip is None:
         return None
-    return chain.build(lambda: Chain(base, tip, **besides(chain)))
+    return chain.build(lambda: Chain(base, tip, **common_kwargs(chain)))
 
 
 def _end_effector(fields: Fields, name: str) -> EndEffector | None:
@@ -112,7 +111,7 @@ def _end_effector(fields: Fields, name: str) -> EndEffector | None:
     parent_group = fields.text("parent_group")
     if group is None or parent_link is None:
         return None
-    return fields.build(lambda: EndEffector(name, group, parent_link, parent_group, **besides(fields)))
+    return fields.build(lambda: EndEffector(name, group, parent_link, parent_group, **common_kwargs(fields)))
 
 
 def _passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
@@ -134,7 +133,7 @@ def _passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
 
 
 def _passive_joint(fields: Fields, name: str) -> PassiveJoint | None:
-    return fields.build(lambda: PassiveJoint(name, **besides(fields)))
+    return fields.build(lambda: PassiveJoint(name, **common_kwargs(fields)))
 
 
 def _collision_pairs(semantic: Fields, key: str) -> Iterator[CollisionPair]:
@@ -143,7 +142,7 @@ def _collision_pairs(semantic: Fields, key: str) -> Iterator[CollisionPair]:
             semantic.tell(PAIR_WITH_ITSELF, entry.key, link=entry.name)
             continue
         item = _long(semantic, "collision pair", entry, "reason", link1=first, link2=entry.key)
-        make = partial(CollisionPair, first.text, entry.name, item.text("reason"), **besides(item))
+        make = partial(CollisionPair, first.text, entry.name, item.text("reason"), **common_kwargs(item))
         if pair := item.build(make):
             yield pair
 
@@ -154,7 +153,7 @@ def _sphere_approximations(semantic: Fields) -> Iterator[LinkSphereApproximation
         item = _long(semantic, f"sphere approximation of link '{entry.name}'", entry, "spheres", link=entry.key)
         spheres = [_sphere(item, node) for node in item.items("spheres")]
         whole = [sphere for sphere in spheres if sphere]
-        make = partial(LinkSphereApproximation, entry.name, whole, **besides(item))
+        make = partial(LinkSphereApproximation, entry.name, whole, **common_kwargs(item))
         if approximation := item.build(make):
             yield approximation
 
@@ -175,7 +174,7 @@ def _sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
     radius = sphere.number("radius", _RADIUS, required="0.1")
     if center is None or radius is None:
         return None
-    return sphere.build(lambda: SrdfSphere(center.x, center.y, center.z, radius, **besides(sphere)))
+    return sphere.build(lambda: SrdfSphere(center.x, center.y, center.z, radius, **common_kwargs(sphere)))
 
 
 def _joint_properties(semantic: Fields) -> Iterator[JointProperty]:
@@ -184,13 +183,13 @@ def _joint_properties(semantic: Fields) -> Iterator[JointProperty]:
         item = _long(semantic, owner, entry, "value", joint_name=joint, property_name=entry.key)
         said = item.node.entries.get("value")
         # A free part: a null that was written is text, and only what nobody wrote is none.
-        if said is None or is_unsaid(said.value):
+        if said is None or is_absent(said.value):
             if isinstance(entry.value, YamlMap):
                 item.said("value", "true")
             continue
         value = item.text_at(said.value, entry.name)
         if value is None:
             continue
-        make = partial(JointProperty, joint.text, entry.name, value, **besides(item))
+        make = partial(JointProperty, joint.text, entry.name, value, **common_kwargs(item))
         if remark := item.build(make):
             yield remark

@@ -11,7 +11,7 @@ from typing import TypeAlias
 from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.diagnostics.codes.model import STATE_CIRCLE, STATE_VALUE_TWICE, UNKNOWN_STATE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP
-from linkforge_compile.lower.extra import EXTRA_KEYS, besides
+from linkforge_compile.lower.extra import EXTRA_KEYS, common_kwargs
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.quantities import Measure
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar, is_null
@@ -83,7 +83,7 @@ def resolve_states(written: Sequence[WrittenState], around: Surroundings) -> lis
         known = positions.get(state.key)
         if known is None:
             continue
-        make = partial(GroupState, state.name, state.group, known, **besides(state.fields))
+        make = partial(GroupState, state.name, state.group, known, **common_kwargs(state.fields))
         if built := state.fields.build(make):
             states.append(built)
     return states

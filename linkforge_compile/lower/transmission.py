@@ -9,9 +9,8 @@ from typing import TypeVar
 from linkforge_compile.core.constants import HW_IF_POSITION
 from linkforge_compile.core.fields import BEYOND_EPSILON
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
-from linkforge_compile.lower.extra import besides
+from linkforge_compile.lower.extra import common_kwargs, free_elements
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.free_part import free_elements
 from linkforge_compile.lower.joint import joints_of, positions_of_type
 from linkforge_compile.lower.quantities import Measure
 from linkforge_compile.source.ref import Located
@@ -41,7 +40,7 @@ def _transmission(written: Mapping[str, Located], fields: Fields, name: str) -> 
     if not valid or kind is None:
         return None
     make = partial(Transmission, name, kind, whole_joints, whole_actuators, parameters)
-    return fields.build(lambda: make(**besides(fields)))
+    return fields.build(lambda: make(**common_kwargs(fields)))
 
 
 def _joint(written: Mapping[str, Located], end: Fields, name: str) -> TransmissionJoint | None:
@@ -60,7 +59,7 @@ def _end(kind: type[End], end: Fields, name: str, position: Measure) -> End | No
     reduction = end.number("mechanical_reduction", _REDUCTION)
     offset = end.number("offset", position)
     make = partial(kind, name, interfaces, reduction, offset or 0.0, stated=("offset",) if offset == 0 else ())
-    return end.build(lambda: make(interfaces_stated=are_stated, **besides(end)))
+    return end.build(lambda: make(interfaces_stated=are_stated, **common_kwargs(end)))
 
 
 def _is_empty_list(node: YamlNode | None) -> bool:
