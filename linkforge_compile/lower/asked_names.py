@@ -10,7 +10,7 @@ from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT, UNKNOWN_LIN
 from linkforge_compile.expand.assembly import NameReference
 
 
-def tell_unknown_names(
+def check_name_lookups(
     references: Iterable[NameReference], robot: Robot, unresolved: UnresolvedNames, sink: Diagnostics
 ) -> None:
     """Report every name that neither the file has nor its modules; `robot` has the names as the file sees them."""

@@ -10,7 +10,7 @@ from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.expand.assembly import Instance
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.file import lower_file, unresolved_of
-from linkforge_compile.lower.joint import position_measure
+from linkforge_compile.lower.joint import position_type
 from linkforge_compile.lower.lowered import Lowered
 from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.source import SourceFile
@@ -34,9 +34,9 @@ def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = Non
     """
     lowered = _lowered(instance, sink, meshes or MeshSolids(), instance.shared_files)
     if any(one.defaults is not None for one in instance.with_modules):
-        from linkforge_compile.lower.defaults import judge_defaults
+        from linkforge_compile.lower.defaults import check_defaults
 
-        judge_defaults(instance, sink)
+        check_defaults(instance, sink)
     return lowered
 
 
@@ -87,7 +87,7 @@ def _resolve_states(
     around = Surroundings(
         groups=dict.fromkeys(group.name for group in semantic.groups),
         joints=joints,
-        measure=lambda name: position_measure(joints.get(name)),
+        kind=lambda name: position_type(joints.get(name)),
         states={(state.group, state.name): state.joint_values for state in semantic.group_states},
         lost=lost,
     )
@@ -101,15 +101,15 @@ def _judge_references(instance: Instance, lowered: Lowered, sink: Diagnostics) -
     if instance.tree is None or lowered.robot is None:
         return
     if instance.modules and not _SAY_POSITIONS.isdisjoint(instance.tree.entries):
-        from linkforge_compile.lower.positions import judge_positions_elsewhere
+        from linkforge_compile.lower.positions import check_positions_of_module_joints
 
         joints: dict[str, Joint | None] = {joint.name: joint for joint in lowered.robot.joints}
         joints |= {lowered.mount.name: lowered.mount.joint} if lowered.mount else {}
-        judge_positions_elsewhere(Fields(instance.tree, "robot", sink, instance.trail), joints)
+        check_positions_of_module_joints(Fields(instance.tree, "robot", sink, instance.trail), joints)
     if instance.references:
-        from linkforge_compile.lower.asked_names import tell_unknown_names
+        from linkforge_compile.lower.asked_names import check_name_lookups
 
-        tell_unknown_names(instance.references, lowered.robot, lowered.unresolved_alone, sink)
+        check_name_lookups(instance.references, lowered.robot, lowered.unresolved_alone, sink)
 
 
 def _passed_on(robot: Robot, instance: Instance, *, is_shared: bool) -> PassedOn | None:

@@ -36,7 +36,7 @@ _OF_A_VALUE = frozenset(
 """What is wrong with a value whatever stands beside it; what an entry lacks or may not have is the entry's."""
 
 
-def judge_defaults(instance: Instance, sink: Diagnostics) -> None:
+def check_defaults(instance: Instance, sink: Diagnostics) -> None:
     """Report what is wrong with the defaults of a file and of its modules, but for what was told of the same place."""
     told = {(diagnostic.code, place) for diagnostic in sink for place in _places(diagnostic)}
     for one in instance.with_modules:
@@ -65,15 +65,15 @@ def _faults(defaults: YamlMap, instance: Instance) -> Iterator[Diagnostic]:
 def _as_entries(defaults: YamlMap) -> YamlMap | None:
     """Return the sections of a file that has one entry for each default, None for none."""
 
-    def said(**nodes: YamlNode | None) -> YamlMap | None:
+    def fields_of(**nodes: YamlNode | None) -> YamlMap | None:
         entries = {name: _entry(name, node) for name, node in nodes.items() if node is not None}
         return YamlMap(entries, defaults.span) if entries else None
 
-    shapes = said(visual=defaults.get("visual"), collision=defaults.get("collision"))
-    return said(
-        links=said(link=defaults.get("link"), shapes=shapes),
-        joints=said(joint=defaults.get("joint")),
-        sensors=said(sensor=defaults.get("sensor")),
+    shapes = fields_of(visual=defaults.get("visual"), collision=defaults.get("collision"))
+    return fields_of(
+        links=fields_of(link=defaults.get("link"), shapes=shapes),
+        joints=fields_of(joint=defaults.get("joint")),
+        sensors=fields_of(sensor=defaults.get("sensor")),
     )
 
 

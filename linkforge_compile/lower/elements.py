@@ -10,7 +10,7 @@ from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.part import Element, Part
 from linkforge_compile.lower.extra import common_kwargs
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import ANGLE, LENGTH, measure_of
+from linkforge_compile.lower.numbers import ANGLE, LENGTH, number_type
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlList
 from linkforge_compile.units import FieldUnit, Motion
@@ -67,12 +67,12 @@ def _lower_field(name: str, spec: Spec, fields: Fields, motion: Motion, unit: Fi
 
 
 def _lower_number(name: str, spec: Number, fields: Fields, motion: Motion, unit: FieldUnit) -> float | None:
-    measure = measure_of(unit, spec.bound, motion, spec.may_be_far)
+    kind = number_type(unit, spec.bound, motion, spec.may_be_far)
     read = fields.integer if spec.is_whole else fields.number
-    value = read(name, measure, required=spec.example_for(motion))
+    value = read(name, kind, required=spec.example_for(motion))
     if value is not None:
         return value
-    is_faulty = spec.example or fields.said(name) is not None or fields.is_faulty
+    is_faulty = spec.example or fields.get(name) is not None or fields.is_faulty
     return spec.stand_in if is_faulty and spec.stand_in is not None else spec.implied
 
 
@@ -91,7 +91,7 @@ def _lower_noise(name: str, unit: FieldUnit, fields: Fields) -> SensorNoise | No
 
 def lower_origin(fields: Fields) -> Transform:
     """Read `origin`, a pose in the parent's frame: `[x, y, z]` or `{xyz, rpy}`; an absent or faulty part is 0."""
-    node = fields.said("origin")
+    node = fields.get("origin")
     if node is None:
         return IDENTITY
     if isinstance(node, YamlList):
@@ -101,5 +101,5 @@ def lower_origin(fields: Fields) -> Transform:
     if pose is None:
         return IDENTITY
     xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
-    is_stated = pose.said("xyz") is not None or pose.said("rpy") is not None
+    is_stated = pose.get("xyz") is not None or pose.get("rpy") is not None
     return Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **common_kwargs(pose))

@@ -72,7 +72,7 @@ def free_elements(fields: Fields, key: str) -> dict[str, FreePart]:
         return {}
     for entry in section.node:
         if entry.name.startswith("_"):
-            section.tell(ATTRIBUTE_OF_OWNER, entry.key, name=entry.name, owner=fields.title)
+            section.report(ATTRIBUTE_OF_OWNER, entry.key, name=entry.name, owner=fields.title)
     return {tag: part for tag, part in _children(section) if not tag.startswith("_")}
 
 
@@ -119,7 +119,7 @@ def _item(parent: Fields, node: YamlNode, tag: str) -> FreePart | None:
             element = parent.map_at(node, tag)
             return dict(_children(element)) if element else None
         case YamlList():
-            parent.tell(LIST_IN_LIST, node, field=tag)
+            parent.report(LIST_IN_LIST, node, field=tag)
         case YamlFault():
             pass
     return None

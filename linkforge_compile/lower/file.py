@@ -13,7 +13,6 @@ from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.lower.duplicates import tell_duplicate
 from linkforge_compile.lower.extra import outer_extras_of
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.frame import Frame, lower_frames
@@ -21,8 +20,8 @@ from linkforge_compile.lower.joint import lower_joints
 from linkforge_compile.lower.link import lower_links
 from linkforge_compile.lower.material import lower_materials
 from linkforge_compile.lower.mesh_solids import MeshReader
+from linkforge_compile.lower.object_context import has_fault, report_duplicate
 from linkforge_compile.lower.scope import FileScope
-from linkforge_compile.lower.spec_object import has_fault
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
 from linkforge_compile.units import Quantity, number_text
@@ -165,7 +164,7 @@ def _add_frame(frame: Frame, links: dict[str, Link | None], joints: dict[str, Jo
     ):
         first = others.get(name)
         if part and first:
-            tell_duplicate(sink, kind, name, part.source, first.source)
+            report_duplicate(sink, kind, name, part.source, first.source)
         clashes |= name in others
     if clashes or not frame.link or not frame.joint:
         links.setdefault(frame.link_name, None)

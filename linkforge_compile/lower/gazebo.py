@@ -11,8 +11,8 @@ from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import TAG_TWICE
 from linkforge_compile.lower.extra import common_kwargs, free_elements, is_absent
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.joint import joints_of, positions_of_type
-from linkforge_compile.lower.quantities import AMOUNT, ANGLE_OR_LENGTH, BARE, LENGTH, SHARE, Measure
+from linkforge_compile.lower.joint import joints_of, position_type_of_node
+from linkforge_compile.lower.numbers import AMOUNT, ANGLE_OR_LENGTH, BARE, FRACTION, LENGTH, NumberType
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension, is_in_full, number_text
@@ -43,7 +43,7 @@ def lower_gazebo(owner: Fields, reference: str | None, written: Mapping[str, Yam
             continue
         _refuse_repeated_tags(block, said_by_physics)
         about = block.text("reference") if reference is None else reference
-        element = _element(block, about, positions_of_type(written.get(about) if about is not None else None))
+        element = _element(block, about, position_type_of_node(written.get(about) if about is not None else None))
         if element:
             yield element
 
@@ -53,7 +53,7 @@ def lower_plugin(plugin: Fields) -> GazeboPlugin | None:
     return _plugin(plugin, plugin.text("name", required="controller"))
 
 
-def _element(block: Fields, reference: str | None, position: Measure) -> GazeboElement | None:
+def _element(block: Fields, reference: str | None, position: NumberType) -> GazeboElement | None:
     return block.build(
         lambda: GazeboElement(
             reference,
@@ -62,7 +62,7 @@ def _element(block: Fields, reference: str | None, position: Measure) -> GazeboE
             block.text("material"),
             block.flag("static"),
             block.number("stop_cfm", AMOUNT),
-            block.number("stop_erp", SHARE),
+            block.number("stop_erp", FRACTION),
             block.flag("provide_feedback"),
             block.flag("implicit_spring_damper"),
             **common_kwargs(block),
@@ -70,7 +70,7 @@ def _element(block: Fields, reference: str | None, position: Measure) -> GazeboE
     )
 
 
-def _known_properties(block: Fields, position: Measure) -> Iterator[tuple[str, FreePart]]:
+def _known_properties(block: Fields, position: NumberType) -> Iterator[tuple[str, FreePart]]:
     """Yield the tags that have keys of their own, in the order written; `position` is what the joint goes by."""
     for entry in block.node:
         read = _of(position) if entry.name == "springReference" else _READ.get(entry.name)
@@ -123,17 +123,17 @@ def _tags_of_block(block: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
             yield entry.name, entry
 
 
-def _number(block: Fields, key: str, measure: Measure = BARE) -> str | None:
+def _number(block: Fields, key: str, kind: NumberType = BARE) -> str | None:
     """Read a number of Gazebo's as text: in the spelling of its author where that is written out, as URDFs have it."""
-    number = block.number(key, measure)
+    number = block.number(key, kind)
     if number is None:
         return None
-    node = block.said(key)
+    node = block.get(key)
     return node.text if isinstance(node, YamlScalar) and is_in_full(node.text) else number_text(number)
 
 
-def _of(measure: Measure) -> Callable[[Fields, str], str | None]:
-    return lambda block, key: _number(block, key, measure)
+def _of(kind: NumberType) -> Callable[[Fields, str], str | None]:
+    return lambda block, key: _number(block, key, kind)
 
 
 def _whole_number(block: Fields, key: str) -> str | None:
@@ -157,7 +157,7 @@ _READ: dict[str, Callable[[Fields, str], str | None]] = {
     "fdir1": _vector,
     "kp": _number,
     "kd": _number,
-    "maxVel": _of(Measure((Dimension.VELOCITY,))),
+    "maxVel": _of(NumberType((Dimension.VELOCITY,))),
     "minDepth": _of(LENGTH),
     "maxContacts": _whole_number,
     "selfCollide": _flag,

@@ -10,23 +10,25 @@ from linkforge_compile.diagnostics.codes.model import NO_GEOMETRY, NO_MESH_FILE,
 from linkforge_compile.lower.elements import lower_element
 from linkforge_compile.lower.extra import CommonKwargs, common_kwargs
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import EXTENT, Measure
+from linkforge_compile.lower.numbers import EXTENT, NumberType
 from linkforge_compile.lower.scope import FileScope
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode
 
-_FACTOR = Measure(bound=NOT_ZERO)
+_FACTOR = NumberType(bound=NOT_ZERO)
 
 
 def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
     """Lower the one geometry of a visual or a collision; None where it was told why there is none."""
-    said = [key for key in shape.node.entries if key in _LOWER and shape.said(key) is not None]
+    said = [key for key in shape.node.entries if key in _LOWER and shape.get(key) is not None]
     if not said:
-        shape.tell_lack(NO_GEOMETRY, owner=shape.title)
+        shape.report_incomplete(NO_GEOMETRY, owner=shape.title)
         return None
     if len(said) > 1:
         first, second, *_ = sorted(said, key=list(_LOWER).index)
-        shape.tell(SEVERAL_GEOMETRIES, shape.node.entries[second].value, owner=shape.title, first=first, second=second)
+        shape.report(
+            SEVERAL_GEOMETRIES, shape.node.entries[second].value, owner=shape.title, first=first, second=second
+        )
         return None
     key = said[0]
     return _LOWER[key](shape, shape.node.entries[key].value, scope)
@@ -76,7 +78,7 @@ def _mesh_file(  # noqa: PLR0917 both forms of a mesh end here
     if file is None:
         return None
     if not file.strip():
-        fields.tell(NO_MESH_FILE, node.child("file") or node, owner=fields.title)
+        fields.report(NO_MESH_FILE, node.child("file") or node, owner=fields.title)
         return None
     resource = scope.resource(file, node.child("file") or node)
     return Mesh(resource, scale, is_scale_stated=node.child("scale") is not None, **rest)

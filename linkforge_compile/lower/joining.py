@@ -13,11 +13,11 @@ from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEF
 from linkforge_compile.diagnostics.codes.names import OWN_ATTRIBUTE_STAYS
 from linkforge_compile.expand.assembly import Instance, joint_name_of
 from linkforge_compile.lower.clashes import Clash, told_of_clashes
-from linkforge_compile.lower.duplicates import tell_duplicate
 from linkforge_compile.lower.file import LoweredFile, unresolved_of
 from linkforge_compile.lower.lowered import Lowered, Unmerged
 from linkforge_compile.lower.module_joint import ModuleJoint, lower_module_joint, module_fields
-from linkforge_compile.lower.mount import handed_on, hang_on_world, hung_by, only_mount
+from linkforge_compile.lower.mount import attach_mount, attach_to_world, inherit_mount, single_mount
+from linkforge_compile.lower.object_context import report_duplicate
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
@@ -85,8 +85,8 @@ class Joining:
             if module.entry.node.child("joint") is not None:
                 # It may not name one, which is told: whoever names that joint goes by the same mistake.
                 self._unresolved |= unresolved_of([joint_name_of(module.name, module.entry.node)])
-            return hung_by(own, module, root, self._sink)
-        whole = handed_on(own, module.prefix)
+            return attach_mount(own, module, root, self._sink)
+        whole = inherit_mount(own, module.prefix)
         if lower_module_joint(module, root, self._sink):
             # What else is said of how it hangs shows that its parent was forgotten, which is told.
             return whole._replace(joint=None)
@@ -98,10 +98,10 @@ class Joining:
 
         One that has a mount and is nobody's module (`hangs_alone`) hangs on the world by it.
         """
-        mount = only_mount(self._mounts, self._sink)
+        mount = single_mount(self._mounts, self._sink)
         self._unresolved |= unresolved_of(other.name for other in self._mounts[1:])
         if mount and hangs_alone:
-            self._unresolved |= hang_on_world(self._robot, mount, _root_of(self._robot), self._sink)
+            self._unresolved |= attach_to_world(self._robot, mount, _root_of(self._robot), self._sink)
         lowered = Lowered(self._robot, tuple(self._unmerged), self._unresolved, tuple(self._under_a_prefix), mount)
         return lowered, tuple(self._mounts)
 
@@ -185,7 +185,7 @@ class Joining:
         if joint is None:
             return False
         if ("joint", joint.name) in self._parts:
-            tell_duplicate(self._sink, "joint", joint.name, joint.source, self._parts["joint", joint.name])
+            report_duplicate(self._sink, "joint", joint.name, joint.source, self._parts["joint", joint.name])
             return False
         self._parts["joint", joint.name] = joint.source
         self._robot.add_parts(joints=[joint], gazebo_elements=hanging.gazebo)

@@ -28,12 +28,12 @@ from linkforge_compile.diagnostics.codes.model import (
 from linkforge_compile.lower.elements import E, lower_element, lower_fields, lower_origin, stated_numbers
 from linkforge_compile.lower.extra import common_kwargs
 from linkforge_compile.lower.fields import Fields, by_word
-from linkforge_compile.lower.quantities import (
+from linkforge_compile.lower.numbers import (
     ANGLE_OR_LENGTH,
     BARE,
-    Measure,
-    found,
-    measure_of,
+    NumberType,
+    describe_node,
+    number_type,
 )
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
@@ -59,16 +59,16 @@ _AXES = {
 }
 
 
-def position_measure(joint: Joint | None) -> Measure:
+def position_type(joint: Joint | None) -> NumberType:
     """Return what a position of a joint is measured in: an angle, a length, or either where its type is not known."""
     if joint is None or joint.limits == _STAND_IN_LIMITS:
         return ANGLE_OR_LENGTH
-    return _position_measure(joint.type)
+    return _position_type(joint.type)
 
 
-def _position_measure(kind: JointType | None) -> Measure:
+def _position_type(kind: JointType | None) -> NumberType:
     motion = kind.motion if kind else Motion.UNKNOWN
-    return measure_of(POSITION, None, Motion.UNKNOWN if motion is Motion.OTHER else motion)
+    return number_type(POSITION, None, Motion.UNKNOWN if motion is Motion.OTHER else motion)
 
 
 def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
@@ -78,10 +78,10 @@ def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
     return {entry.name: entry.value for entry in entries if isinstance(entry.value, YamlMap)}
 
 
-def positions_of_type(joint: Located | None) -> Measure:
-    """Return what a position of a joint that is written somewhere is measured in; see `position_measure`."""
+def position_type_of_node(joint: Located | None) -> NumberType:
+    """Return what a position of a joint that is written somewhere is measured in; see `position_type`."""
     kind = joint.child("type") if joint else None
-    return _position_measure(by_word(JointType).get(kind.text) if isinstance(kind, YamlScalar) else None)
+    return _position_type(by_word(JointType).get(kind.text) if isinstance(kind, YamlScalar) else None)
 
 
 class Ends(NamedTuple):
@@ -115,13 +115,13 @@ def _joint(fields: Fields, name: str, links: Sequence[str]) -> Joint | None:
     """Lower one joint; of the file's `links`, one that it may hang on is the example where it says none."""
     valid_name = name if fields.name_is_valid(name, "joint") else None
     joint_type = fields.choice("type", JointType, required="revolute")
-    base = _some_base(fields, links) if fields.said("parent") is None else ""
+    base = _some_base(fields, links) if fields.get("parent") is None else ""
     ends = Ends(fields.text("parent", required=base), fields.text("child", required="arm"), lower_origin(fields))
     return joint_between(fields, valid_name, joint_type, ends)
 
 
 def _some_base(fields: Fields, links: Sequence[str]) -> str:
-    child = fields.said("child")
+    child = fields.get("child")
     held = child.text if isinstance(child, YamlScalar) else None
     return next((link for link in links if link != held), "base")
 
@@ -143,7 +143,7 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
     if name is None or parent is None or child is None:
         return None
     if parent == child:
-        fields.tell(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
+        fields.report(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
         return None
     return fields.build(
         lambda: Joint(
@@ -178,20 +178,20 @@ def _axis(fields: Fields, joint_type: JointType | None) -> tuple[Vector3 | None,
     if joint_type in HAVE_NO_AXIS:
         _refuse(fields, "axis", joint_type)
         return None, None
-    node = fields.said("axis", "z")
+    node = fields.get("axis", "z")
     if node is None or isinstance(node, YamlFault):
         return _STAND_IN_AXIS, None
     if not isinstance(node, YamlList):
         axis = _AXES.get(node.text) if isinstance(node, YamlScalar) else None
         if axis is None:
-            fields.tell(UNKNOWN_AXIS, node, found=found(node))
+            fields.report(UNKNOWN_AXIS, node, found=describe_node(node))
         return axis or _STAND_IN_AXIS, None
     written = fields.vector3_at(node, "axis", BARE)
     if written is None:
         return _STAND_IN_AXIS, None
     length = math.hypot(written.x, written.y, written.z)
     if length < EPSILON:
-        fields.tell(ZERO_AXIS, node)
+        fields.report(ZERO_AXIS, node)
         return _STAND_IN_AXIS, None
     if abs(length - 1) <= EPSILON:
         return written, None
@@ -209,7 +209,7 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: Motion) -> Joi
     values = lower_fields(JointLimits, limits, motion)
     lower, upper = values["lower"], values["upper"]
     if lower is not None and upper is not None and lower > upper:
-        _tell_crossed(limits)
+        _report_crossed(limits)
         values |= {"lower": -UNKNOWN, "upper": UNKNOWN}
     if joint_type is JointType.CONTINUOUS:
         # It has no range, and one that is stated is reported; what stands in for a faulty one is not.
@@ -217,10 +217,10 @@ def _limits(fields: Fields, joint_type: JointType | None, motion: Motion) -> Joi
     return limits.build(lambda: JointLimits(**values, **common_kwargs(limits)))
 
 
-def _tell_crossed(limits: Fields) -> None:
+def _report_crossed(limits: Fields) -> None:
     lower, upper = limits.node.get("lower"), limits.node.get("upper")
     if lower is not None and upper is not None:
-        limits.tell(LIMITS_CROSSED, lower, lower=found(lower), upper=found(upper))
+        limits.report(LIMITS_CROSSED, lower, lower=describe_node(lower), upper=describe_node(upper))
 
 
 def _part(fields: Fields, kind: type[E], motion: Motion) -> E | None:
@@ -243,4 +243,4 @@ def _mimic(fields: Fields, motion: Motion) -> JointMimic | None:
 def _refuse(fields: Fields, key: str, joint_type: JointType) -> None:
     node = fields.node.get(key)
     if node is not None and not isinstance(node, YamlFault):
-        fields.tell(NOT_OF_THIS_TYPE, node, owner=fields.title, field=key, type=joint_type)
+        fields.report(NOT_OF_THIS_TYPE, node, owner=fields.title, field=key, type=joint_type)

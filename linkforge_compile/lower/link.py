@@ -32,14 +32,14 @@ from linkforge_compile.lower.extra import common_kwargs, outer_extras_of
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.geometry import lower_geometry
 from linkforge_compile.lower.material import lower_visual_material
-from linkforge_compile.lower.quantities import Measure, found
+from linkforge_compile.lower.numbers import NumberType, describe_node
 from linkforge_compile.lower.scope import FileScope
 from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
 
-_MASS, _MASS_TO_SPREAD = Measure((Dimension.MASS,), NOT_NEGATIVE), Measure((Dimension.MASS,), ABOVE_ZERO)
-_DENSITY = Measure((Dimension.DENSITY,), ABOVE_ZERO)
+_MASS, _MASS_TO_SPREAD = NumberType((Dimension.MASS,), NOT_NEGATIVE), NumberType((Dimension.MASS,), ABOVE_ZERO)
+_DENSITY = NumberType((Dimension.DENSITY,), ABOVE_ZERO)
 
 _UNSAID_PHYSICS = LinkPhysics()
 
@@ -118,12 +118,16 @@ def _collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) ->
     if not isinstance(node, YamlScalar):
         return [_collision(link.map_at(shape, "collision"), scope) for shape in link.items("collision")]
     if node.text != "visual":
-        link.tell(
-            WRONG_KIND, node, field="collision", expected="a shape, a list of them or 'visual'", found=found(node)
+        link.report(
+            WRONG_KIND,
+            node,
+            field="collision",
+            expected="a shape, a list of them or 'visual'",
+            found=describe_node(node),
         )
         return [None]
     if not visuals and not link.is_faulty:
-        link.tell(COPY_OF_NOTHING, node, owner=link.title)
+        link.report(COPY_OF_NOTHING, node, owner=link.title)
     return [Collision(one.geometry, one.origin, source=one.source) if one else None for one in visuals]
 
 
@@ -151,7 +155,7 @@ def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes, scope: 
     if written:
         return _written(inertial, mass, origin)
     if (node := inertial.node.get("origin")) is not None:
-        inertial.tell(ORIGIN_WITHOUT_INERTIA, node, owner=inertial.title)
+        inertial.report(ORIGIN_WITHOUT_INERTIA, node, owner=inertial.title)
     elif _one_of_mass_and_density(inertial) and _has_shapes(link, inertial, shapes):
         return _computed(inertial, shapes, scope, mass, density)
     return None
@@ -160,10 +164,10 @@ def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes, scope: 
 def _written(inertial: Fields, mass: float | None, origin: Transform) -> Inertial | None:
     tensor = _tensor(inertial)
     if (density := inertial.node.get("density")) is not None:
-        inertial.tell(DENSITY_WITH_INERTIA, density, owner=inertial.title)
+        inertial.report(DENSITY_WITH_INERTIA, density, owner=inertial.title)
         return None
     if inertial.node.get("mass") is None:
-        inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass'")
+        inertial.report_incomplete(NO_MASS, owner=inertial.title, choices="'mass'")
     if mass is None or tensor is None:
         return None
     return Inertial(mass, origin, tensor, **common_kwargs(inertial))
@@ -177,9 +181,9 @@ def _tensor(inertial: Fields) -> InertiaTensor | None:
 def _one_of_mass_and_density(inertial: Fields) -> bool:
     mass, density = inertial.node.get("mass"), inertial.node.get("density")
     if mass is None and density is None:
-        inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass' or 'density'")
+        inertial.report_incomplete(NO_MASS, owner=inertial.title, choices="'mass' or 'density'")
     elif mass is not None and density is not None:
-        inertial.tell(MASS_AND_DENSITY, inertial.ref, Key("density"), owner=inertial.title)
+        inertial.report(MASS_AND_DENSITY, inertial.ref, Key("density"), owner=inertial.title)
     else:
         return True
     return False
@@ -187,7 +191,7 @@ def _one_of_mass_and_density(inertial: Fields) -> bool:
 
 def _has_shapes(link: Fields, inertial: Fields, shapes: Shapes) -> bool:
     if not shapes and not link.is_faulty:
-        inertial.tell(INERTIA_OF_NOTHING, inertial.ref, owner=inertial.title)
+        inertial.report(INERTIA_OF_NOTHING, inertial.ref, owner=inertial.title)
     return bool(shapes)
 
 

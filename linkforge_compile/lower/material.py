@@ -11,7 +11,7 @@ from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.lower.extra import CommonKwargs, common_kwargs
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import SHARE
+from linkforge_compile.lower.numbers import FRACTION
 from linkforge_compile.lower.scope import FileScope
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
@@ -39,14 +39,16 @@ def lower_visual_material(visual: Fields, scope: FileScope) -> Material | None:
         return None
     if name not in scope.materials and name not in scope.lost_materials:
         hint = "" if nearest(name, scope.materials) else "; declare it in 'materials', or write '{color: [r, g, b]}'"
-        visual.tell(UNKNOWN_MATERIAL, node, near=scope.materials, name=name, hint=hint)
+        visual.report(UNKNOWN_MATERIAL, node, near=scope.materials, name=name, hint=hint)
     return scope.materials.get(name)
 
 
 def _material(fields: Fields, name: str, scope: FileScope) -> Material | None:
     color, texture = fields.node.get("color"), fields.node.get("texture")
     if color is None and texture is None:
-        fields.tell_lack(EMPTY_MATERIAL, owner=fields.title, hint=_color_in_comment(fields.node.key_span("color")))
+        fields.report_incomplete(
+            EMPTY_MATERIAL, owner=fields.title, hint=_color_in_comment(fields.node.key_span("color"))
+        )
         return None
     rgba, file = _color(fields), fields.text("texture")
     if rgba is None and file is None:
@@ -69,21 +71,21 @@ def _color(fields: Fields) -> Color | None:
     """Read `color`: red, green, blue and, unless it is 1, opacity, each from 0 to 1."""
     node = fields.node.get("color")
     long = fields.map_at(node, "color") if isinstance(node, YamlMap) else None
-    numbers = node if long is None else long.said("rgba", "[0.6, 0.6, 0.65]")
+    numbers = node if long is None else long.get("rgba", "[0.6, 0.6, 0.65]")
     if isinstance(numbers, YamlList) and (meant := _of_bytes(numbers)):
         seen = f"[{', '.join(item.text for item in numbers if isinstance(item, YamlScalar))}]; write '{meant}'"
-        fields.tell(OUT_OF_RANGE, numbers, field="color", bound=ZERO_TO_ONE.words, found=seen)
+        fields.report(OUT_OF_RANGE, numbers, field="color", bound=ZERO_TO_ONE.words, found=seen)
         return None
-    if isinstance(numbers, YamlList) and _tell_bytes(fields, numbers):
+    if isinstance(numbers, YamlList) and _report_bytes(fields, numbers):
         return None
-    rgba = None if numbers is None else fields.numbers_at(numbers, "color", SHARE, 3, 4)
+    rgba = None if numbers is None else fields.numbers_at(numbers, "color", FRACTION, 3, 4)
     if node is None or rgba is None:
         return None
     rest: CommonKwargs = common_kwargs(long) if long else {"source": SourceRef(node, None, fields.trail)}
     return fields.build(lambda: Color(*rgba, **rest))
 
 
-def _tell_bytes(fields: Fields, numbers: YamlList) -> bool:
+def _report_bytes(fields: Fields, numbers: YamlList) -> bool:
     """Tell of single parts that are written from 0 to 255, where the others are right; return whether there are any."""
     others = [item for item in numbers if not _is_part(item)]
     large = [byte for item in others if (byte := _byte(item)) is not None and byte >= _LEAST_BYTE]
@@ -91,7 +93,7 @@ def _tell_bytes(fields: Fields, numbers: YamlList) -> bool:
         return False
     for item, byte in zip(others, large, strict=True):
         seen = f"{byte}; write '{_of_byte(byte)}'"
-        fields.tell(OUT_OF_RANGE, item, field="color", bound=ZERO_TO_ONE.words, found=seen)
+        fields.report(OUT_OF_RANGE, item, field="color", bound=ZERO_TO_ONE.words, found=seen)
     return bool(large)
 
 

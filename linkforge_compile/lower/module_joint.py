@@ -45,7 +45,7 @@ def lower_module_joint(module: Instance, root: str | None, sink: Diagnostics) ->
     if written.node.get("parent") is None:
         said = [(field, node) for field in ("joint", "origin") if (node := written.node.get(field)) is not None]
         for field, node in said:
-            written.tell(JOINT_WITHOUT_PARENT, node, owner=written.owner, field=field)
+            written.report(JOINT_WITHOUT_PARENT, node, owner=written.owner, field=field)
         return ModuleJoint(joint_name_of(module.name, written.node), None) if said else None
     default = f"{module.name}_joint"
     name = _name(written, default)

@@ -18,11 +18,11 @@ from linkforge_compile.diagnostics.codes.model import (
     TWO_MOUNTS,
 )
 from linkforge_compile.expand.assembly import Instance
-from linkforge_compile.lower.duplicates import tell_duplicate
 from linkforge_compile.lower.elements import lower_origin
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.joint import Ends, joint_between
 from linkforge_compile.lower.module_joint import ModuleJoint, gazebo_of, module_fields
+from linkforge_compile.lower.object_context import report_duplicate
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlMap
 
@@ -41,14 +41,14 @@ def lower_mounts(file: Fields) -> list[ModuleJoint]:
 def _lower(fields: Fields, name: str) -> ModuleJoint:
     for end in _ENDS:
         if (said := fields.node.get(end)) is not None:
-            fields.tell(MOUNT_SAYS_ENDS, said, owner=fields.owner, field=end)
+            fields.report(MOUNT_SAYS_ENDS, said, owner=fields.owner, field=end)
     valid_name = name if fields.name_is_valid(name, "joint") else None
     joint_type = fields.choice("type", JointType, required="revolute")
     ends = Ends(WORLD, fields.text("child", required="hip"), Transform.identity())
     return ModuleJoint(name, joint_between(fields, valid_name, joint_type, ends), gazebo_of(fields, name))
 
 
-def only_mount(mounts: Sequence[ModuleJoint], sink: Diagnostics) -> ModuleJoint | None:
+def single_mount(mounts: Sequence[ModuleJoint], sink: Diagnostics) -> ModuleJoint | None:
     """Return the joint by which a robot hangs, None where it has none; a second one is reported."""
     for mount in mounts[1:]:
         if mount.joint and mounts[0].joint:
@@ -57,7 +57,7 @@ def only_mount(mounts: Sequence[ModuleJoint], sink: Diagnostics) -> ModuleJoint 
     return mounts[0] if mounts else None
 
 
-def handed_on(mount: ModuleJoint, prefix: str) -> ModuleJoint:
+def inherit_mount(mount: ModuleJoint, prefix: str) -> ModuleJoint:
     """Return the mount of a module as that of the robot which has the module's root for its own."""
     joint = mount.joint.with_prefix(prefix) if mount.joint else None
     # The prefix is for what is in the module, and the link that it hangs on is not.
@@ -65,19 +65,19 @@ def handed_on(mount: ModuleJoint, prefix: str) -> ModuleJoint:
     return ModuleJoint(prefix + mount.name, joint, tuple(one.with_prefix(prefix) for one in mount.gazebo))
 
 
-def hung_by(mount: ModuleJoint, module: Instance, root: str | None, sink: Diagnostics) -> ModuleJoint:
+def attach_mount(mount: ModuleJoint, module: Instance, root: str | None, sink: Diagnostics) -> ModuleJoint:
     """Return the mount of a module, with its final names, as the joint to the link that its entry names.
 
     `root` is the final name of the module's root link, None where it has no single one.
     """
     written = module_fields(module, sink)
-    whole = handed_on(mount, module.prefix)
+    whole = inherit_mount(mount, module.prefix)
     if written is None or whole.joint is None:
         return whole
     if (said := written.node.get("joint")) is not None:
-        written.tell(MOUNT_AND_JOINT, said, owner=written.owner, joint=mount.name)
+        written.report(MOUNT_AND_JOINT, said, owner=written.owner, joint=mount.name)
     parent, origin = written.text("parent"), lower_origin(written)
-    if parent is None or not _holds_root(whole, root, module.prefix, sink):
+    if parent is None or not _is_at_root(whole, root, module.prefix, sink):
         return whole._replace(joint=None)
     joint = replace(whole.joint, source=_with_ends_of(written.node, whole.joint.source))
     return whole._replace(joint=written.build(lambda: replace(joint, parent=parent, origin=origin)))
@@ -91,17 +91,17 @@ def _with_ends_of(entry: YamlMap, mount: SourceRef | None) -> SourceRef | None:
     return replace(mount, node=YamlMap({**mount.node.entries, **ends}, mount.node.span))
 
 
-def hang_on_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diagnostics) -> UnresolvedNames:
+def attach_to_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diagnostics) -> UnresolvedNames:
     """Hang a compiled robot on the link `world`, its first, made unless it is declared; returns what it lacks now.
 
     For a robot without a single root none is made, so that what is told of its roots names what its author wrote.
     """
-    if mount.joint is None or not _holds_root(mount, root, "", sink):
+    if mount.joint is None or not _is_at_root(mount, root, "", sink):
         return UnresolvedNames(frozenset([mount.name]))
     if root is None and WORLD not in robot.links:
         return UnresolvedNames(mounts=frozenset([mount.name, WORLD]))
     if (other := robot.joints.get(mount.name)) is not None:
-        tell_duplicate(sink, "joint", mount.name, mount.joint.source, other.source)
+        report_duplicate(sink, "joint", mount.name, mount.joint.source, other.source)
         return UnresolvedNames(frozenset([mount.name]))
     declared = robot.links.get(WORLD) if WORLD in robot.links else None
     world = declared or Link(WORLD, source=mount.joint.source)
@@ -111,7 +111,7 @@ def hang_on_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diag
     return UnresolvedNames()
 
 
-def _holds_root(mount: ModuleJoint, root: str | None, prefix: str, sink: Diagnostics) -> bool:
+def _is_at_root(mount: ModuleJoint, root: str | None, prefix: str, sink: Diagnostics) -> bool:
     """Whether a mount holds the root link, as far as there is one; reports where it does not."""
     joint = mount.joint
     if joint is None or root is None or joint.child == root:

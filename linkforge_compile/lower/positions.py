@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.joint import joints_of, position_measure
-from linkforge_compile.lower.quantities import Refusal, si_number
+from linkforge_compile.lower.joint import joints_of, position_type
+from linkforge_compile.lower.numbers import Refusal, si_number
 from linkforge_compile.syntax.nodes import YamlMap, YamlNode, YamlScalar
 
 
@@ -20,7 +20,7 @@ class _Position(NamedTuple):
     key: str
 
 
-def judge_positions_elsewhere(file: Fields, joints: Mapping[str, Joint | None]) -> None:
+def check_positions_of_module_joints(file: Fields, joints: Mapping[str, Joint | None]) -> None:
     """Report positions of joints that the file does not write, where they are no such position.
 
     They were read as of any joint: an angle or a length. `joints` are those of the whole robot.
@@ -30,8 +30,8 @@ def judge_positions_elsewhere(file: Fields, joints: Mapping[str, Joint | None]) 
         said, joint = position.fields.node.get(position.key), joints.get(position.joint)
         if said is None or joint is None or position.joint in own:
             continue
-        if not isinstance(si_number(said, position_measure(None)), Refusal):
-            position.fields.number_at(said, position.key, position_measure(joint))
+        if not isinstance(si_number(said, position_type(None)), Refusal):
+            position.fields.number_at(said, position.key, position_type(joint))
 
 
 def _in_transmissions(file: Fields) -> Iterator[_Position]:

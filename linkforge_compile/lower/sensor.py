@@ -1,4 +1,4 @@
-"""Sensors: on which link, how often, and the one object that says what they measure."""
+"""Sensors: on which link, how often, and the one object that says what they kind."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from linkforge_compile.core.models.sensor import (
 from linkforge_compile.core.part import Element
 from linkforge_compile.lower.elements import lower_element, lower_fields, lower_origin
 from linkforge_compile.lower.extra import common_kwargs
-from linkforge_compile.lower.fields import Fields, or_default
+from linkforge_compile.lower.fields import Fields, default_if_none
 from linkforge_compile.lower.gazebo import lower_plugin
 
 _OWN_INFO = {kind: field.removesuffix("_info") for kind, field in REQUIRED_INFO.items()}
@@ -61,8 +61,8 @@ def _sensor(fields: Fields, name: str) -> Sensor | None:
             sensor_type,
             link,
             update_rate,
-            or_default(always_on, True),
-            or_default(visualize, False),
+            default_if_none(always_on, True),
+            default_if_none(visualize, False),
             *infos,
             origin,
             topic,
@@ -76,7 +76,7 @@ def _sensor(fields: Fields, name: str) -> Sensor | None:
 def _infos(fields: Fields, own: str | None) -> _Infos:
     """Read what the sensor measures; `own` is what its type requires, and has its defaults where it is not written."""
     if own == "contact":
-        fields.said("contact", "{collision: fingertip_collision}")
+        fields.get("contact", "{collision: fingertip_collision}")
     infos = {key: _info(fields, key, kind, is_own=key == own) for key, kind in _INFOS.items()}
     return _Infos(**infos)
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from linkforge_compile.diagnostics import notes_of_changes
 from linkforge_compile.diagnostics.codes.model import SHAPE_ORDER_COUNT, UNKNOWN_CHOICE, WRONG_KIND
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import found
+from linkforge_compile.lower.numbers import describe_node
 from linkforge_compile.shape_order import COLLISION, KINDS, PAIRS, VISUAL, apart, in_pairs
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlScalar
@@ -41,7 +41,7 @@ def _said(link: Fields, kinds: Sequence[str], *, is_whole: bool) -> Sequence[str
             return in_pairs(kinds)
         case YamlList():
             return _listed(link, node, kinds) if is_whole else None
-    link.tell(WRONG_KIND, node, field="shape_order", expected=_EXPECTED, found=found(node))
+    link.report(WRONG_KIND, node, field="shape_order", expected=_EXPECTED, found=describe_node(node))
     return None
 
 
@@ -49,7 +49,7 @@ def _listed(link: Fields, node: YamlList, kinds: Sequence[str]) -> Sequence[str]
     words = [link.text_at(item, "shape_order") for item in node]
     for item, word in zip(node, words, strict=True):
         if word is not None and word not in KINDS:
-            link.tell(UNKNOWN_CHOICE, item, near=KINDS, field="shape_order", choices=", ".join(KINDS), name=word)
+            link.report(UNKNOWN_CHOICE, item, near=KINDS, field="shape_order", choices=", ".join(KINDS), name=word)
     listed = [word for word in words if word in KINDS]
     if len(listed) < len(words):
         return None

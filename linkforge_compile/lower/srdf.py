@@ -21,16 +21,16 @@ from linkforge_compile.core.models.srdf import (
     VirtualJoint,
 )
 from linkforge_compile.diagnostics.codes.model import EMPTY_GROUP, PAIR_WITH_ITSELF
-from linkforge_compile.lower.duplicates import tell_duplicate
 from linkforge_compile.lower.extra import common_kwargs, is_absent
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import LENGTH, Measure
+from linkforge_compile.lower.numbers import LENGTH, NumberType
+from linkforge_compile.lower.object_context import report_duplicate
 from linkforge_compile.lower.srdf_states import WrittenState, written_states
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 
-_RADIUS = Measure((Dimension.LENGTH,), NOT_NEGATIVE)
+_RADIUS = NumberType((Dimension.LENGTH,), NOT_NEGATIVE)
 
 
 class Semantic(NamedTuple):
@@ -88,7 +88,7 @@ def _group(fields: Fields, name: str) -> PlanningGroup | None:
     chains = [_chain(fields, node) for key in ("chain", "chains") for node in fields.items(key)]
     links, joints, subgroups = fields.names("links"), fields.names("joints"), fields.names("subgroups")
     if not any(fields.items(key) for key in ("chain", "chains", "links", "joints", "subgroups")):
-        fields.tell_lack(EMPTY_GROUP, group=name)
+        fields.report_incomplete(EMPTY_GROUP, group=name)
         return None
     whole = [chain for chain in chains if chain]
     if not (whole or links or joints or subgroups):
@@ -126,7 +126,7 @@ def _passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
         if name is None:
             continue
         if name in first:
-            tell_duplicate(semantic.sink, "passive joint", name, item.ref, first[name])
+            report_duplicate(semantic.sink, "passive joint", name, item.ref, first[name])
         elif joint := item.build(partial(PassiveJoint, name, source=item.ref)):
             first[name] = item.ref
             yield joint
@@ -139,7 +139,7 @@ def _passive_joint(fields: Fields, name: str) -> PassiveJoint | None:
 def _collision_pairs(semantic: Fields, key: str) -> Iterator[CollisionPair]:
     for first, entry in semantic.nested(key):
         if first.text == entry.name:
-            semantic.tell(PAIR_WITH_ITSELF, entry.key, link=entry.name)
+            semantic.report(PAIR_WITH_ITSELF, entry.key, link=entry.name)
             continue
         item = _long(semantic, "collision pair", entry, "reason", link1=first, link2=entry.key)
         make = partial(CollisionPair, first.text, entry.name, item.text("reason"), **common_kwargs(item))
@@ -185,7 +185,7 @@ def _joint_properties(semantic: Fields) -> Iterator[JointProperty]:
         # A free part: a null that was written is text, and only what nobody wrote is none.
         if said is None or is_absent(said.value):
             if isinstance(entry.value, YamlMap):
-                item.said("value", "true")
+                item.get("value", "true")
             continue
         value = item.text_at(said.value, entry.name)
         if value is None:

@@ -13,7 +13,7 @@ from linkforge_compile.diagnostics.codes.model import STATE_CIRCLE, STATE_VALUE_
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP
 from linkforge_compile.lower.extra import EXTRA_KEYS, common_kwargs
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import Measure
+from linkforge_compile.lower.numbers import NumberType
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar, is_null
 from linkforge_compile.units import parse_quantity, unit_text
 
@@ -45,13 +45,13 @@ class WrittenState:
 class Surroundings:
     """What a file's states may refer to: names of its own and, with their prefix, of its modules.
 
-    `measure` says what a position of the joint of a name is measured in. `states` are those of the modules;
+    `kind` says what a position of the joint of a name is measured in. `states` are those of the modules;
     `lost` is what is missing because it was faulty.
     """
 
     groups: Collection[str]
     joints: Container[str]
-    measure: Callable[[str], Measure]
+    kind: Callable[[str], NumberType]
     states: Mapping[StateKey, Positions]
     lost: Container[str]
 
@@ -64,7 +64,7 @@ def written_states(semantic: Fields) -> Iterator[WrittenState]:
         if is_null(values):
             values = YamlMap({}, entry.key.span)
         if not isinstance(values, YamlMap):
-            semantic.tell_kind(values, owner, "a map of positions by joint")
+            semantic.report_wrong_kind(values, owner, "a map of positions by joint")
             yield WrittenState(group.text, entry.name, semantic.arranged(owner, entry.key), None)
             continue
         said = tuple(value for value in values if value.name not in EXTRA_KEYS and values.get(value.name) is not None)
@@ -103,7 +103,7 @@ def _in_order_of_use(by_key: Mapping[StateKey, WrittenState], around: Surroundin
             circle: list[StateKey] = error.args[1][::-1]
             path = " → ".join("/".join(key) for key in circle)
             first = by_key[circle[0]].fields
-            first.tell(STATE_CIRCLE, first.ref, path=path)
+            first.report(STATE_CIRCLE, first.ref, path=path)
             circling.update(circle)
             uses.update((key, []) for key in circle)
         else:
@@ -127,10 +127,10 @@ def _positions(
         else:
             said = around.states.get(used)
             if said is None:
-                _tell_unknown_state(state.fields, entry, used, [*by_key, *around.states], around)
+                _report_unknown_state(state.fields, entry, used, [*by_key, *around.states], around)
         for joint, position in (said or {}).items():
             if positions.setdefault(joint, position) != position:
-                state.fields.tell(STATE_VALUE_TWICE, entry.value, joint=joint, state=state.name, group=state.group)
+                state.fields.report(STATE_VALUE_TWICE, entry.value, joint=joint, state=state.name, group=state.group)
         faulty |= said is None
     return None if faulty else positions
 
@@ -143,7 +143,7 @@ def _reference(entry: YamlEntry, around: Surroundings) -> StateKey | None:
     return None
 
 
-def _tell_unknown_state(
+def _report_unknown_state(
     fields: Fields, entry: YamlEntry, used: StateKey, known: Sequence[StateKey], around: Surroundings
 ) -> None:
     group, name = used
@@ -151,20 +151,20 @@ def _tell_unknown_state(
     # One with a fault in its `for` may be any that begins as its name does.
     begun = tuple(state.partition("$(")[0] for owner, state in known if owner == group and "$(" in state)
     if name not in around.lost and not (begun and name.startswith(begun)):
-        fields.tell(UNKNOWN_STATE, entry.value, group=group, name=name, states=", ".join(states) or "none")
+        fields.report(UNKNOWN_STATE, entry.value, group=group, name=name, states=", ".join(states) or "none")
 
 
 def _own_position(fields: Fields, entry: YamlEntry, around: Surroundings) -> Positions | None:
-    node, field, measure = entry.value, f"joint '{entry.name}'", around.measure(entry.name)
+    node, field, kind = entry.value, f"joint '{entry.name}'", around.kind(entry.name)
     if isinstance(node, YamlList):
-        numbers = [fields.number_at(item, field, measure) for item in node]
+        numbers = [fields.number_at(item, field, kind) for item in node]
         return None if None in numbers else {entry.name: tuple(numbers)}
     text = node.value if isinstance(node, YamlScalar) and isinstance(node.value, str) else None
     if text is not None and parse_quantity(text) is None and unit_text(text) is None:
         if entry.name in around.lost:
             return None
         if entry.name not in around.joints:
-            fields.tell(UNKNOWN_GROUP, entry.key, near=around.groups, name=entry.name, hint="")
+            fields.report(UNKNOWN_GROUP, entry.key, near=around.groups, name=entry.name, hint="")
             return None
-    number = fields.number_at(node, field, measure)
+    number = fields.number_at(node, field, kind)
     return None if number is None else {entry.name: (number,)}

@@ -11,14 +11,14 @@ from linkforge_compile.core.fields import BEYOND_EPSILON
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.lower.extra import common_kwargs, free_elements
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.joint import joints_of, positions_of_type
-from linkforge_compile.lower.quantities import Measure
+from linkforge_compile.lower.joint import joints_of, position_type_of_node
+from linkforge_compile.lower.numbers import NumberType
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlList, YamlNode
 
 End = TypeVar("End", TransmissionJoint, TransmissionActuator)
 
-_REDUCTION = Measure(bound=BEYOND_EPSILON)
+_REDUCTION = NumberType(bound=BEYOND_EPSILON)
 
 
 def lower_transmissions(file: Fields) -> Iterator[Transmission]:
@@ -44,15 +44,15 @@ def _transmission(written: Mapping[str, Located], fields: Fields, name: str) -> 
 
 
 def _joint(written: Mapping[str, Located], end: Fields, name: str) -> TransmissionJoint | None:
-    return _end(TransmissionJoint, end, name, positions_of_type(written.get(name)))
+    return _end(TransmissionJoint, end, name, position_type_of_node(written.get(name)))
 
 
 def _actuator(end: Fields, name: str) -> TransmissionActuator | None:
     # Nobody says whether a motor turns or slides.
-    return _end(TransmissionActuator, end, name, positions_of_type(None))
+    return _end(TransmissionActuator, end, name, position_type_of_node(None))
 
 
-def _end(kind: type[End], end: Fields, name: str, position: Measure) -> End | None:
+def _end(kind: type[End], end: Fields, name: str, position: NumberType) -> End | None:
     said = end.node.get("hardware_interfaces")
     are_stated = not _is_empty_list(said)
     interfaces = end.names("hardware_interfaces") if said and are_stated else (HW_IF_POSITION,)

@@ -7,7 +7,7 @@ from linkforge_compile.core import Box, Transform, Vector3
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.lower.elements import lower_origin
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import EXTENT, Measure
+from linkforge_compile.lower.numbers import EXTENT, NumberType
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar, read
 from linkforge_compile.units import Dimension
@@ -43,7 +43,7 @@ def test_what_is_required_and_missing_is_told_at_the_object_with_what_to_write()
     assert fields.text("parent", required="base") is None
     limits = fields.map("limits")
     assert limits is not None
-    assert limits.number("effort", Measure((Dimension.TORQUE,)), required="50 N*m") is None
+    assert limits.number("effort", NumberType((Dimension.TORQUE,)), required="50 N*m") is None
     assert told(fields) == [
         "spec.yaml:1:1: error: joint 'elbow' has no 'parent'; write 'parent: base' [LF5005]",
         "spec.yaml:1:9: error: joint 'elbow' has no 'limits.effort'; write 'effort: 50 N*m' [LF5005]",
