@@ -218,7 +218,7 @@ class JointProperty(Element):
 
     joint_name: Annotated[str, Reference("joint", key="")]
     property_name: Annotated[str, Text(key="")]
-    value: Annotated[str, Text(key="", example="true")]
+    value: Annotated[str, Text(example="true")]
 
     def __post_init__(self) -> None:
         freeze(self)
