@@ -10,16 +10,16 @@ from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.expand.assembly import Instance
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.file import lower_file, unresolved_of
-from linkforge_compile.lower.joint import position_type
 from linkforge_compile.lower.lowered import Lowered
 from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids
+from linkforge_compile.lower.positions import position_type
 from linkforge_compile.source import SourceFile
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.lower.group_states import WrittenState
     from linkforge_compile.lower.module_joint import ModuleJoint
-    from linkforge_compile.lower.srdf_states import WrittenState
     from linkforge_compile.lower.unprefixed import PassedOn
 
 _SAY_POSITIONS = frozenset({"transmissions", "gazebo"})
@@ -63,9 +63,9 @@ def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids, shared: 
             lowered, unresolved=lowered.unresolved | _resolve_states(robot, file.states, mounts, lowered.unresolved)
         )
     if is_alone and robot.says_semantic:
-        from linkforge_compile.lower.srdf_order import side_by_side
+        from linkforge_compile.lower.srdf import group_by_name
 
-        robot.semantic = side_by_side(robot.semantic)
+        robot.semantic = group_by_name(robot.semantic)
     if passed_on:
         from linkforge_compile.lower.unprefixed import warnings_under_a_prefix
 
@@ -76,22 +76,22 @@ def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids, shared: 
 
 
 def _resolve_states(
-    robot: Robot, written: Sequence[WrittenState], mounts: Sequence[ModuleJoint], lost: UnresolvedNames
+    robot: Robot, written: Sequence[WrittenState], mounts: Sequence[ModuleJoint], unresolved: UnresolvedNames
 ) -> UnresolvedNames:
     """Add the group states of a file to its robot: they may name those of its modules. Returns what is lost of them."""
-    from linkforge_compile.lower.srdf_states import Surroundings, resolve_states
+    from linkforge_compile.lower.group_states import NamesInScope, resolve_states
 
     semantic = robot.semantic
     joints: dict[str, Joint | None] = {joint.name: joint for joint in robot.joints}
     joints |= {mount.name: mount.joint for mount in mounts}
-    around = Surroundings(
+    scope = NamesInScope(
         groups=dict.fromkeys(group.name for group in semantic.groups),
         joints=joints,
-        kind=lambda name: position_type(joints.get(name)),
+        position_type=lambda name: position_type(joints.get(name)),
         states={(state.group, state.name): state.joint_values for state in semantic.group_states},
-        lost=lost,
+        unresolved=unresolved,
     )
-    states = resolve_states(written, around)
+    states = resolve_states(written, scope)
     robot.semantic = replace(semantic, group_states=(*states, *semantic.group_states))
     return unresolved_of({state.name for state in written} - {state.name for state in states})
 

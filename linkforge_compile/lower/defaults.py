@@ -11,9 +11,9 @@ from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.expand.assembly import Instance
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.file import gazebo_elements_of, sensors_of
-from linkforge_compile.lower.joint import read_joint_of_any_type
+from linkforge_compile.lower.file_scope import FileScope
+from linkforge_compile.lower.joint import check_joint_defaults
 from linkforge_compile.lower.link import lower_links
-from linkforge_compile.lower.scope import FileScope
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode, YamlScalar
 
@@ -56,7 +56,7 @@ def _faults(defaults: YamlMap, instance: Instance) -> Iterator[Diagnostic]:
     sink = Diagnostics()
     file = Fields(entries, "defaults", sink, instance.trail)
     deque(lower_links(file, FileScope()), maxlen=0)
-    deque(file.each("joints", "joint", read_joint_of_any_type), maxlen=0)
+    deque(file.each("joints", "joint", check_joint_defaults), maxlen=0)
     sensors_of(file)
     gazebo_elements_of(file)
     yield from (fault for fault in sink if fault.code in _OF_A_VALUE)

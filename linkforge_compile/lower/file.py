@@ -15,13 +15,13 @@ from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.lower.extra import outer_extras_of
 from linkforge_compile.lower.fields import Fields
+from linkforge_compile.lower.file_scope import FileScope
 from linkforge_compile.lower.frame import Frame, lower_frames
 from linkforge_compile.lower.joint import lower_joints
 from linkforge_compile.lower.link import lower_links
 from linkforge_compile.lower.material import lower_materials
 from linkforge_compile.lower.mesh_solids import MeshReader
 from linkforge_compile.lower.object_context import has_fault, report_duplicate
-from linkforge_compile.lower.scope import FileScope
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
 from linkforge_compile.units import Quantity, number_text
@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.ros2_control import Ros2Control
     from linkforge_compile.core.models.sensor import Sensor
     from linkforge_compile.core.models.transmission import Transmission
+    from linkforge_compile.lower.group_states import WrittenState
     from linkforge_compile.lower.module_joint import ModuleJoint
-    from linkforge_compile.lower.srdf import Semantic
-    from linkforge_compile.lower.srdf_states import WrittenState
+    from linkforge_compile.lower.srdf import LoweredSemantic
 
 _SECTIONS_OF_NAMES = ("links", "joints", "frames", "mount", "modules", "semantic", "include")
 _SECTIONS_OF_MATERIALS = ("materials", "include")
@@ -58,14 +58,14 @@ def lower_file(
     """Lower all that a file says itself; a name that is written twice is told at the second."""
     file = Fields(tree, "robot", sink, trail)
     materials = lower_materials(file, FileScope(mesh_bases))
-    lost_materials = unresolved_of(name for name, material in materials.items() if material is None)
-    lost_materials |= unresolved_of(names_at_fault(tree))
+    unresolved_materials = unresolved_of(name for name, material in materials.items() if material is None)
+    unresolved_materials |= unresolved_of(names_at_fault(tree))
     # What has no name is a part of a robot: the file that includes it has the names that it lacks.
     is_part = tree.get("name") is None
     if is_part or _has_lost(tree, _SECTIONS_OF_MATERIALS):
-        lost_materials |= UnresolvedNames(prefixes=("",))
+        unresolved_materials |= UnresolvedNames(prefixes=("",))
     kept_materials = {name: material for name, material in materials.items() if material}
-    scope = FileScope(mesh_bases, kept_materials, lost_materials, meshes)
+    scope = FileScope(mesh_bases, kept_materials, unresolved_materials, meshes)
     links, joints = dict(lower_links(file, scope)), dict(lower_joints(file))
     for frame in lower_frames(file):
         _add_frame(frame, links, joints, sink)
@@ -90,7 +90,7 @@ def lower_file(
     unresolved = _unresolved_names(
         tree, [name for parts in (links, joints) for name, part in parts.items() if part is None]
     )
-    unresolved |= unresolved_of(semantic.lost if semantic else ())
+    unresolved |= unresolved_of(semantic.faulty_names if semantic else ())
     return LoweredFile(robot, semantic.states if semantic else (), unresolved, tuple(_mounts(file)))
 
 
@@ -218,7 +218,7 @@ def gazebo_elements_of(file: Fields) -> tuple[GazeboElement, ...]:
     return tuple(lower_gazebo_elements(file))
 
 
-def _semantic(file: Fields) -> Semantic | None:
+def _semantic(file: Fields) -> LoweredSemantic | None:
     if file.node.get("semantic") is None:
         return None
     from linkforge_compile.lower.srdf import lower_semantic

@@ -9,7 +9,7 @@ from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.lower.elements import lower_origin
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.joint import Ends, joint_between
+from linkforge_compile.lower.joint import JointEnds, joint_between
 
 
 class Frame(NamedTuple):
@@ -32,6 +32,6 @@ def _frame(fields: Fields, name: str) -> Frame:
     said = fields.text("joint")
     joint_name = f"{name}_joint" if said is None else said
     valid &= said is None or fields.name_is_valid(said, "joint", fields.node.get("joint"))
-    ends = Ends(fields.text("parent", required="base"), name, lower_origin(fields))
+    ends = JointEnds(fields.text("parent", required="base"), name, lower_origin(fields))
     joint = joint_between(fields, joint_name if valid else None, JointType.FIXED, ends)
     return Frame(name, joint_name, Link(name, source=fields.ref) if joint else None, joint)

@@ -10,7 +10,7 @@ from linkforge_compile.diagnostics.codes.model import JOINT_WITHOUT_PARENT
 from linkforge_compile.expand.assembly import Instance, joint_name_of
 from linkforge_compile.lower.elements import lower_origin
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.joint import Ends, joint_between
+from linkforge_compile.lower.joint import JointEnds, joint_between
 from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def lower_module_joint(module: Instance, root: str | None, sink: Diagnostics) ->
     name = _name(written, default)
     joint = _as_joint(written, name or default)
     joint_type = JointType.FIXED if joint.node.get("type") is None else joint.choice("type", JointType)
-    ends = Ends(joint.text("parent"), root, lower_origin(joint))
+    ends = JointEnds(joint.text("parent"), root, lower_origin(joint))
     return ModuleJoint(name or default, joint_between(joint, name, joint_type, ends), gazebo_of(joint, name or default))
 
 

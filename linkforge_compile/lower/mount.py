@@ -20,7 +20,7 @@ from linkforge_compile.diagnostics.codes.model import (
 from linkforge_compile.expand.assembly import Instance
 from linkforge_compile.lower.elements import lower_origin
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.joint import Ends, joint_between
+from linkforge_compile.lower.joint import JointEnds, joint_between
 from linkforge_compile.lower.module_joint import ModuleJoint, gazebo_of, module_fields
 from linkforge_compile.lower.object_context import report_duplicate
 from linkforge_compile.source import SourceRef
@@ -44,7 +44,7 @@ def _lower(fields: Fields, name: str) -> ModuleJoint:
             fields.report(MOUNT_SAYS_ENDS, said, owner=fields.owner, field=end)
     valid_name = name if fields.name_is_valid(name, "joint") else None
     joint_type = fields.choice("type", JointType, required="revolute")
-    ends = Ends(WORLD, fields.text("child", required="hip"), Transform.identity())
+    ends = JointEnds(WORLD, fields.text("child", required="hip"), Transform.identity())
     return ModuleJoint(name, joint_between(fields, valid_name, joint_type, ends), gazebo_of(fields, name))
 
 

@@ -8,7 +8,7 @@ import sys
 from dataclasses import dataclass, field
 from functools import cache
 
-from linkforge_compile.core.fields import ABOVE_ZERO, NOT_NEGATIVE, ZERO_TO_ONE, Bound
+from linkforge_compile.core.fields import ABOVE_ZERO, ZERO_TO_ONE, Bound
 from linkforge_compile.diagnostics import Code
 from linkforge_compile.diagnostics.codes.model import (
     LONG_LENGTH,
@@ -92,7 +92,6 @@ def number_type(unit: FieldUnit, bound: Bound | None, motion: Motion, may_be_far
 
 
 BARE = NumberType()
-AMOUNT = NumberType(bound=NOT_NEGATIVE)
 FRACTION = NumberType(bound=ZERO_TO_ONE)
 LENGTH = NumberType(_LENGTH)
 EXTENT = NumberType(_LENGTH, ABOVE_ZERO)

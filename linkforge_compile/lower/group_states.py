@@ -42,7 +42,7 @@ class WrittenState:
 
 
 @dataclass(frozen=True)
-class Surroundings:
+class NamesInScope:
     """What a file's states may refer to: names of its own and, with their prefix, of its modules.
 
     `kind` says what a position of the joint of a name is measured in. `states` are those of the modules;
@@ -51,9 +51,9 @@ class Surroundings:
 
     groups: Collection[str]
     joints: Container[str]
-    kind: Callable[[str], NumberType]
+    position_type: Callable[[str], NumberType]
     states: Mapping[StateKey, Positions]
-    lost: Container[str]
+    unresolved: Container[str]
 
 
 def written_states(semantic: Fields) -> Iterator[WrittenState]:
@@ -72,12 +72,12 @@ def written_states(semantic: Fields) -> Iterator[WrittenState]:
         yield WrittenState(group.text, entry.name, semantic.arranged(owner, entry.key, *said, *raw, group=group), said)
 
 
-def resolve_states(written: Sequence[WrittenState], around: Surroundings) -> list[GroupState]:
+def resolve_states(written: Sequence[WrittenState], scope: NamesInScope) -> list[GroupState]:
     """Return the states in the order written, with positions for joints only, without those that have a fault."""
     by_key = {state.key: state for state in written}
     positions: dict[StateKey, Positions | None] = {}
-    for key in _in_order_of_use(by_key, around):
-        positions[key] = _positions(by_key[key], by_key, positions, around)
+    for key in _in_order_of_use(by_key, scope):
+        positions[key] = _positions(by_key[key], by_key, positions, scope)
     states = []
     for state in written:
         known = positions.get(state.key)
@@ -89,10 +89,10 @@ def resolve_states(written: Sequence[WrittenState], around: Surroundings) -> lis
     return states
 
 
-def _in_order_of_use(by_key: Mapping[StateKey, WrittenState], around: Surroundings) -> list[StateKey]:
+def _in_order_of_use(by_key: Mapping[StateKey, WrittenState], scope: NamesInScope) -> list[StateKey]:
     """Return the states so that each comes after those that it refers to; a circle is told and left out."""
     uses = {
-        key: [used for entry in state.values or () if (used := _reference(entry, around)) and used in by_key]
+        key: [used for entry in state.values or () if (used := _reference(entry, scope)) and used in by_key]
         for key, state in by_key.items()
     }
     circling: set[StateKey] = set()
@@ -114,20 +114,20 @@ def _positions(
     state: WrittenState,
     by_key: Collection[StateKey],
     resolved: Mapping[StateKey, Positions | None],
-    around: Surroundings,
+    scope: NamesInScope,
 ) -> Positions | None:
     positions: dict[str, object] = {}
     faulty = state.values is None
     for entry in state.values or ():
-        used = _reference(entry, around)
+        used = _reference(entry, scope)
         if used is None:
-            said = _own_position(state.fields, entry, around)
+            said = _own_position(state.fields, entry, scope)
         elif used in by_key:
             said = resolved.get(used)
         else:
-            said = around.states.get(used)
+            said = scope.states.get(used)
             if said is None:
-                _report_unknown_state(state.fields, entry, used, [*by_key, *around.states], around)
+                _report_unknown_state(state.fields, entry, used, [*by_key, *scope.states], scope)
         for joint, position in (said or {}).items():
             if positions.setdefault(joint, position) != position:
                 state.fields.report(STATE_VALUE_TWICE, entry.value, joint=joint, state=state.name, group=state.group)
@@ -135,36 +135,36 @@ def _positions(
     return None if faulty else positions
 
 
-def _reference(entry: YamlEntry, around: Surroundings) -> StateKey | None:
+def _reference(entry: YamlEntry, scope: NamesInScope) -> StateKey | None:
     """Return the state that an entry names: its key a group, its value text that is no quantity."""
     value = entry.value.value if isinstance(entry.value, YamlScalar) else None
-    if isinstance(value, str) and entry.name in around.groups and parse_quantity(value) is None:
+    if isinstance(value, str) and entry.name in scope.groups and parse_quantity(value) is None:
         return entry.name, value
     return None
 
 
 def _report_unknown_state(
-    fields: Fields, entry: YamlEntry, used: StateKey, known: Sequence[StateKey], around: Surroundings
+    fields: Fields, entry: YamlEntry, used: StateKey, known: Sequence[StateKey], scope: NamesInScope
 ) -> None:
     group, name = used
     states = [f"'{state}'" for owner, state in known if owner == group]
     # One with a fault in its `for` may be any that begins as its name does.
     begun = tuple(state.partition("$(")[0] for owner, state in known if owner == group and "$(" in state)
-    if name not in around.lost and not (begun and name.startswith(begun)):
+    if name not in scope.unresolved and not (begun and name.startswith(begun)):
         fields.report(UNKNOWN_STATE, entry.value, group=group, name=name, states=", ".join(states) or "none")
 
 
-def _own_position(fields: Fields, entry: YamlEntry, around: Surroundings) -> Positions | None:
-    node, field, kind = entry.value, f"joint '{entry.name}'", around.kind(entry.name)
+def _own_position(fields: Fields, entry: YamlEntry, scope: NamesInScope) -> Positions | None:
+    node, field, kind = entry.value, f"joint '{entry.name}'", scope.position_type(entry.name)
     if isinstance(node, YamlList):
         numbers = [fields.number_at(item, field, kind) for item in node]
         return None if None in numbers else {entry.name: tuple(numbers)}
     text = node.value if isinstance(node, YamlScalar) and isinstance(node.value, str) else None
     if text is not None and parse_quantity(text) is None and unit_text(text) is None:
-        if entry.name in around.lost:
+        if entry.name in scope.unresolved:
             return None
-        if entry.name not in around.joints:
-            fields.report(UNKNOWN_GROUP, entry.key, near=around.groups, name=entry.name, hint="")
+        if entry.name not in scope.joints:
+            fields.report(UNKNOWN_GROUP, entry.key, near=scope.groups, name=entry.name, hint="")
             return None
     number = fields.number_at(node, field, kind)
     return None if number is None else {entry.name: (number,)}
