@@ -43,7 +43,8 @@ def lower_element(
     """
     values = lower_fields(kind, fields, motion, unit, **values)
     specs = field_specs(kind).items()
-    if any(values[name] is None and (spec.example or not spec.may_be_none) for name, spec in specs):
+    missing = [spec for name, spec in specs if values[name] is None]
+    if any(spec.example or not spec.may_be_none for spec in missing):
         return None
     if hasattr(kind, "stated") and "stated" not in values:
         values["stated"] = [
@@ -94,14 +95,14 @@ def lower_pose(fields: Fields, key: str) -> Transform:
     if pose is None:
         return IDENTITY
     xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
-    is_stated = pose.get("xyz") is not None or pose.get("rpy") is not None
+    is_stated = bool(xyz or rpy) or pose.get("xyz") is not None or pose.get("rpy") is not None
     return Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **common_kwargs(pose))
 
 
 def _number(spec: Any, key: str, fields: Fields, motion: Motion, unit: FieldUnit | None) -> float | None:
     accepted = number_type(unit or spec.unit, spec.bound, motion, spec.may_be_far)
     read = fields.integer if spec.is_whole else fields.number
-    value = read(key, accepted, required=spec.example_for(motion))
+    value = read(key, accepted, required=spec.example and spec.example_for(motion))
     if value is not None:
         return value
     is_faulty = spec.example or fields.get(key) is not None or fields.is_faulty

@@ -47,10 +47,12 @@ class Fields(ObjectContext):
 
     def get(self, key: str, required: str = "") -> YamlNode | None:
         """Return the node under a key, None for an absent or null one."""
-        node = self.node.get(key)
-        if node is None and required:
+        entry = self.node.entries.get(key)
+        if entry and not (isinstance(entry.value, YamlScalar) and entry.value.value is None):
+            return entry.value
+        if required:
             self.report_missing(key, required)
-        return node
+        return None
 
     def number(self, key: str, accepted: NumberType = BARE, *, required: str = "") -> float | None:
         """Read a number in SI units."""

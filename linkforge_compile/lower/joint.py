@@ -83,7 +83,10 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
         parts = (_SUBSTITUTE_TYPE, parent, child, origin, _SUBSTITUTE_AXIS, SUBSTITUTE_LIMITS)
         return fields.build(lambda: Joint(name, *parts, source=fields.ref))
     axis, axis_as_written = _lower_axis(fields, joint_type)
-    values = lower_fields(
+    if name is not None and parent is not None and parent == child:
+        fields.report(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
+        child = None
+    return lower_element(
         Joint,
         fields,
         joint_type.motion,
@@ -94,11 +97,8 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
         origin=origin,
         axis=axis,
         limits=_lower_limits(fields, joint_type, joint_type.motion),
+        axis_as_written=axis_as_written,
     )
-    if parent is not None and parent == child and name is not None:
-        fields.report(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
-        return None
-    return lower_element(Joint, fields, axis_as_written=axis_as_written, **values)
 
 
 def check_joint_defaults(fields: Fields, _name: str) -> None:

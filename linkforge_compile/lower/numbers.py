@@ -198,10 +198,10 @@ def _of_quantity(node: YamlNode, quantity: Quantity, accepted: NumberType) -> fl
 
 
 def _in_bound(node: YamlNode, number: float, accepted: NumberType) -> float | Refusal:
-    found = describe_node(node)
     if not math.isfinite(number):
-        return Refusal(NOT_FINITE, {"found": found})
+        return Refusal(NOT_FINITE, {"found": describe_node(node)})
     if accepted.bound and not accepted.bound.holds(number):
+        found = describe_node(node)
         if suspicious_unit(node, number, accepted) is WIDE_ANGLE:
             found = f"{found}; write '{found} deg' if degrees are meant"
         return Refusal(OUT_OF_RANGE, {"bound": accepted.bound.words + accepted.si_unit, "found": found})
