@@ -1,4 +1,4 @@
-"""`defaults` by themselves: values that no entry took over are judged where they stand."""
+"""Check the values in `defaults`, for those that no entry inherits."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from linkforge_compile.lower.link import lower_links
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode, YamlScalar
 
-_OF_A_VALUE = frozenset(
+_VALUE_CODES = frozenset(
     {
         model.WRONG_KIND,
         model.WRONG_DIMENSION,
@@ -33,15 +33,16 @@ _OF_A_VALUE = frozenset(
         XACRO_EXPRESSION,
     }
 )
-"""What is wrong with a value whatever stands beside it; what an entry lacks or may not have is the entry's."""
+"""The faults of single values. What an element lacks or may not have is reported for the entries that inherit."""
 
 
 def check_defaults(instance: Instance, sink: Diagnostics) -> None:
-    """Report what is wrong with the defaults of a file and of its modules, but for what was told of the same place."""
-    told = {(diagnostic.code, place) for diagnostic in sink for place in _places(diagnostic)}
-    for one in instance.with_modules:
-        if one.defaults is not None:
-            sink.report_all(fault for fault in _faults(one.defaults, one) if (fault.code, fault.span) not in told)
+    """Report faulty values in the defaults of a file and of its modules, unless reported for an entry."""
+    reported = {(diagnostic.code, place) for diagnostic in sink for place in _places(diagnostic)}
+    for each in instance.with_modules:
+        if each.defaults is not None:
+            faults = _faults(each.defaults, each)
+            sink.report_all(fault for fault in faults if (fault.code, fault.span) not in reported)
 
 
 def _places(diagnostic: Diagnostic) -> Iterator[Span]:
@@ -49,7 +50,7 @@ def _places(diagnostic: Diagnostic) -> Iterator[Span]:
 
 
 def _faults(defaults: YamlMap, instance: Instance) -> Iterator[Diagnostic]:
-    """Yield what is wrong with values, read as the fields of entries that have nothing else."""
+    """Yield faulty values, read as the fields of entries that have nothing else."""
     entries = _as_entries(defaults)
     if entries is None:
         return
@@ -59,11 +60,11 @@ def _faults(defaults: YamlMap, instance: Instance) -> Iterator[Diagnostic]:
     deque(file.each("joints", "joint", check_joint_defaults), maxlen=0)
     sensors_of(file)
     gazebo_elements_of(file)
-    yield from (fault for fault in sink if fault.code in _OF_A_VALUE)
+    yield from (fault for fault in sink if fault.code in _VALUE_CODES)
 
 
 def _as_entries(defaults: YamlMap) -> YamlMap | None:
-    """Return the sections of a file that has one entry for each default, None for none."""
+    """Return the sections of a file with one entry for each default, None for no defaults."""
 
     def fields_of(**nodes: YamlNode | None) -> YamlMap | None:
         entries = {name: _entry(name, node) for name, node in nodes.items() if node is not None}
