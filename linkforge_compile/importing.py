@@ -12,7 +12,7 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnost
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.suggest import suggesting
-from linkforge_compile.expand import XACRO, Arguments, Loader, SpecFile, Used
+from linkforge_compile.expand import XACRO, Arguments, ImportSite, Loader, SpecFile
 from linkforge_compile.expand.assembly import count_entries
 from linkforge_compile.formats import render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
@@ -209,7 +209,7 @@ def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnosti
 
     # Its user named it as he named the URDF, and a xacro of MoveIt includes what lies in a package of its own.
     loader.roots = loader.roots.with_those_around(srdf)
-    return open_semantic(XacroUse(srdf, Used(str(srdf), None), arguments), loader, sink)
+    return open_semantic(XacroUse(srdf, ImportSite(str(srdf), None), arguments), loader, sink)
 
 
 _Taken = Collection[str] | None
@@ -220,7 +220,7 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader,
     from linkforge_compile.importers.urdf import read_urdf
 
     named, text = urdf
-    file = loader.open_xml(named, sink) if text is None else loader.given_xml(str(named), text)
+    file = loader.open_xml(named, sink) if text is None else loader.add_xml(str(named), text)
     robot = read_urdf(file, sink, keeps_refused=True) if file else None
     # A xacro that is not named as one, and is told as that, would take them.
     if file and robot and taken is not None:
@@ -234,7 +234,7 @@ def _read_xacro(xacro: Path, arguments: Arguments, taken: _Taken, loader: Loader
     from linkforge_compile.expand.xacro import XacroUse, read_xacro
 
     expanded = read_xacro(
-        XacroUse(xacro, Used(str(xacro), None), arguments, taken=taken), loader, sink, keeps_refused=True
+        XacroUse(xacro, ImportSite(str(xacro), None), arguments, taken=taken), loader, sink, keeps_refused=True
     )
     return (expanded.file, expanded.imported) if expanded else None
 

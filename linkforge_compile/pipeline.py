@@ -21,11 +21,11 @@ from linkforge_compile.diagnostics.suggest import suggesting
 from linkforge_compile.expand import (
     XACRO,
     Arguments,
+    CliArgument,
+    ImportSite,
     Loader,
     SpecFile,
-    Told,
     Unset,
-    Used,
     arguments_from_text,
     arguments_from_values,
     expand,
@@ -42,12 +42,12 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.urdf.sensor import Gazebo
 
 __all__ = [
+    "CliArgument",
     "Compilation",
     "CompileError",
     "Packages",
     "Parameters",
     "Settings",
-    "Told",
     "check_file",
     "check_text",
     "check_variants",
@@ -271,7 +271,7 @@ def _compile_file(path: str | Path, settings: Settings) -> Compilation:
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
         from linkforge_compile.expand.xacro import XacroUse, open_xacro
 
-        return open_xacro(XacroUse(file, Used(str(path), None), settings.arguments(loader, sink)), loader, sink)
+        return open_xacro(XacroUse(file, ImportSite(str(path), None), settings.arguments(loader, sink)), loader, sink)
 
     # The expansion has no parameters any more.
     return _compile(read, file, settings._replace(parameters=None))
@@ -293,7 +293,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
     sink = Diagnostics()
     loader = settings.loader(place)
     meshes = MeshSolids(loader.budget)
-    loader.judge = lambda spec, loader: judged(meshes, spec, loader).faults
+    loader.check_spec = lambda spec, loader: judged(meshes, spec, loader).faults
     robot = None
     ignores: tuple[Ignore, ...] = ()
     try:
@@ -349,7 +349,7 @@ class Judged(NamedTuple):
 def judged(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Judged:
     """Compile a spec by itself at a cost of its own; it reads the meshes that are read for the whole."""
     sink, was_told = Diagnostics(), meshes.is_without_library
-    with loader.judging():
+    with loader.separate_budget():
         robot = robot_of(spec, Settings(), loader, meshes, sink)
     meshes.is_without_library = was_told  # this sink is nobody's: the robot tells it where it is used
     faults = tuple(fault for fault in sink if fault.severity is Severity.ERROR)

@@ -29,7 +29,7 @@ class Unset(Enum):
     """Told once for all of them; what depends on them is not judged."""
 
 
-class Told(NamedTuple):
+class CliArgument(NamedTuple):
     """What another program sets, and how that says it, for diagnostics to name: `left_reach:=1 m` at `place`."""
 
     place: str
@@ -83,7 +83,7 @@ def arguments_from_text(pairs: Sequence[str], sink: Diagnostics) -> Arguments:
     return Arguments(entries, Path(), as_text=True)
 
 
-def _from_told(values: Mapping[str, Told]) -> Arguments:
+def _from_told(values: Mapping[str, CliArgument]) -> Arguments:
     """Take values by parameter name, which are read as on the command line."""
     entries: dict[str, YamlEntry] = {}
     for name, (place, spelt, text) in values.items():
@@ -100,7 +100,7 @@ def arguments_from_values(values: Mapping[str, object]) -> Arguments:
     """
     if not values:
         return Arguments(folder=Path(), as_text=True, from_python=True)
-    told = {name: value for name, value in values.items() if isinstance(value, Told)}
+    told = {name: value for name, value in values.items() if isinstance(value, CliArgument)}
     if len(told) == len(values):
         return _from_told(told)
     from linkforge_compile.expand.values import node_of

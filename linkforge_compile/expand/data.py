@@ -8,14 +8,14 @@ from collections.abc import Callable
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.files import DATA_NOT_PATH, TAG_NOT_NUMBER
 from linkforge_compile.expand.loader import Loader
-from linkforge_compile.expand.uses import UseSite, locate
+from linkforge_compile.expand.uses import PathSite, locate
 from linkforge_compile.expressions import FAULT, Fault, Scope, Value, as_text, evaluate, kind_name, parse_template
 from linkforge_compile.syntax import Tags, YamlEntry, YamlFault, YamlNode, YamlScalar
 from linkforge_compile.units import number_text
 
 
 def data_of(
-    entry: YamlEntry, path: Value | Fault, site: Callable[[str], UseSite], loader: Loader, sink: Diagnostics
+    entry: YamlEntry, path: Value | Fault, site: Callable[[str], PathSite], loader: Loader, sink: Diagnostics
 ) -> YamlNode | None:
     """Return what the file holds that an entry of `data` names, None where it cannot be had, which is reported.
 

@@ -11,12 +11,12 @@ from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.expressions import UNKNOWN_NAME
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TREE_TOO_LARGE
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.changing import Changing
 from linkforge_compile.expand.computed import judge_computed
 from linkforge_compile.expand.conditions import occurrences, without_words
 from linkforge_compile.expand.disabled import Disabled
 from linkforge_compile.expand.made_number import tell_made_number
 from linkforge_compile.expand.origins import ExpressionTrace, Setting
+from linkforge_compile.expand.syntax_markers import ExpressionScan
 from linkforge_compile.expand.values import node_of, passed_on, plain_value, size_of
 from linkforge_compile.expressions import (
     FAULT,
@@ -44,7 +44,7 @@ _STEPS_TO_PARSE = 50
 """A text with expressions takes as long to be parsed as so many steps of one to be computed."""
 
 
-class Expressions(Changing):
+class Expressions(ExpressionScan):
     """What all uses of all files of one compile share: each expression parsed once, and what they take counted."""
 
     def __init__(self, budget: Budget) -> None:
@@ -187,7 +187,7 @@ class TreeEvaluator:
         `for` and `when` are more than keys, and judges what an expression under `key` makes of itself; `is_free`
         that the node is in a part of which nothing is read as a number.
         """
-        if not self.expressions.change(node):
+        if not self.expressions.is_computed(node):
             return node
         is_free = is_free or shape.is_free_part
         match node:
@@ -234,7 +234,7 @@ class TreeEvaluator:
                 if tree is not self:
                     yield tree, written
                     continue
-            if not self.expressions.change(written.value):
+            if not self.expressions.is_computed(written.value):
                 yield self, written
                 continue
             inner, value = shape.under(written.name), written.value
@@ -278,7 +278,7 @@ class TreeEvaluator:
             self._tell_same_key(key, entries[key.text])
         else:
             value: YamlNode = written.value
-            if self.expressions.change(value):
+            if self.expressions.is_computed(value):
                 value = self.node(value, around.under(written.name), key=key.text, is_free=is_free)
             unchanged = key is written.key and value is written.value
             entries[key.text] = written if unchanged else YamlEntry(key, value)

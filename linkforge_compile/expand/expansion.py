@@ -13,17 +13,26 @@ from linkforge_compile.diagnostics.codes.modules import (
     USE_CIRCLE,
     USE_TOO_DEEP,
 )
+from linkforge_compile.expand.annotating_sink import with_use_trace
 from linkforge_compile.expand.arguments import Arguments, Unset
 from linkforge_compile.expand.assembly import Instance, count_entries, own_name, robot_part
 from linkforge_compile.expand.evaluate_tree import Expressions, TreeEvaluator
 from linkforge_compile.expand.given import Given
 from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.mesh_files import MakeSite, mesh_finder
 from linkforge_compile.expand.module_entry import ModuleEntry, found, read_entry
 from linkforge_compile.expand.names import FileNames, Shared, UseOfFile
-from linkforge_compile.expand.noted import used_from
 from linkforge_compile.expand.own_names import asked_in
-from linkforge_compile.expand.uses import SPEC_ENDINGS, XACRO, UseSite, locate, mesh_base, name_from, open_use
+from linkforge_compile.expand.uses import (
+    SPEC_ENDINGS,
+    XACRO,
+    MakeSite,
+    PathSite,
+    locate,
+    mesh_base,
+    mesh_finder,
+    name_from,
+    open_use,
+)
 from linkforge_compile.expand.variants import tell_unknown_variant, variants_of
 from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.schema.shapes import FREE, shapes
@@ -92,7 +101,7 @@ class _Expansion:
             self._shared.expressions.write_again(use.spec.tree, use.given.use or use.spec.file.whole)
         self._used.add(use.spec.file)
         file = UseOfFile(use.spec, use.given, use.prefix, use.trail)
-        names = FileNames(file, self._shared, used_from(self._sink, use.trail))
+        names = FileNames(file, self._shared, with_use_trace(self._sink, use.trail))
         names.judge_parameters()
         tree, defaults = _tree(use, names.tree), None
         if use.spec.tree.get("defaults") is not None:
@@ -143,7 +152,7 @@ class _Expansion:
         instance = self.instance(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
 
-    def _robot(self, entry: ModuleEntry, site: UseSite, names: FileNames) -> tuple[SpecFile | None, Arguments]:
+    def _robot(self, entry: ModuleEntry, site: PathSite, names: FileNames) -> tuple[SpecFile | None, Arguments]:
         """Return the file that an entry uses, and the arguments that are left for it.
 
         Those of a xacro are spent on it, and on that of its SRDF: both take what they have of them.
@@ -166,7 +175,7 @@ class _Expansion:
         return with_semantic(spec, semantic, beside, loader, sink), arguments
 
     def _opened(
-        self, entry: ModuleEntry, site: UseSite, taken: frozenset[str] | None, sink: Diagnostics
+        self, entry: ModuleEntry, site: PathSite, taken: frozenset[str] | None, sink: Diagnostics
     ) -> tuple[SpecFile | None, Arguments]:
         """Return the file at a site, and the arguments that are left for it of those that its SRDF has not `taken`.
 
@@ -180,7 +189,7 @@ class _Expansion:
         xacro = self._to_expand(site, entry, sink)
         return open_xacro(replace(xacro, taken=taken), loader, sink) if xacro else None, Arguments()
 
-    def _to_expand(self, site: UseSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
+    def _to_expand(self, site: PathSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
         """Return the use of a file with the arguments of an entry."""
         from linkforge_compile.expand.xacro import XacroUse
 
@@ -223,7 +232,7 @@ def _entries(use: _Use, tree: TreeEvaluator) -> Iterator[ModuleEntry]:
     if isinstance(section, YamlMap):
         shape = shape if section is written else FREE
         for scope, entry in tree.entries(section, shape):
-            yield read_entry(entry, scope, use.spec.writer(entry.key.span).folder, use.trail)
+            yield read_entry(entry, scope, use.spec.part_at(entry.key.span).folder, use.trail)
     elif section is not None and not (isinstance(section, YamlScalar) and section.value is None):
         if not isinstance(section, YamlFault):
             tree.sink.report(MODULES_NOT_MAP.at(section.span, found=found(section)))

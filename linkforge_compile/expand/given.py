@@ -15,12 +15,12 @@ from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_WITHOUT_TYPE,
     UNKNOWN_PARAMETER,
 )
+from linkforge_compile.expand.annotating_sink import AnnotatingSink
 from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments
 from linkforge_compile.expand.evaluate_tree import TreeEvaluator
 from linkforge_compile.expand.kinds import Kind, kind_of
 from linkforge_compile.expand.loader import SpecFile
 from linkforge_compile.expand.made_number import tell_made_number
-from linkforge_compile.expand.noted import NotedSink
 from linkforge_compile.expand.origins import Setting
 from linkforge_compile.expand.parameters import Declaration, Parameter, parameter_of, written
 from linkforge_compile.expand.uses import rebased
@@ -112,7 +112,7 @@ def parameter_value(
     if kind is None:
         return FAULT, None
     parameter = parameter_of(declaration, kind, tree)
-    noted = NotedSink(tree.sink, [Note("the parameter is declared here", declaration.key.span)])
+    noted = AnnotatingSink(tree.sink, [Note("the parameter is declared here", declaration.key.span)])
     in_force, settings = _given_value(parameter, given, spec, tree, declaration.key.span)
     for node, sink, by in (
         (variants.value_of(declaration.name), noted, f"variant '{variants.chosen}'"),
@@ -176,7 +176,7 @@ def _given_value(
     parameter: Parameter, given: Given, spec: SpecFile, tree: TreeEvaluator, declared: Span
 ) -> tuple[Value | Fault | None, list[Setting]]:
     """Return what the user of the file gives, None for nothing, and what gives it."""
-    sink = NotedSink(given.sink, [Note("the parameter is declared here", declared)])
+    sink = AnnotatingSink(given.sink, [Note("the parameter is declared here", declared)])
     node = given.node(parameter.name, parameter.kind, given.sink)
     value = None if node is None else given.value(node, parameter.kind)
     if node is None or value is None:
@@ -196,7 +196,7 @@ def _own_value(
     if value is None:
         return None
     taken = _judged(parameter, _Said(node, value, tree.place(node), tree.scope), tree, sink)
-    return _in_the_file(parameter, taken, spec.writer(node.span).folder, spec)
+    return _in_the_file(parameter, taken, spec.part_at(node.span).folder, spec)
 
 
 def _in_the_file(parameter: Parameter, value: Value | Fault, writer: Path | None, spec: SpecFile) -> Value | Fault:

@@ -113,7 +113,7 @@ class FileNames:
         folders = {}
         for entry in declared if isinstance(declared, YamlMap) else ():
             if isinstance(entry.value, YamlScalar):
-                folder, target = self._spec.writer(entry.value.span).folder, entry.value.text
+                folder, target = self._spec.part_at(entry.value.span).folder, entry.value.text
                 if folder is not None or Path(target).is_absolute():
                     folders[entry.name] = follow(folder or Path(), target)
                     self._judge_package(entry.name, folders[entry.name], entry.value)

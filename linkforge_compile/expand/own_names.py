@@ -8,7 +8,7 @@ from pathlib import Path
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand.assembly import NameReference
 from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.uses import UseSite, locate
+from linkforge_compile.expand.uses import PathSite, locate
 from linkforge_compile.expressions import FAULT, Fault, FileFunction, Value
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
@@ -61,9 +61,9 @@ class OwnNames:
     def functions(self) -> dict[str, FileFunction]:
         return {"path": self._path, "link": self._link, "joint": self._joint}
 
-    def site(self, text: str, where: Span) -> UseSite:
+    def site(self, text: str, where: Span) -> PathSite:
         """Return a path as written in one of the files that are this one."""
-        return UseSite(text, where, self._spec.writer(where), self._packages())
+        return PathSite(text, where, self._spec.part_at(where), self._packages())
 
     def _path(self, text: str, where: Span, sink: Diagnostics) -> Value | Fault:
         target = locate(self.site(text, where), self._loader, sink)

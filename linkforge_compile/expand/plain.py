@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from linkforge_compile.expand.assembly import COMPUTING, Instance, count_entries, own_name, robot_part
 from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.mesh_files import mesh_finder
-from linkforge_compile.expand.trees import is_computed
-from linkforge_compile.expand.uses import UseSite, mesh_base
+from linkforge_compile.expand.spec_tree import is_computed
+from linkforge_compile.expand.uses import PathSite, mesh_base, mesh_finder
 from linkforge_compile.source import Span
 
 
@@ -22,8 +21,8 @@ def as_written(spec: SpecFile, loader: Loader) -> Instance:
     tree = robot_part(spec.tree)
     count_entries(tree, 1, loader.budget)
 
-    def site(text: str, where: Span) -> UseSite:
-        return UseSite(text, where, spec, spec.packages)
+    def site(text: str, where: Span) -> PathSite:
+        return PathSite(text, where, spec, spec.packages)
 
     return Instance(
         own_name(tree),

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.expand.annotating_sink import with_use_trace
 from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.noted import used_from
 from linkforge_compile.expand.packages import Package
 from linkforge_compile.expand.uses import XACRO
 from linkforge_compile.source import SourceFile
@@ -62,10 +62,10 @@ def with_semantic(
         return replace(spec, tree=tree, included={**spec.included, **parts})
 
     def judged(tree: YamlMap) -> _Judged:
-        return _Judged(loader.judge(together(tree), loader))
+        return _Judged(loader.check_spec(together(tree), loader))
 
     imported = Imported(spec.tree, Comments({}, {}))
-    inside = used_from(sink, (use.used.where,) if use.used.where else ())
+    inside = with_use_trace(sink, (use.used.where,))
     read = with_srdf(imported, semantic.text, judged, inside, semantic.moved)
     return together(read[0].tree) if read else None
 

@@ -15,10 +15,10 @@ from linkforge_compile.diagnostics.codes.importing import (
     XACRO_FORBIDDEN,
     XACRO_WARNS,
 )
+from linkforge_compile.expand.annotating_sink import with_use_trace
 from linkforge_compile.expand.arguments import Arguments
 from linkforge_compile.expand.evaluate_tree import TreeEvaluator
-from linkforge_compile.expand.loader import Loader, SpecFile, Used
-from linkforge_compile.expand.noted import used_from
+from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.packages import Package, find_package
 from linkforge_compile.expand.values import plain_value
 from linkforge_compile.expand.xacro_faults import Telling, Written
@@ -44,7 +44,7 @@ class XacroUse:
     """
 
     path: Path
-    used: Used
+    used: ImportSite
     arguments: Arguments
     tree: TreeEvaluator | None = None
     packages: Mapping[str, Path] | None = None
@@ -128,7 +128,7 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
 
 def _inside(use: XacroUse, sink: Diagnostics) -> Diagnostics:
     """Return what takes what is told in the files of a use."""
-    return used_from(sink, (use.used.where,) if use.used.where else ())
+    return with_use_trace(sink, (use.used.where,))
 
 
 class Asked:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
 from linkforge_compile.expand.listing import ListedParameter, Listing
-from linkforge_compile.expand.loader import Loader, Used
+from linkforge_compile.expand.loader import ImportSite, Loader
 from linkforge_compile.expand.packages import find_package
 from linkforge_compile.expand.xacro_faults import in_order
 from linkforge_compile.roots import identity
@@ -88,7 +88,7 @@ class _Search:
         if depth == _DEEPEST:
             raise _NotListedError(f"more than {_DEEPEST} files include each other")
         unheard = Diagnostics()
-        file = self._loader.open_xml(path, unheard, Used(name, place))
+        file = self._loader.open_xml(path, unheard, ImportSite(name, place))
         root = self.read(file, unheard) if file else None
         if root is None:
             raise _NotListedError(next(iter(unheard)).message)

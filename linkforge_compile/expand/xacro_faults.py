@@ -16,7 +16,7 @@ from linkforge_compile.diagnostics.codes.importing import (
     XACRO_UNKNOWN_NAME,
 )
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
-from linkforge_compile.expand.loader import Loader, Used
+from linkforge_compile.expand.loader import ImportSite, Loader
 from linkforge_compile.expand.packages import unknown_package
 from linkforge_compile.expand.paths import as_typed, names_in
 from linkforge_compile.source import SourceFile, Span
@@ -39,7 +39,7 @@ class Written:
         files = (self.open(path) for path in result.files[1:])
         self.files = tuple(file for file in files if file)
         for path in result.read:
-            loader.note_read(path)
+            loader.add_read_by_xacro(path)
 
     def element(self, place: Place) -> XmlElement | None:
         elements = self._elements_of(place.file)
@@ -55,7 +55,7 @@ class Written:
 
     def open(self, path: Path) -> SourceFile | None:
         """Read one of the others, which the first names, so that it is no word of the user's."""
-        return self._loader.open_xml(path, Diagnostics(), Used(str(path), self.main.whole))
+        return self._loader.open_xml(path, Diagnostics(), ImportSite(str(path), self.main.whole))
 
     def _elements_of(self, number: int) -> tuple[XmlElement, ...]:
         if number not in self._elements:
@@ -89,13 +89,13 @@ class Telling:
         place = self._place(failed)
         if asked.refused:
             path, writer = asked.refused[-1], place or where or self.written.main.whole
-            self.loader.may_read(path, Used(str(as_typed(path)), writer), self.inside)
+            self.loader.may_read(path, ImportSite(str(as_typed(path)), writer), self.inside)
         elif asked.lost:
             near = {**(self.use.packages or {}), **self.loader.packages}
-            name = asked.lost[-1]
             looked = [Note("it is looked for here", place)] if where and place else []
-            folder = self.use.path.parent
-            self.sink.report(unknown_package(where or place, name, folder, self.loader, near=near, notes=looked))
+            name, folder, roots = asked.lost[-1], self.use.path.parent, self.loader.roots
+            nearby = self.loader.nearby_packages
+            self.sink.report(unknown_package(where or place, name, folder, roots, nearby, near=near, notes=looked))
         elif failed.kind == "ArgException":
             self._unset(failed.reason, place, failed.arguments or {})
         else:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.files import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
 from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
-from linkforge_compile.expand.telltale import TELLTALE
+from linkforge_compile.expand.syntax_markers import CONTEXT_PATTERN
 from linkforge_compile.expressions import Expression, parse_template
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.schema.words import field
@@ -41,7 +41,7 @@ _COMPUTED_WITHIN = frozenset({"with", "for", "when"})
 """The sections, and the keys of objects, whose values the compiler reads; what else has no shape is a free part."""
 
 
-def judge_places(tree: YamlMap, sink: Diagnostics) -> YamlMap:
+def check_context(tree: YamlMap, sink: Diagnostics) -> YamlMap:
     """Report what stands where it means nothing; return the tree with a YamlFault in its place."""
     judged = _Judge(sink).node(tree, _Place((), shapes()))
     assert isinstance(judged, YamlMap), "what is judged is scalars"
@@ -115,7 +115,7 @@ class _Judge:
 
     def _is_sound(self, scalar: YamlScalar, place: _Place) -> bool:
         """Whether all that a scalar says may stand there; reports what may not."""
-        if not TELLTALE.search(scalar.text):
+        if not CONTEXT_PATTERN.search(scalar.text):
             return True
         template = parse_template(scalar.text, scalar.span, Diagnostics()) if has_expression(scalar.text) else None
         parts = template.parts if template else (scalar.text,)
