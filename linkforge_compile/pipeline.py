@@ -224,7 +224,7 @@ def parameters_of(
     listing = None
     try:
         if Path(path).suffix.lower() == XACRO:
-            from linkforge_compile.expand.xacro_arguments import list_arguments
+            from linkforge_compile.expand.listing import list_arguments
 
             listing = list_arguments(Path(path), loader, sink)
         elif spec := loader.open(Path(path), sink):
@@ -269,7 +269,8 @@ def _compile_file(path: str | Path, settings: Settings) -> Compilation:
         return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
 
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
-        from linkforge_compile.expand.xacro import XacroUse, open_xacro
+        from linkforge_compile.expand.xacro import open_xacro
+        from linkforge_compile.expand.xacro_use import XacroUse
 
         return open_xacro(XacroUse(file, ImportSite(str(path), None), settings.arguments(loader, sink)), loader, sink)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from linkforge_compile.expand.default_places import is_default
+from linkforge_compile.expand.defaults import is_default
 from linkforge_compile.source import Span
 
 
