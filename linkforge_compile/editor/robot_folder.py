@@ -97,7 +97,10 @@ class RobotFolder:
 
     def _add_robot(self, name: str) -> str:
         spec = _way(self.package, self.folder / _SPEC.format(name=name))
-        return f"linkforge_add_robot({spec} FORMATS urdf srdf INSTALL)"
+        from linkforge_compile.formats import FORMATS
+
+        formats = " ".join(one.name for one in FORMATS if one.is_default)
+        return f"linkforge_add_robot({spec} FORMATS {formats} INSTALL)"
 
     def _yaml_schemas(self) -> str:
         below = _prefix(self.repository, self.workspace)
