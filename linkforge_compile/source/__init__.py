@@ -2,20 +2,19 @@
 
 from linkforge_compile.source.file import SourceFile, span_of
 from linkforge_compile.source.ref import Key, Located, Sourced, SourceRef
-from linkforge_compile.source.span import Change, ComputedSpan, Origin, PatchedSpan, Position, Span, Trace
+from linkforge_compile.source.span import Change, Origin, Position, Span, Trace, TracedSpan
 
 __all__ = [
     "Change",
-    "ComputedSpan",
     "Key",
     "Located",
     "Origin",
-    "PatchedSpan",
     "Position",
     "SourceFile",
     "SourceRef",
     "Sourced",
     "Span",
     "Trace",
+    "TracedSpan",
     "span_of",
 ]

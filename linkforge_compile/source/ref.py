@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import Protocol
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from linkforge_compile.source.span import Change, Span
+from linkforge_compile.source.span import Span
 
 
 class Key(str):
@@ -30,25 +27,6 @@ class Located(Protocol):
     def key_span(self, key: str) -> Span | None:
         """Return where a key stands, None where there is none."""
         ...
-
-
-Step: TypeAlias = "tuple[Span | None, Span | None]"
-"""The places of a key and of the value under it, None for one that there is not."""
-
-
-def brought_in(way: Iterable[Step]) -> Iterator[Span]:
-    """Yield where aliases and `<<` bring in what a way leads to: an anchor stands above the place that uses it.
-
-    A URDF has none, and its attributes and elements in any order.
-    """
-    place: Span | None = None
-    for key, value in way:
-        if key == value:
-            continue  # nobody wrote this key: it has the place of what was put under it
-        for inner in (key, value):
-            if inner and place and inner.file is place.file and inner.start < place.start and not inner.file.is_xml:
-                yield place
-            place = inner or place
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,33 +58,6 @@ class SourceRef:
                 break
             node, span = inner, inner.span
         return span
-
-    def changes(self, *path: str | int) -> tuple[Change, ...]:
-        """Return what overrides changed in this object, and in those that the path leads through."""
-        node: Located | None = self.node
-        found = node.span.changes if node else ()
-        for key in path:
-            node = node.child(key) if node else None
-            found = (*found, *(node.span.changes if node else ()))
-        return found
-
-    def brought_in(self, *path: str | int) -> tuple[Span, ...]:
-        """Return where aliases and `<<` bring in what the path leads to."""
-        node = self.node
-        way: list[Step] = [(None, self.span)]
-        for key in path:
-            inner, place = node.child(key), node.key_span(str(key))
-            if inner or place:
-                way += [(None, node.span), (place, inner.span if inner and not isinstance(key, Key) else None)]
-            if inner is None:
-                break
-            node = inner
-        return tuple(brought_in(way))
-
-    def trail_to(self, place: Span) -> tuple[Span, ...]:
-        """Return the uses that led to a place: to the object's own file or, from an override, to one that uses it."""
-        files = [use.file for use in self.trail]
-        return self.trail[files.index(place.file) + 1 :] if place.file in files else self.trail
 
     def __deepcopy__(self, memo: object) -> SourceRef:
         return self

@@ -66,8 +66,8 @@ class Span(NamedTuple):
         return None
 
     @property
-    def meant(self) -> str | None:
-        """The expression that the text seems meant for which an expression here hands on; None for anything else."""
+    def forgotten_expression(self) -> str | None:
+        """The expression that a text taken from elsewhere looks like but for its `$(`; None for anything else."""
         return None
 
     @property
@@ -100,63 +100,52 @@ class Trace(Protocol):
         """Return where the part at a path of the value was written; None where the expression itself made it."""
         ...
 
-    def meant(self, path: tuple[str | int, ...]) -> str | None:
-        """Return the expression that the part at a path seems meant for, which is text; None for anything else."""
+    def forgotten_expression(self, path: tuple[str | int, ...]) -> str | None:
+        """Return the expression that the text at a path looks like but for its `$(`; None for anything else."""
         ...
 
 
-class ComputedSpan(Span):
-    """The place of an expression, for one part of its value: `path` leads to that from the whole."""
+class TracedSpan(Span):
+    """The place of a value that an expression computes, or in which overrides changed something.
 
-    trace: Trace
+    `trace` follows the value of the expression, and `path` leads from its whole value to the part that stands here.
+    """
+
+    trace: Trace | None
     path: tuple[str | int, ...]
-
-    @classmethod
-    def of(cls, place: Span, trace: Trace, path: tuple[str | int, ...] = ()) -> ComputedSpan:
-        made = cls(*place)
-        made.trace, made.path = trace, path
-        return made
-
-    def inside(self, key: str | int) -> ComputedSpan:
-        return ComputedSpan.of(self, self.trace, (*self.path, key))
-
-    @property
-    def origin(self) -> Origin | None:
-        return self.trace.origin(self.path)
-
-    @property
-    def meant(self) -> str | None:
-        return self.trace.meant(self.path)
-
-    def __reduce__(self) -> tuple[type[Span], tuple[object, ...]]:
-        return Span, tuple(self)
-
-
-class PatchedSpan(Span):
-    """The place of an object or a list whose file wrote it here, and in which overrides changed something."""
-
-    _written: Span
     _changes: tuple[Change, ...]
 
     @classmethod
-    def of(cls, place: Span, changes: tuple[Change, ...]) -> Span:
-        """Return a place with what was changed there behind what it knows already; the place itself for nothing."""
+    def computed(cls, place: Span, trace: Trace, path: tuple[str | int, ...] = ()) -> TracedSpan:
+        """Return the place of a part of the value of an expression."""
+        return cls._of(place, trace, path, ())
+
+    @classmethod
+    def overridden(cls, place: Span, changes: tuple[Change, ...]) -> Span:
+        """Return a place with further changes by overrides; the place itself if there are none."""
         if not changes:
             return place
+        trace, path = (place.trace, place.path) if isinstance(place, TracedSpan) else (None, ())
+        return cls._of(place, trace, path, (*place.changes, *changes))
+
+    @classmethod
+    def _of(
+        cls, place: Span, trace: Trace | None, path: tuple[str | int, ...], changes: tuple[Change, ...]
+    ) -> TracedSpan:
         made = cls(*place)
-        made._written, made._changes = place, (*place.changes, *changes)
+        made.trace, made.path, made._changes = trace, path, changes
         return made
 
     def inside(self, key: str | int) -> Span:
-        return self._written.inside(key)
+        return TracedSpan.computed(self, self.trace, (*self.path, key)) if self.trace else Span(*self)
 
     @property
     def origin(self) -> Origin | None:
-        return self._written.origin
+        return self.trace.origin(self.path) if self.trace else None
 
     @property
-    def meant(self) -> str | None:
-        return self._written.meant
+    def forgotten_expression(self) -> str | None:
+        return self.trace.forgotten_expression(self.path) if self.trace else None
 
     @property
     def changes(self) -> tuple[Change, ...]:
