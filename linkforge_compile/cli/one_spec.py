@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, TypedDict
 
-from linkforge_compile.bounds import FACTOR_VARIABLE, MAX_FILE_BYTES, factor_of
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.options import packages_of
+from linkforge_compile.limits import FACTOR_VARIABLE, MAX_FILE_BYTES, factor_of
 
 if TYPE_CHECKING:
     import argparse
