@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TypeAlias, TypeVar
 
-from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.diagnostics.suggest import nearest
@@ -19,6 +18,7 @@ from linkforge_compile.expressions.operators import ARITHMETIC, MAX_TEXT, is_too
 from linkforge_compile.expressions.scope import Scope
 from linkforge_compile.expressions.template import Expression, Template
 from linkforge_compile.expressions.types import FAULT, Fault, RefusedError, Value, as_text, joined, kind_name
+from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
 from linkforge_compile.units import WIDEST_ANGLE
 

@@ -17,9 +17,9 @@ from yaml.events import (
     SequenceStartEvent,
 )
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import syntax as codes
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.syntax.entries import entries_of, plain_entries
 from linkforge_compile.syntax.marks import Marks

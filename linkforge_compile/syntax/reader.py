@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes import syntax as codes
+from linkforge_compile.limits import Budget
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.syntax.entries import STUCK, kind_of
