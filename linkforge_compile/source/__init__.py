@@ -1,8 +1,17 @@
-"""Where things were written: files, spans in them, and the references by which every later value finds back."""
+"""Files that were read, places in them, and references from later values back to these places."""
 
-from linkforge_compile.source.file import SourceFile, span_of
 from linkforge_compile.source.ref import Key, Located, Sourced, SourceRef
-from linkforge_compile.source.span import Change, Origin, Position, Span, Trace, TracedSpan
+from linkforge_compile.source.span import (
+    Change,
+    Origin,
+    Position,
+    SourceFile,
+    Span,
+    Trace,
+    TracedSpan,
+    place_of_byte,
+    span_of,
+)
 
 __all__ = [
     "Change",
@@ -16,5 +25,6 @@ __all__ = [
     "Span",
     "Trace",
     "TracedSpan",
+    "place_of_byte",
     "span_of",
 ]

@@ -1,4 +1,4 @@
-"""From a value of the IR back to the text that made it."""
+"""References from values of a robot to the text that they were compiled from."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ from linkforge_compile.source.span import Span
 
 
 class Key(str):
-    """The last step of a path that ends at a key itself, not at what stands under it."""
+    """The last step of a path that leads to a key itself, not to the value under it."""
 
     __slots__ = ()
 
 
 class Located(Protocol):
-    """A node of a positioned tree, YAML's or XML's; all that a reference asks of it."""
+    """A node of a tree with places, of YAML or XML; all that a reference needs."""
 
     @property
     def span(self) -> Span: ...
 
     def child(self, key: str | int) -> Located | None:
-        """Return the node under a key or position, None where nothing is said."""
+        """Return the node under a key or position, None if there is none."""
         ...
 
     def key_span(self, key: str) -> Span | None:
-        """Return where a key stands, None where there is none."""
+        """Return the place of a key, None if there is none."""
         ...
 
 
@@ -33,8 +33,8 @@ class Located(Protocol):
 class SourceRef:
     """Where an object was written.
 
-    `node` is the object's own node, `key` that of its name where a named map holds it: not its span, which is made
-    when somebody asks. `trail` lists the `use` that brought its file in, then the use of that file, and so on outwards.
+    `node` is the object's own node, `key` the node of its name in a map of names. `trail` lists the `use` of its file,
+    then the use of the file that wrote that, and so on outwards.
     """
 
     node: Located
@@ -47,7 +47,7 @@ class SourceRef:
         return self.node.span if self.key is None else self.key.span
 
     def at(self, *path: str | int) -> Span:
-        """Return the span of the deepest node that exists on the path, this object's own for none."""
+        """Return the span of the deepest node that exists on the path; this object's own if none does."""
         node = self.node
         span = self.span
         for key in path:
@@ -65,7 +65,7 @@ class SourceRef:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sourced:
-    """A frozen value that remembers where it was written; neither compared nor hashed nor shown.
+    """A frozen value with the place where it was written, which is neither compared nor hashed nor shown.
 
     The field is not called `origin`: half of the IR has an `origin` that is a pose.
     """
