@@ -144,9 +144,9 @@ def _power_dimension(_left: Dimension | None, right: Dimension | None, taker: st
 
 def _power(base: Number, exponent: Number) -> Number:
     # Computing the digits of 9**9**9 would fill the memory, so the size is estimated first.
-    if isinstance(base, int) and isinstance(exponent, int) and abs(base) > 1:
-        if base.bit_length() * exponent > 2 * MAX_INTEGER_BITS:
-            raise OverflowError
+    is_whole = isinstance(base, int) and isinstance(exponent, int)
+    if is_whole and abs(base) > 1 and int(base).bit_length() * exponent > 2 * MAX_INTEGER_BITS:
+        raise OverflowError
     result = base**exponent
     if isinstance(result, complex):
         raise RefusedError(codes.OUTSIDE_DOMAIN, operand=0, taker="'**'", expected="a base of 0 or more", found=base)
