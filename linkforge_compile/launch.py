@@ -25,8 +25,8 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch_ros.parameter_descriptions import ParameterValue
 
 from linkforge_compile.expand import XACRO
+from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.pipeline import CompileError, Packages, Told, compile_file, parameters_of
-from linkforge_compile.stamps import Stamps
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -64,13 +64,13 @@ class _Made(NamedTuple):
 
     launch: ref[LaunchContext]
     asked: Asked
-    files: Stamps
+    files: FileWatcher
     urdf: str
     srdf: str
 
     def holds(self, context: LaunchContext, asked: Asked) -> bool:
         # Another launch is told the warnings as well, and may have another environment.
-        return self.launch() is context and self.asked == asked and not self.files.look()
+        return self.launch() is context and self.asked == asked and not self.files.poll()
 
 
 class RobotDescription:
@@ -170,9 +170,9 @@ class RobotDescription:
         if self._made is None or not self._made.holds(context, asked):
             from linkforge_compile.formats import render_srdf, render_urdf
 
-            began, files = time_ns(), Stamps(())
+            began, files = time_ns(), FileWatcher()
             robot, read = self._compile(variant, values)
-            files.follow(read, began)
+            files.track(read, began)
             urdf, srdf = render_urdf(robot, gazebo=self.gazebo), render_srdf(robot)
             self._made = _Made(ref(context), asked, files, urdf, srdf)
         return self._made

@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, TypedDict
 
-from linkforge_compile.bounds import FACTOR_VARIABLE, MAX_FILE_BYTES, factor_of
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.cli.options import packages_of
+from linkforge_compile.limits import FACTOR_VARIABLE, MAX_FILE_BYTES, parse_factor
 
 if TYPE_CHECKING:
     import argparse
@@ -75,7 +75,7 @@ class _Settings(TypedDict):
 
 
 def _settings(assignments: list[str], arguments: argparse.Namespace) -> _Settings:
-    if (factor := os.environ.get(FACTOR_VARIABLE)) and factor_of(factor) is None:
+    if (factor := os.environ.get(FACTOR_VARIABLE)) and parse_factor(factor) is None:
         raise UsageError(f"{FACTOR_VARIABLE} takes a whole number from 1 to 999999999, found '{factor}'")
     return {
         "parameters": [*arguments.parameters, *assignments],

@@ -6,7 +6,6 @@ from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.expressions import UNKNOWN_NAME
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TREE_TOO_LARGE
@@ -30,6 +29,7 @@ from linkforge_compile.expressions import (
     kind_name,
     parse_template,
 )
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.source import ComputedSpan, SourceFile, Span

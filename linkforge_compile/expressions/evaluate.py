@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from typing import TypeAlias, TypeVar
 
-from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.diagnostics.suggest import nearest
@@ -37,6 +36,7 @@ from linkforge_compile.expressions.types import (
     joined,
     kind_name,
 )
+from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
 from linkforge_compile.units import WIDEST_ANGLE
 

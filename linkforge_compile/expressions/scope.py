@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.types import FAULT, Fault, Value
+from linkforge_compile.limits import Budget
 from linkforge_compile.source import Span
 
 MAX_CHAIN = 64

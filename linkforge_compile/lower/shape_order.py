@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from linkforge_compile.core.models.shape_order import COLLISION, KINDS, PAIRS, VISUAL, grouped, in_pairs
 from linkforge_compile.diagnostics import notes_of_changes
 from linkforge_compile.diagnostics.codes.model import SHAPE_ORDER_COUNT, UNKNOWN_CHOICE, WRONG_KIND
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.quantities import found
-from linkforge_compile.shape_order import COLLISION, KINDS, PAIRS, VISUAL, apart, in_pairs
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlScalar
 
@@ -28,7 +28,7 @@ def lower_shape_order(
     # Of a faulty link nobody knows how many shapes it was to have.
     is_whole = not link.is_faulty and None not in (*visuals, *collisions)
     order = tuple(_said(link, kinds, is_whole=is_whole) or kinds)
-    return () if order[:1] == (VISUAL,) and order == apart(order) else order
+    return () if order[:1] == (VISUAL,) and order == grouped(order) else order
 
 
 def _said(link: Fields, kinds: Sequence[str], *, is_whole: bool) -> Sequence[str] | None:

@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterator
 import yaml
 from yaml.events import ScalarEvent
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics.ignores import Ignore
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.reader import MAX_READ_TWICE, PARSER
