@@ -91,7 +91,7 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> object:
-    """Import what is asked for when it is first asked for, so that `linkforge --help` stays quick."""
+    """Import a public name when it is first used, so that `linkforge --help` starts fast."""
     if name not in _HOMES:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     from importlib import import_module

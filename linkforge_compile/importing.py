@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
@@ -17,6 +16,7 @@ from linkforge_compile.expand.assembly import count_entries
 from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.importers.document import Imported
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.lower import MeshSolids
 from linkforge_compile.pipeline import Judged, Packages, Parameters, Settings, gc_paused, judged
 from linkforge_compile.source import SourceFile, Span

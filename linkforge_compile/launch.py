@@ -25,9 +25,9 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch_ros.parameter_descriptions import ParameterValue
 
 from linkforge_compile.expand import XACRO
+from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.formats import SRDF, URDF, Format, Rendering
 from linkforge_compile.pipeline import CompileError, Packages, Told, compile_file, parameters_of
-from linkforge_compile.stamps import Stamps
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -64,12 +64,12 @@ class _Compiled(NamedTuple):
 
     launch: ref[LaunchContext]
     values: Values
-    files: Stamps
+    files: FileWatcher
     texts: Mapping[str, str]
 
     def is_current(self, context: LaunchContext, values: Values) -> bool:
         # Another launch reports the warnings as well, and may have another environment.
-        return self.launch() is context and self.values == values and not self.files.look()
+        return self.launch() is context and self.values == values and not self.files.poll()
 
 
 class RobotDescription:
@@ -166,9 +166,9 @@ class RobotDescription:
         variant, values = self._variant_of(context), self._assignments(context)
         self._require_values(variant, values)
         if self._compiled is None or not self._compiled.is_current(context, (variant, values)):
-            began, files = time_ns(), Stamps(())
+            began, files = time_ns(), FileWatcher(())
             robot, read = self._compile(variant, values)
-            files.follow(read, began)
+            files.track(read, began)
             rendering = Rendering({"gazebo": self.gazebo})
             texts = {one.name: one.render(robot, rendering)[0].text for one in (URDF, SRDF)}
             self._compiled = _Compiled(ref(context), (variant, values), files, texts)

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.bounds import Budget
 from linkforge_compile.checks import check
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.bounds import VARIANTS_BEYOND_LIMIT
@@ -32,6 +31,7 @@ from linkforge_compile.expand import (
 )
 from linkforge_compile.formats import NO_OPTIONS, Options, limits, require_options
 from linkforge_compile.fresh_stack import on_fresh_stack
+from linkforge_compile.limits import Budget
 from linkforge_compile.lower import MeshSolids, lower
 from linkforge_compile.roots import ANYWHERE, Roots
 

@@ -75,7 +75,7 @@ def say(line: str, arguments: argparse.Namespace) -> None:
 
 def say_failure(line: str, arguments: argparse.Namespace) -> None:
     """Write what did not succeed to standard error, unless that is to hold one document for a program."""
-    if arguments.diagnostics in {"text", "github"}:
+    if getattr(arguments, "diagnostics", "text") in {"text", "github"}:
         line_to_stderr(line)
 
 

@@ -5,15 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from linkforge_compile.formats.marks import MARK, Marks, Place
+from linkforge_compile.formats.marks import MARK, Marks
 from linkforge_compile.formats.markup import restored
+from linkforge_compile.source.provenance import Provenance
 
 
 class Segment(NamedTuple):
     """What begins at a column of a line, counted from 1, and goes on to the next segment; the first begins at 1."""
 
     column: int
-    place: Place
+    place: Provenance
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class SourceMap:
 
     lines: tuple[tuple[Segment, ...], ...]
 
-    def at(self, line: int, column: int | None = None) -> Place | None:
+    def at(self, line: int, column: int | None = None) -> Provenance | None:
         """Return where what stands on a line was written, or more closely what stands at a column of it.
 
         Both count from 1. None for what nobody wrote, and beyond the document.
@@ -64,7 +65,7 @@ def unmarked(text: str, marks: Marks) -> Mapped:
     return Mapped("\n".join(lines), SourceMap(tuple(segments)))
 
 
-def _line(marked: str, places: tuple[Place, ...]) -> tuple[str, tuple[Segment, ...]]:
+def _line(marked: str, places: tuple[Provenance, ...]) -> tuple[str, tuple[Segment, ...]]:
     pieces = MARK.split(marked)
     if len(pieces) == 1:
         return marked, ()

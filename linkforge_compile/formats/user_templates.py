@@ -10,11 +10,11 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.bounds import Budget
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.templates import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
 from linkforge_compile.formats.markup import document_text, harmless_in_comment, with_layout_alone, without_marks
+from linkforge_compile.limits import Budget
 from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import ANYWHERE, Roots
 

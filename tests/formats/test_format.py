@@ -9,8 +9,8 @@ from linkforge_compile import formats
 from linkforge_compile.cli.main import main
 from linkforge_compile.diagnostics import Code, Severity
 from linkforge_compile.formats import Document, Format, Option
-from linkforge_compile.formats.marks import Place
 from linkforge_compile.formats.source_map import Segment, SourceMap
+from linkforge_compile.source.provenance import Kind, Provenance
 
 SPEC = """\
 linkforge: 1
@@ -36,7 +36,7 @@ class Joints(Format):
     def render(self, robot, rendering):
         case = getattr(str, self.options[0].value(rendering.options))
         text = "".join(f"{case(joint.name)}\n" for joint in robot.joints)
-        places = [Place(joint.source.span) for joint in robot.joints]
+        places = [Provenance(Kind.WRITTEN, joint.source.span) for joint in robot.joints]
         source_map = SourceMap(tuple((Segment(1, place),) for place in places))
         return (Document(text, map=source_map if rendering.has_map else None),)
 

@@ -20,7 +20,7 @@ __all__ = ["GAZEBO", "Gazebo", "Urdf"]
 Gazebo: TypeAlias = Literal["gz", "classic"]
 """The simulator whose dialect the tags of sensors have: Gazebo Sim (Harmonic) or Gazebo Classic (11)."""
 
-GAZEBO = Option("gazebo", ("gz", "classic"), "gz", "the simulator that reads the sensors (gz unless said)")
+GAZEBO = Option("gazebo", ("gz", "classic"), "gz", "the simulator that reads the sensors (default: gz)")
 
 
 class Urdf(TemplateFormat):
