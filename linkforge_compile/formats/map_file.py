@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from linkforge_compile.formats.marks import Place
     from linkforge_compile.formats.source_map import Mapped
     from linkforge_compile.source import SourceFile, Span
+    from linkforge_compile.source.provenance import Provenance
 
 VERSION = 1
 """Of the format; a reader refuses any other."""
@@ -62,12 +62,8 @@ class _Tables:
         self.sources: dict[SourceFile, dict[str, str]] = {}
         self.trails: dict[tuple[tuple[str, Span], ...], list[dict[str, list[int]]]] = {}
 
-    def place(self, place: Place) -> list[int]:
-        steps = (
-            *(("overridden", change.span) for change in place.span.changes),
-            *(("included", span) for span in place.span.file.includes),
-            *(("used", span) for span in place.trail),
-        )
+    def place(self, place: Provenance) -> list[int]:
+        steps = tuple((link.key, link.span) for link in place if link.key)
         stretch = self._stretch(place.span)
         if steps not in self.trails:
             self._trail_numbers[steps] = len(self.trails)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.formats.marks import MARK, Marks, Place, recording
+from linkforge_compile.formats.marks import MARK, Marks, recording
 from linkforge_compile.formats.markup import restored
 from linkforge_compile.formats.srdf import render_srdf
 from linkforge_compile.formats.urdf import render_urdf
+from linkforge_compile.source.provenance import Provenance
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -21,7 +22,7 @@ class Segment(NamedTuple):
     """What begins at a column of a line, counted from 1, and goes on to the next segment; the first begins at 1."""
 
     column: int
-    place: Place
+    place: Provenance
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class SourceMap:
 
     lines: tuple[tuple[Segment, ...], ...]
 
-    def at(self, line: int, column: int | None = None) -> Place | None:
+    def at(self, line: int, column: int | None = None) -> Provenance | None:
         """Return where what stands on a line was written, or more closely what stands at a column of it.
 
         Both count from 1. None for what nobody wrote, and beyond the document.
@@ -98,7 +99,7 @@ def _unmarked(text: str, marks: Marks) -> Mapped:
     return Mapped("\n".join(lines), SourceMap(tuple(segments)))
 
 
-def _line(marked: str, places: tuple[Place, ...]) -> tuple[str, tuple[Segment, ...]]:
+def _line(marked: str, places: tuple[Provenance, ...]) -> tuple[str, tuple[Segment, ...]]:
     pieces = MARK.split(marked)
     if len(pieces) == 1:
         return marked, ()
