@@ -88,7 +88,7 @@ def _find_specs(word: str, arguments: argparse.Namespace, report: Callable[[Diag
     from linkforge_compile.diagnostics import Note
     from linkforge_compile.diagnostics.codes.modules import UNREADABLE_FILE
     from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
-    from linkforge_compile.editor.specs import TooManyFilesError, specs_below
+    from linkforge_compile.editor.spec_files import TooManyFilesError, find_specs
     from linkforge_compile.roots import ANYWHERE, Roots
 
     folder = Path(word)
@@ -101,7 +101,7 @@ def _find_specs(word: str, arguments: argparse.Namespace, report: Callable[[Diag
         report(OUTSIDE_ROOTS.at(None, path=link, name="NAME", notes=map(Note, roots.reasons(link))))
 
     try:
-        return tuple(map(str, specs_below(folder, _MAX_SPECS, roots=roots, unread=unread, outside=outside)))
+        return tuple(map(str, find_specs(folder, _MAX_SPECS, roots=roots, unread=unread, outside=outside)))
     except TooManyFilesError as error:
         raise UsageError(f"there are {error} below '{word}'; name the folders of the robots") from error
 
