@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
 from linkforge_compile.source import Span
+from linkforge_compile.source.provenance import uses_in
 
 
 class AnnotatingSink(Diagnostics):
@@ -23,5 +24,5 @@ class AnnotatingSink(Diagnostics):
 
 def with_use_trace(sink: Diagnostics, uses: Iterable[Span | None]) -> Diagnostics:
     """Return a sink for a file that is reached through these uses, the innermost first; None stands for no use."""
-    notes = [Note("used here", use) for use in uses if use is not None]
+    notes = notes_of(uses_in(use for use in uses if use is not None))
     return AnnotatingSink(sink, notes) if notes else sink

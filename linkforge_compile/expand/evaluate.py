@@ -6,7 +6,6 @@ from collections import ChainMap
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import DeletedNames, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TEXT_NOT_NUMBER, TREE_TOO_LARGE
 from linkforge_compile.expand.origins import ExpressionTrace, Setting
@@ -27,7 +26,8 @@ from linkforge_compile.expressions import (
     kind_name,
     parse_template,
 )
-from linkforge_compile.source import ComputedSpan, SourceFile, Span
+from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.source import SourceFile, Span, TracedSpan
 from linkforge_compile.syntax import (
     YamlEntry,
     YamlFault,
@@ -173,7 +173,7 @@ class Evaluator:
     def place(self, node: YamlNode) -> Span:
         """Return the span of a node; that of an expression can trace where its value was written."""
         if isinstance(node, YamlScalar) and has_expression(node.text):
-            return ComputedSpan.of(node.span, ExpressionTrace(node, self))
+            return TracedSpan.computed(node.span, ExpressionTrace(node, self))
         return node.span
 
     def names_in(self, node: YamlNode) -> frozenset[str]:
@@ -203,7 +203,7 @@ class Evaluator:
             return FAULT
 
         def trace(expression: str, where: Span) -> Span:
-            return ComputedSpan.of(where, ExpressionTrace(self.expressions.part(expression, where), self))
+            return TracedSpan.computed(where, ExpressionTrace(self.expressions.part(expression, where), self))
 
         return evaluate(template, self.scope_of(scalar), self.sink, is_xml=is_xml, trace=trace)
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
 from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
@@ -17,11 +16,12 @@ from linkforge_compile.expand.file_text import UnreadableError, read_spec, read_
 from linkforge_compile.expand.includes import ComposedFile, compose, follow_includes
 from linkforge_compile.expand.paths import as_typed, names_in, searched_note
 from linkforge_compile.expand.spec_tree import cached_source, read_tree
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.roots import ANYWHERE, Roots, identity
-from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.source.encoding import begins_xml, place_of_byte
+from linkforge_compile.source import SourceFile, Span, place_of_byte
+from linkforge_compile.source.encoding import begins_xml
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
-from linkforge_compile.syntax.ignore_words import IGNORE_WORDS
+from linkforge_compile.syntax.ignore_comments import IGNORE_WORDS, ignore_comments
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.ignores import Ignore
@@ -120,10 +120,6 @@ class Loader:
     def ignores(self) -> tuple[Ignore, ...]:
         """The comments that suppress codes, of all files read."""
         commented = [file for file in self.sources if IGNORE_WORDS.search(file.text)]
-        if not commented:
-            return ()
-        from linkforge_compile.syntax.ignore_comments import ignore_comments
-
         return tuple(one for file in commented for one in ignore_comments(file, self.budget))
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:

@@ -28,7 +28,7 @@ from linkforge_compile.expand.normal_form import (
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.schema.words import alternatives
-from linkforge_compile.source import Change, PatchedSpan
+from linkforge_compile.source import Change, TracedSpan
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, parse_quantity
 
@@ -110,7 +110,7 @@ class _Patcher:
         for rival in CHOICES.get(shape.title, ()) if chosen else ():
             if rival not in chosen:
                 entries.pop(rival, None)
-        return YamlMap(entries, PatchedSpan.of(base.span, tuple(changes)))
+        return YamlMap(entries, TracedSpan.overridden(base.span, tuple(changes)))
 
     def _patch_entry(self, entries: dict[str, YamlEntry], change: YamlEntry, shape: Shape) -> list[Change]:
         """Patch one entry; return the change unless the entry's value records it in itself."""
@@ -167,7 +167,7 @@ class _Patcher:
             elif is_set(change.value):
                 place = int(change.name)
                 items[place] = self._patch_node(items[place], change.value, shape.item, field)
-        span = PatchedSpan.of(base.span if base else patch.span, tuple(changes))
+        span = TracedSpan.overridden(base.span if base else patch.span, tuple(changes))
         return YamlList(tuple(item for item in items if item is not None), span)
 
     def _delete(self, entries: dict[str, YamlEntry], change: YamlEntry) -> None:

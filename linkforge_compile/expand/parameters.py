@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.model import WIDE_ANGLE
 from linkforge_compile.diagnostics.codes.modules import (
@@ -31,6 +30,7 @@ from linkforge_compile.expand.parameter_types import (
 )
 from linkforge_compile.expand.values import describe
 from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_expression
+from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1

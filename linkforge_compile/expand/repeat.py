@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Code, Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT
 from linkforge_compile.diagnostics.codes.modules import INVALID_VARIABLE_NAME, RESERVED_NAME
@@ -21,6 +20,7 @@ from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.origins import Setting
 from linkforge_compile.expand.values import describe
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression
+from linkforge_compile.limits import Limit
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import Shape
 from linkforge_compile.source import Span

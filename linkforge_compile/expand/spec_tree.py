@@ -7,9 +7,9 @@ from pathlib import Path
 from threading import Lock
 from typing import TypeAlias
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.expand.syntax_markers import ExpressionScan, may_compute, may_need_context_check
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, read

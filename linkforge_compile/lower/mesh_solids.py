@@ -6,7 +6,6 @@ import gc
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.core.meshes import MeshError, MeshFault, solid_in
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.diagnostics import Diagnostics, Note
@@ -27,6 +26,7 @@ from linkforge_compile.expand.annotating_sink import with_use_trace
 from linkforge_compile.expand.file_text import TooLargeError, UnreadableError, read_bytes
 from linkforge_compile.expand.paths import as_typed, misspelt_part, path_base, searched_note
 from linkforge_compile.expand.uses import FindMesh
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar
