@@ -6,17 +6,16 @@ import os
 import stat
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO, TypedDict
+from typing import TYPE_CHECKING, BinaryIO
 
 from linkforge_compile.cli.exits import UsageError
-from linkforge_compile.cli.options import packages_of
+from linkforge_compile.cli.options import format_options_of, packages_of
 from linkforge_compile.limits import FACTOR_VARIABLE, MAX_FILE_BYTES, parse_factor
 
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.formats.urdf.sensor import Gazebo
-    from linkforge_compile.pipeline import Compilation
+    from linkforge_compile.pipeline import Compilation, Settings
 
 STDIN = "<stdin>"
 """The name of standard input in diagnostics."""
@@ -39,51 +38,55 @@ def compile_spec(
     spec: str,
     assignments: list[str],
     arguments: argparse.Namespace,
+    *,
     output: Path | None = None,
     text: str | None = None,
+    formats: tuple[str, ...] = (),
 ) -> Compilation:
     """Compile a spec with the options of `add_spec_options`.
 
-    `output` is the folder for which the URDF is meant, None if unknown. `text` is the content of a spec that was read
-    already, because it can be read only once.
+    `output` is the folder of the documents, None if unknown. `text` is the content of a spec that was read already,
+    because it can be read only once. `formats` are the requested ones.
     """
-    from linkforge_compile.pipeline import compile_file, compile_text
+    from linkforge_compile.pipeline import compile_path, compile_source
 
+    settings = settings_of(assignments, arguments)._replace(formats=formats)
     if spec == "-" or text is not None:
         text = standard_input() if text is None else text
-        name = STDIN if spec == "-" else spec
-        return compile_text(text, name=name, folder=Path.cwd(), **_settings(assignments, arguments))
-    return compile_file(spec, output=output, **_settings(assignments, arguments))
+        return compile_source(text, STDIN if spec == "-" else spec, Path.cwd(), settings)
+    return compile_path(spec, settings._replace(output=output))
 
 
 def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Compilation:
     """Check a spec with the options of `add_spec_options`."""
-    from linkforge_compile.pipeline import check_file, check_text
+    from linkforge_compile.pipeline import compile_path, compile_source
 
+    settings = check_settings_of(assignments, arguments)
     if spec == "-":
-        text = standard_input()
-        return check_text(text, name=STDIN, folder=Path.cwd(), **_settings(assignments, arguments))
-    return check_file(spec, **_settings(assignments, arguments))
+        return compile_source(standard_input(), STDIN, Path.cwd(), settings)
+    return compile_path(spec, settings)
 
 
-class _Settings(TypedDict):
-    parameters: list[str]
-    packages: dict[str, str]
-    variant: str | None
-    gazebo: Gazebo
-    allow_outside: bool
+def check_settings_of(assignments: list[str], arguments: argparse.Namespace) -> Settings:
+    """Return the settings of a check, for which a parameter may lack its value."""
+    from linkforge_compile.expand import Unset
+
+    return settings_of(assignments, arguments)._replace(unset=Unset.NOTE)
 
 
-def _settings(assignments: list[str], arguments: argparse.Namespace) -> _Settings:
+def settings_of(assignments: list[str], arguments: argparse.Namespace) -> Settings:
+    """Return what the options that every command on a spec has say; UsageError for a wrong value."""
+    from linkforge_compile.pipeline import Settings
+
     if (factor := os.environ.get(FACTOR_VARIABLE)) and parse_factor(factor) is None:
         raise UsageError(f"{FACTOR_VARIABLE} takes a whole number from 1 to 999999999, found '{factor}'")
-    return {
-        "parameters": [*arguments.parameters, *assignments],
-        "packages": packages_of(arguments),
-        "variant": arguments.variant,
-        "gazebo": arguments.gazebo,
-        "allow_outside": arguments.allow_outside,
-    }
+    return Settings(
+        [*arguments.parameters, *assignments],
+        packages_of(arguments),
+        arguments.variant,
+        format_options_of(arguments),
+        allow_outside=arguments.allow_outside,
+    )
 
 
 def standard_input() -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.formats import declared_options
 from linkforge_compile.source.characters import on_one_line
 
 
@@ -51,12 +52,13 @@ def add_spec_options(parser: argparse.ArgumentParser) -> None:
     )
     add_package_option(parser)
     add_outside_option(parser)
-    parser.add_argument(
-        "--gazebo",
-        choices=("gz", "classic"),
-        default="gz",
-        help="the simulator that reads the sensors (default: gz)",
-    )
+    for option in declared_options():
+        parser.add_argument(f"--{option.name}", choices=option.choices, default=option.default, help=option.help)
+
+
+def format_options_of(arguments: argparse.Namespace) -> dict[str, str]:
+    """Return the values of the options that output formats declare."""
+    return {option.name: getattr(arguments, option.name) for option in declared_options()}
 
 
 def add_parameter_option(parser: argparse.ArgumentParser, description: str) -> None:

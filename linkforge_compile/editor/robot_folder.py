@@ -98,8 +98,11 @@ class RobotFolder:
         return folders.get(path, self.repository)
 
     def _add_robot(self, name: str) -> str:
+        from linkforge_compile.formats import FORMATS
+
         spec = _relative(self.package, self.folder / _SPEC.format(name=name))
-        return f"linkforge_add_robot({spec} FORMATS urdf srdf INSTALL)"
+        formats = " ".join(one.name for one in FORMATS if one.is_default)
+        return f"linkforge_add_robot({spec} FORMATS {formats} INSTALL)"
 
     def _yaml_schemas(self) -> str:
         below = _prefix(self.repository, self.workspace)

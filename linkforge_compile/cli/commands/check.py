@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.one_spec import check_spec
+from linkforge_compile.cli.one_spec import check_settings_of, check_spec
 from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments
 from linkforge_compile.cli.telling import add_telling_options, has_errors, selected, to_stderr, written
 
@@ -117,12 +117,9 @@ def _check(spec: str, assignments: list[str], arguments: argparse.Namespace) -> 
     """Return the results by variant, where None means the defaults."""
     if not arguments.all_variants:
         return {arguments.variant: check_spec(spec, assignments, arguments)}
-    from linkforge_compile.pipeline import check_variants
+    from linkforge_compile.pipeline import check_each_variant
 
-    parameters, packages = [*arguments.parameters, *assignments], packages_of(arguments)
-    return check_variants(
-        spec, parameters=parameters, packages=packages, gazebo=arguments.gazebo, allow_outside=arguments.allow_outside
-    )
+    return check_each_variant(Path(spec), check_settings_of(assignments, arguments))
 
 
 def _print(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
