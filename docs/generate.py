@@ -13,7 +13,6 @@ from pathlib import Path
 
 import yaml
 
-from linkforge_compile.bounds import MAX_FILE_BYTES, Limit
 from linkforge_compile.core.meshes.read import MAX_TRIANGLES
 from linkforge_compile.diagnostics.render.text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_REPORTED, MAX_TOLD, MAX_WARNED
@@ -21,6 +20,7 @@ from linkforge_compile.expand import includes, patterns
 from linkforge_compile.expand.expansion import MAX_DEPTH
 from linkforge_compile.expressions import grammar, operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
+from linkforge_compile.limits import MAX_FILE_BYTES, Limit
 from linkforge_compile.lower import mesh_solids
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import definitions

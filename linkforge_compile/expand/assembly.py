@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import DeletedNames
 from linkforge_compile.expand.mesh_files import FindMesh, no_mesh
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar

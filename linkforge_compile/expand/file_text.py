@@ -6,7 +6,7 @@ import os
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from pathlib import Path
 
-from linkforge_compile.bounds import MAX_FILE_BYTES
+from linkforge_compile.limits import MAX_FILE_BYTES
 
 
 class UnreadableError(Exception):

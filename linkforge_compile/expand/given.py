@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
-from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.files import FILE_OUTSIDE_PACKAGE
 from linkforge_compile.diagnostics.codes.modules import (
@@ -27,6 +26,7 @@ from linkforge_compile.expand.uses import rebased
 from linkforge_compile.expand.values import plain_value
 from linkforge_compile.expand.variants import Variants
 from linkforge_compile.expressions import FAULT, Fault, Value
+from linkforge_compile.limits import Limit
 from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read

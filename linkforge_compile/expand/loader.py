@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from linkforge_compile.bounds import MAX_FILE_BYTES, Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
 from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
@@ -18,11 +17,12 @@ from linkforge_compile.expand.path_starts import looked_for
 from linkforge_compile.expand.paths import as_typed, names_in
 from linkforge_compile.expand.trees import known_source, tree_of
 from linkforge_compile.expand.whole import Whole, reached
+from linkforge_compile.limits import MAX_FILE_BYTES, Budget, Limit
 from linkforge_compile.roots import ANYWHERE, Roots, identity
-from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.source.encoding import EncodingError, begins_xml, place_of_byte, xml_text
+from linkforge_compile.source import SourceFile, Span, place_of_byte
+from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
-from linkforge_compile.syntax.ignore_words import IGNORE_WORDS
+from linkforge_compile.syntax.ignore_comments import IGNORE_WORDS, ignore_comments
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.ignores import Ignore
@@ -127,8 +127,6 @@ class Loader:
         asking = [file for file in self.sources if IGNORE_WORDS.search(file.text)]
         if not asking:
             return ()
-        from linkforge_compile.syntax.ignore_comments import ignore_comments
-
         return tuple(one for file in asking for one in ignore_comments(file, self.budget))
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:

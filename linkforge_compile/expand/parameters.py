@@ -6,7 +6,6 @@ from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.model import WIDE_ANGLE
 from linkforge_compile.diagnostics.codes.modules import (
@@ -24,6 +23,7 @@ from linkforge_compile.expand.evaluate_tree import TreeEvaluator
 from linkforge_compile.expand.kinds import KINDS, Kind
 from linkforge_compile.expand.values import describe
 from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_expression
+from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1

@@ -14,7 +14,7 @@ from linkforge_compile.expressions import Expression, parse_template
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.schema.words import field
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
-from linkforge_compile.syntax.xacro import xacro_facts
+from linkforge_compile.syntax.scalars import xacro_facts
 
 _NAMES = frozenset({"a name", "a joint's name", "a material's name", "a joint value or a state's name"})
 """The titles of schemas whose text is a name, which takes the prefix by itself."""

@@ -10,10 +10,10 @@ from pathlib import Path
 from threading import Lock
 from typing import TypeAlias
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.expand.changing import Changing, may_change
 from linkforge_compile.expand.telltale import SIGNS, TELLTALE
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.schema import validate
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap, read

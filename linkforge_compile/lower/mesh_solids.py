@@ -6,7 +6,6 @@ import gc
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.core.meshes import MeshError, MeshFault, solid_in
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.diagnostics import Diagnostics, Note
@@ -28,6 +27,7 @@ from linkforge_compile.expand.mesh_files import FindMesh, misspelt_part
 from linkforge_compile.expand.noted import used_from
 from linkforge_compile.expand.path_starts import looked_for, written_place
 from linkforge_compile.expand.paths import as_typed
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar

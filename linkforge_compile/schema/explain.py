@@ -33,7 +33,7 @@ from linkforge_compile.schema.words import (
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.entries import STUCK
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
-from linkforge_compile.syntax.xacro import xacro_facts
+from linkforge_compile.syntax.scalars import xacro_facts
 
 if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from jsonschema import Draft7Validator
 
-from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, brought_in_at, too_many_errors
+from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, notes_of, too_many_errors
 from linkforge_compile.schema.explain import Judgement, explain
 from linkforge_compile.schema.gate import plain
 from linkforge_compile.schema.json_types import Schema
@@ -20,6 +20,7 @@ from linkforge_compile.schema.registry import linked
 from linkforge_compile.schema.shapes import FREE, shape_of
 from linkforge_compile.schema.validator import HEADER
 from linkforge_compile.source import SourceRef
+from linkforge_compile.source.provenance import aliases_of, join_links
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, fault_of
 
 if TYPE_CHECKING:
@@ -66,10 +67,10 @@ def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> 
     if not judgements:
         return tree
     judgements = told_once(judgements, tree)
-    found = [(one.diagnostic, SourceRef(tree).brought_in(*one.path)) for one in judgements]
+    found = [(one.diagnostic, tuple(join_links(aliases_of(SourceRef(tree), *one.path)) or ())) for one in judgements]
     # Where several uses do not fit one anchor, the sink keeps the first: of jsonschema, they come as a set has them.
-    for told, places in sorted(found, key=lambda one: (one[0].order, [place.start for place in one[1]])):
-        sink.report(replace(told, notes=(*told.notes, *brought_in_at(places))) if places else told)
+    for told, aliases in sorted(found, key=lambda one: (one[0].order, [alias.span.start for alias in one[1]])):
+        sink.report(replace(told, notes=(*told.notes, *notes_of(aliases))) if aliases else told)
     if sum(1 + len(judgement.also) for judgement in judgements) > MAX_TOLD:
         raise too_many_errors(judgements[-1].diagnostic.span)
     return _pruned(tree, judgements)

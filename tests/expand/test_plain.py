@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.expand import Arguments, Loader, SpecFile, Unset
 from linkforge_compile.expand.expansion import expanded
 from linkforge_compile.expand.plain import as_written, computes_nothing
+from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
 
 ROOT = Path(__file__).parents[2]

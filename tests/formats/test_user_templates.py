@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import Robot, TemplateError, compile_text, render_srdf, render_templates, render_urdf
-from linkforge_compile.bounds import FACTOR_VARIABLE
 from linkforge_compile.core import Joint, JointLimits, JointType, Link, Vector3
 from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.limits import FACTOR_VARIABLE
 from linkforge_compile.resources import templates_folder
 from tests.formats.everything import everything
 

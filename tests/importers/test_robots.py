@@ -11,8 +11,8 @@ from typing import NamedTuple
 import pytest
 
 from linkforge_compile import Diagnostic, Severity, compile_text, import_urdf, render_srdf, render_urdf
-from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.limits import Budget
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar, read
 from tests.importers.robots import OF_CORPUS, OF_EXAMPLES, PAIRS

@@ -9,7 +9,7 @@ import pytest
 
 from benchmarks.import_table import differences_of
 from linkforge_compile import Import, compile_text, import_urdf, render_srdf
-from linkforge_compile.bounds import Limit
+from linkforge_compile.limits import Limit
 from tests.importers.robots import ALONE
 
 TREE = """

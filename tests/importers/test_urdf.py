@@ -8,9 +8,9 @@ from textwrap import dedent
 import pytest
 
 from linkforge_compile import Import, compile_text, import_urdf, render_urdf
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.core.physics import rotation_matrix
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import read as read_yaml
 

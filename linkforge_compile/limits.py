@@ -1,4 +1,4 @@
-"""How much one compile may take: one table of limits, and the counter that all its files share."""
+"""Limits on the size of a compile, and the budget that all files of a compile share."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from linkforge_compile.diagnostics import BeyondLimitError, Code, Where
 from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
 
 MAX_FILE_BYTES = 16 * 1024 * 1024
-"""How large one text may be that is read, a spec, data or XML."""
+"""The largest spec, data file or XML file that is read."""
 
 MAX_NESTED_ELEMENTS = 100
-"""How deep the elements of a document of XML, or of raw XML in a spec, may be nested."""
+"""How deep elements may be nested in an XML document, or in raw XML in a spec."""
 
 FACTOR_VARIABLE = "LINKFORGE_LIMITS"
-"""The environment variable that allows so many times as much: the user's word, which no spec can say."""
+"""The environment variable by whose value all limits are multiplied; a spec cannot set it."""
 
 
 @dataclass(frozen=True)
 class _Limit:
-    """What is counted, how much of it there may be, and how to need less."""
+    """What is counted, the largest amount, and advice for a spec that exceeds it."""
 
     counted: str
     most: int
@@ -29,10 +29,10 @@ class _Limit:
 
 
 class Limit(Enum):
-    """What all files of one compile together may take.
+    """What all files of one compile may use together.
 
-    Chosen so that what reaches one of them is told within ten seconds and 512 MB, and so that a robot of ten
-    thousand links stays within all of them.
+    A compile that exceeds a limit is stopped within ten seconds and 512 MB; a robot of ten thousand links stays
+    within all limits.
     """
 
     CHARACTERS_READ = _Limit(
@@ -83,7 +83,7 @@ class Limit(Enum):
         "handle shorter texts, or render fewer templates at once",
     )
 
-    # Counted by as often as anything is computed: that of Enum is written in Python.
+    # The key of a dict that every computed value looks up: Enum.__hash__ is a Python function, object's is not.
     __hash__ = object.__hash__
 
     @property
@@ -95,44 +95,44 @@ class Limit(Enum):
         return self.value.most
 
 
-def factor_of(said: str) -> int | None:
-    """Return how many times all limits are allowed; None for what is no whole number from 1 to 999,999,999."""
-    return int(said) or None if said.isascii() and said.isdigit() and len(said) < 10 else None
+def parse_factor(text: str) -> int | None:
+    """Return the value of LINKFORGE_LIMITS; None for anything but a whole number from 1 to 999,999,999."""
+    return int(text) or None if text.isascii() and text.isdigit() and len(text) < 10 else None
 
 
 class Budget:
-    """What one compile may still take."""
+    """The rest of each limit that a compile may still use."""
 
     def __init__(self, times: int = 1, *, code: Code = BEYOND_LIMIT, within: Budget | None = None) -> None:
-        """`times` the limits are allowed; `code` is told of what is more.
+        """Allow `times` the limits; report `code` for what exceeds them.
 
-        What is taken counts in the budget that this one is `within` as well.
+        Spending also counts in the budget `within` which this one is.
         """
         self._code, self.within = code, within
-        self.times = times * (factor_of(os.environ.get(FACTOR_VARIABLE, "")) or 1)
+        self.times = times * (parse_factor(os.environ.get(FACTOR_VARIABLE, "")) or 1)
         self._left = {limit: limit.most * self.times for limit in Limit}
 
     def left(self, limit: Limit) -> int:
-        """Return how much is left of one limit, here and in what this is within; below 0 where it is passed."""
+        """Return the rest of a limit, here and in the outer budget; below 0 once it is exceeded."""
         own = self._left[limit]
         return own if self.within is None else min(own, self.within.left(limit))
 
     @property
     def is_spent(self) -> bool:
-        """Whether one of the limits is passed."""
+        """Whether any limit is exceeded."""
         return min(self._left.values()) < 0
 
     def spend(self, limit: Limit, amount: int, where: Where) -> None:
-        """Count what is taken at a place; raise BeyondLimitError where that is more than there may be."""
+        """Subtract what is used at a place; raise BeyondLimitError where that exceeds the limit."""
         left = self._left[limit]
         if self.within is not None:
-            # Refused for whatever amount, a compile takes all that it may have, and the one that is too much.
+            # A refused amount costs the outer budget what was left here and one more, however large it is.
             self.within.spend(limit, min(amount, left + 1), where)
         self._left[limit] = left - amount
         if amount > left:
             raise self.beyond(limit, where)
 
     def beyond(self, limit: Limit, where: Where) -> BeyondLimitError:
-        """Return what to raise at the place that passes a limit."""
+        """Return the error to raise at the place that exceeds a limit."""
         most = f"{limit.most * self.times:,}"
         return BeyondLimitError(self._code.at(where, most=most, counted=limit.counted, way_out=limit.value.way_out))
