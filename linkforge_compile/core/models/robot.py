@@ -239,7 +239,7 @@ class Robot(RobotParts):
         own_attributes = dict(self.extra_attributes)
         extra_attributes = {**own_attributes, **dict(component.extra_attributes), **own_attributes}
         update_materials = self.materials.update
-        if component.says_semantic:
+        if component.has_semantic:
             self.add_semantic(component.semantic.with_prefix(prefix))  # the last that can be refused
         vars(self).update(tables)
         update_materials(new_materials)
@@ -259,7 +259,7 @@ class Robot(RobotParts):
         require_robot_name(prefix + self.name)
         materials = prefixed_materials(self, prefix)
         parts = prefixed_parts(self, prefix)
-        semantic = self.semantic.with_prefix(prefix) if self.says_semantic else None
+        semantic = self.semantic.with_prefix(prefix) if self.has_semantic else None
         for kind, prefixed in parts.items():  # links first: they are refused if two were renamed to one name
             setattr(self, kind, prefixed)
         self.materials = materials
@@ -285,7 +285,7 @@ class Robot(RobotParts):
         robot.transmissions = sorted((part.normalized() for part in robot.transmissions), key=NAME)
         robot.ros2_controls = sorted((part.normalized() for part in robot.ros2_controls), key=NAME)
         robot.gazebo_elements = sorted(robot.gazebo_elements, key=content_key)
-        if robot.says_semantic:
+        if robot.has_semantic:
             robot.semantic = robot.semantic.normalized()
         return robot
 

@@ -204,7 +204,7 @@ class RobotParts:
         return [element for element in self.gazebo_elements if reference is None or element.reference == reference]
 
     @property
-    def says_semantic(self) -> bool:
+    def has_semantic(self) -> bool:
         """True once a description was assigned, be it an empty one, or something semantic was added."""
         return vars(self)["semantic"] is not None
 
