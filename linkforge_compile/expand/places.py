@@ -11,6 +11,7 @@ from linkforge_compile.diagnostics.codes.files import NAME_OUTSIDE_TEXT, PATH_OF
 from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
 from linkforge_compile.expand.telltale import TELLTALE
 from linkforge_compile.expressions import Expression, parse_template
+from linkforge_compile.schema.json_types import LinkedSchema
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.schema.words import field
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
@@ -22,7 +23,7 @@ _NAMES = frozenset({"a name", "a joint's name", "a material's name", "a joint va
 _PREFIXED_KEYS = frozenset({"topic", "frame", "prefix"})
 """Keys of what is no name and takes the prefix all the same."""
 
-_NAME = Shape({"title": "a name", "type": "string"})
+_NAME = Shape(LinkedSchema({"title": "a name", "type": "string"}))
 """The shape of a key that is a name."""
 
 _WITHOUT_PREFIX = frozenset({"interfaces by name", "folders by package name"})

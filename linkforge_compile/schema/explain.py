@@ -17,7 +17,7 @@ from linkforge_compile.diagnostics.codes.schema import (
 )
 from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, TAB_INDENTATION, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.schema.json_types import Schema, mapping
+from linkforge_compile.schema.json_types import Schema, linked_part, mapping
 from linkforge_compile.schema.keys_meant import like_space_before, unknown_keys
 from linkforge_compile.schema.meant import Misfit, Path, way_out, word_meant
 from linkforge_compile.schema.numbers_meant import is_row
@@ -83,7 +83,7 @@ def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
 def _lacks_space(node: YamlScalar, schema: Schema) -> bool:
     """Whether a text is a key and its value without a space, where an object with such a key belongs."""
     key, _, value = node.text.partition(":")
-    shape = shape_of(schema)
+    shape = shape_of(linked_part(schema))
     is_stuck = STUCK.fullmatch(node.text) and node.text == node.span.text and not value.startswith("//")
     return bool(is_stuck) and (shape.has_names or key in shape.keys)
 

@@ -12,13 +12,12 @@ from jsonschema import Draft7Validator
 
 from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, brought_in_at, too_many_errors
 from linkforge_compile.schema.explain import Judgement, explain
-from linkforge_compile.schema.gate import plain
-from linkforge_compile.schema.json_types import Schema
+from linkforge_compile.schema.gate import HEADER, plain
+from linkforge_compile.schema.json_types import LinkedSchema, Schema
 from linkforge_compile.schema.meant import Path
 from linkforge_compile.schema.missing_level import told_once
 from linkforge_compile.schema.registry import linked
 from linkforge_compile.schema.shapes import FREE, shape_of
-from linkforge_compile.schema.validator import HEADER
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, fault_of
 
@@ -35,7 +34,9 @@ def without_faults(tree: YamlMap, sink: Diagnostics, *, is_included: bool) -> Ya
     return _told(tree, judgements, sink)
 
 
-def computed_without_faults(node: YamlNode, written: YamlNode, key: str, schema: Schema, sink: Diagnostics) -> YamlNode:
+def computed_without_faults(
+    node: YamlNode, written: YamlNode, key: str, schema: LinkedSchema, sink: Diagnostics
+) -> YamlNode:
     """Report what is wrong in a map or list that an expression made under a key; return it without that.
 
     `written` is it with its quantities as a person writes them.
@@ -77,7 +78,11 @@ def _told(tree: YamlMap, judgements: Sequence[Judgement], sink: Diagnostics) -> 
 
 @cache
 def _validator(is_included: bool) -> Draft7Validator:
-    return Draft7Validator(linked() if is_included else {**linked(), "required": [*HEADER]})
+    if is_included:
+        return Draft7Validator(linked())
+    root = LinkedSchema(linked())
+    root["required"] = [*HEADER]
+    return Draft7Validator(root)
 
 
 def _errors(tree: YamlMap, is_included: bool) -> Iterator[ValidationError]:

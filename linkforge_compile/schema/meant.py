@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.expressions import forgotten_expression
 from linkforge_compile.schema.colors_meant import color_meant
-from linkforge_compile.schema.json_types import Schema, branches, mapping
+from linkforge_compile.schema.json_types import Schema, branches, linked_part, mapping
 from linkforge_compile.schema.keys_meant import nested, steps_of
 from linkforge_compile.schema.numbers_meant import (
     is_row,
@@ -19,7 +19,7 @@ from linkforge_compile.schema.numbers_meant import (
     row_of_items,
     with_points,
 )
-from linkforge_compile.schema.shapes import FREE, shape_of, shapes
+from linkforge_compile.schema.shapes import FREE, Shape, shape_of, shapes
 from linkforge_compile.schema.words import expected, is_number, shown
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
@@ -39,6 +39,10 @@ class Misfit(NamedTuple):
     def field(self) -> str | int:
         """The key or position that it stands at; "" for the whole file."""
         return self.path[-1] if self.path else ""
+
+    @property
+    def shape(self) -> Shape:
+        return shape_of(linked_part(self.schema))
 
     @property
     def titles(self) -> set[str]:
@@ -157,7 +161,7 @@ def _number(node: YamlScalar, misfit: Misfit) -> str:
     if not misfit.takes("number") or not isinstance(node.value, str):
         return ""
     text = node.text.strip()
-    return f"{text} without quotes" if is_number(text) else number_to_write(text, shape_of(misfit.schema).unit)
+    return f"{text} without quotes" if is_number(text) else number_to_write(text, misfit.shape.unit)
 
 
 def _leader(node: YamlScalar, misfit: Misfit) -> str:
@@ -176,7 +180,7 @@ def _state(node: YamlScalar, misfit: Misfit) -> str:
 def _way(node: YamlScalar, misfit: Misfit) -> str:
     """A value of an entry whose key is the way to it: `elbow/limits/effort: 20`."""
     keys = steps_of(str(misfit.field))
-    return f"'{nested(keys, node.text)}'" if len(keys) > 1 and keys[1] in shape_of(misfit.schema).keys else ""
+    return f"'{nested(keys, node.text)}'" if len(keys) > 1 and keys[1] in misfit.shape.keys else ""
 
 
 def _use(node: YamlScalar, misfit: Misfit) -> str:
