@@ -332,9 +332,9 @@ def _map_of(entries: list[YamlEntry], span: Span) -> YamlMap:
 
 def _way(name: str, base: YamlMap, shape: Shape) -> str:
     """Return how a name is written that is the way into an entry: `elbow/limits`; "" for any other."""
-    from linkforge_compile.schema.keys_meant import nested, steps_of
+    from linkforge_compile.schema.words import nested, split_path
 
-    first, *steps = steps_of(name)
+    first, *steps = split_path(name)
     is_way = steps and first in base.entries and steps[0] in shape.under(first).keys
     return f"; write '{nested([first, *steps], '…')}'" if is_way else ""
 

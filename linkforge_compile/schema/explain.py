@@ -18,14 +18,14 @@ from linkforge_compile.diagnostics.codes.schema import (
 from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, TAB_INDENTATION, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.json_types import Schema, linked_part, mapping
-from linkforge_compile.schema.keys_meant import like_space_before, unknown_keys
-from linkforge_compile.schema.meant import Misfit, Path, way_out, word_meant
-from linkforge_compile.schema.numbers_meant import is_row
+from linkforge_compile.schema.key_hints import find_like_space, group_unknown_keys
+from linkforge_compile.schema.number_hints import is_row
 from linkforge_compile.schema.shapes import Shape, shape_of, shapes
+from linkforge_compile.schema.value_hints import Path, SchemaMismatch, value_hint, word_hint
 from linkforge_compile.schema.words import (
-    branch_meant,
     expected,
     field,
+    find_branch,
     found,
     shortened,
     words_of,
@@ -65,19 +65,19 @@ def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
     if nameless := _thing_without_name(tree, path):
         yield nameless
         return
-    misfit = Misfit(node, path, mapping(error.schema), tree)
-    meant = None if error.validator != "anyOf" or _is_text(node) else branch_meant(misfit.schema, node)
+    mismatch = SchemaMismatch(node, path, mapping(error.schema), tree)
+    meant = None if error.validator != "anyOf" or _is_text(node) else find_branch(mismatch.schema, node)
     if meant is not None:
         for inner in error.context or ():
             if inner.schema_path[0] == meant:
                 yield from explain(inner, tree)
-    elif isinstance(node, YamlScalar) and _lacks_space(node, misfit.schema):
+    elif isinstance(node, YamlScalar) and _lacks_space(node, mismatch.schema):
         yield Judgement(SPACE_AFTER_COLON.at(node.span, text=node.text), path)
     elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
         for one in facts:
             yield Judgement(XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
     else:
-        yield from _EXPLAIN[str(error.validator)](misfit)
+        yield from _EXPLAIN[str(error.validator)](mismatch)
 
 
 def _lacks_space(node: YamlScalar, schema: Schema) -> bool:
@@ -88,20 +88,20 @@ def _lacks_space(node: YamlScalar, schema: Schema) -> bool:
     return bool(is_stuck) and (shape.has_names or key in shape.keys)
 
 
-def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:
-    node, path, schema, _ = misfit
-    for entries, hint, near in unknown_keys(node, schema) if isinstance(node, YamlMap) else ():
+def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Judgement]:
+    node, path, schema, _ = mismatch
+    for entries, hint, near in group_unknown_keys(node, schema) if isinstance(node, YamlMap) else ():
         first, *others = entries
         hinted = f"; {hint}" if hint else ""
         fault = UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
-        if like_space := like_space_before(first):
+        if like_space := find_like_space(first):
             fault = TAB_INDENTATION.at(like_space, found=f"{code_point(like_space.text or '')}, which looks like one")
         yield Judgement(fault, (*path, first.name), tuple((*path, other.name) for other in others))
 
 
-def _missing_keys(misfit: Misfit) -> Iterator[Judgement]:
+def _missing_keys(mismatch: SchemaMismatch) -> Iterator[Judgement]:
     """Tell of all missing keys: the error does not say which one it is for, and the sink takes equal faults as one."""
-    node, path, schema, _ = misfit
+    node, path, schema, _ = mismatch
     required = schema["required"]
     if not isinstance(node, YamlMap) or not isinstance(required, list):
         return
@@ -116,37 +116,37 @@ def _missing_keys(misfit: Misfit) -> Iterator[Judgement]:
             yield Judgement(code.at(first), (*path, name))
 
 
-def _other_version(misfit: Misfit) -> Iterator[Judgement]:
-    yield Judgement(OTHER_VERSION.at(misfit.node.span, found=found(misfit.node)), misfit.path)
+def _other_version(mismatch: SchemaMismatch) -> Iterator[Judgement]:
+    yield Judgement(OTHER_VERSION.at(mismatch.node.span, found=found(mismatch.node)), mismatch.path)
 
 
-def _wrong_word(misfit: Misfit) -> Iterator[Judgement]:
+def _wrong_word(mismatch: SchemaMismatch) -> Iterator[Judgement]:
     """Say which words there are, of text; of anything else, `type` has told already."""
-    node, path, schema, _ = misfit
+    node, path, schema, _ = mismatch
     if isinstance(node, YamlScalar) and isinstance(node.value, str):
         words = words_of(schema)
-        hint = word_meant(misfit, words)
+        hint = word_hint(mismatch, words)
         facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint}
         yield Judgement(UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
 
 
-def _wrong_kind(misfit: Misfit) -> Iterator[Judgement]:
-    node, path, schema, _ = misfit
-    seen = f"{found(node)}{way_out(misfit)}"
+def _wrong_kind(mismatch: SchemaMismatch) -> Iterator[Judgement]:
+    node, path, schema, _ = mismatch
+    seen = f"{found(node)}{value_hint(mismatch)}"
     fault = WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=seen)
     yield Judgement(fault, path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0)
 
 
-def _no_branch(misfit: Misfit) -> Iterator[Judgement]:
-    word = _is_text(misfit.node) and not is_row(misfit.node) and words_of(misfit.schema)
-    yield from (_wrong_word if word else _wrong_kind)(misfit)
+def _no_branch(mismatch: SchemaMismatch) -> Iterator[Judgement]:
+    word = _is_text(mismatch.node) and not is_row(mismatch.node) and words_of(mismatch.schema)
+    yield from (_wrong_word if word else _wrong_kind)(mismatch)
 
 
-def _wrong_length(misfit: Misfit) -> Iterator[Judgement]:
-    node, path, schema, _ = misfit
+def _wrong_length(mismatch: SchemaMismatch) -> Iterator[Judgement]:
+    node, path, schema, _ = mismatch
     # A row of numbers without commas is told as that.
     if isinstance(node, YamlList) and not any(map(is_row, node)):
-        seen = f"{len(node)}{way_out(misfit)}"
+        seen = f"{len(node)}{value_hint(mismatch)}"
         yield Judgement(WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=seen), path)
 
 
@@ -178,7 +178,7 @@ def _is_one_of(node: YamlMap, thing: Shape) -> bool:
     return has_keys and not all(is_null(entry.value) or isinstance(entry.value, YamlMap) for entry in node)
 
 
-_EXPLAIN: dict[str, Callable[[Misfit], Iterator[Judgement]]] = {
+_EXPLAIN: dict[str, Callable[[SchemaMismatch], Iterator[Judgement]]] = {
     "additionalProperties": _unknown_keys,
     "required": _missing_keys,
     "const": _other_version,

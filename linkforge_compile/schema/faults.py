@@ -14,10 +14,10 @@ from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, brought_in_at, 
 from linkforge_compile.schema.explain import Judgement, explain
 from linkforge_compile.schema.gate import HEADER, plain
 from linkforge_compile.schema.json_types import LinkedSchema, Schema
-from linkforge_compile.schema.meant import Path
 from linkforge_compile.schema.missing_level import told_once
 from linkforge_compile.schema.registry import linked
 from linkforge_compile.schema.shapes import FREE, shape_of
+from linkforge_compile.schema.value_hints import Path
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, fault_of
 

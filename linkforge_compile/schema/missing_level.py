@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from linkforge_compile.schema.explain import Judgement
-from linkforge_compile.schema.meant import Path
+from linkforge_compile.schema.value_hints import Path
 from linkforge_compile.syntax.nodes import YamlMap, YamlNode, is_null
 
 _HINT = "; so is all beside it: is a line with a name missing above, or the indentation off?"
