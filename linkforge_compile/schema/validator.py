@@ -24,10 +24,10 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     if _is_valid(tree, is_included) and not _may_lack_section_line(tree):
         return tree
     # Imported here because jsonschema takes 90 ms.
-    from linkforge_compile.schema.faults import without_faults
-    from linkforge_compile.schema.section_lines import with_sections_restored
+    from linkforge_compile.schema.misplaced_sections import restore_sections
+    from linkforge_compile.schema.report import report_mismatches
 
-    return without_faults(with_sections_restored(tree, sink), sink, is_included=is_included)
+    return report_mismatches(restore_sections(tree, sink), sink, is_included=is_included)
 
 
 def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics) -> YamlNode:
@@ -38,9 +38,9 @@ def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics)
     written = _with_units(node)
     if accepts(shape.schema, written):
         return node
-    from linkforge_compile.schema.faults import computed_without_faults
+    from linkforge_compile.schema.report import report_computed_mismatches
 
-    return computed_without_faults(node, written, key, shape.schema, sink)
+    return report_computed_mismatches(node, written, key, shape.schema, sink)
 
 
 def _is_valid(tree: YamlMap, is_included: bool) -> bool:
