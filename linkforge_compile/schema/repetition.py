@@ -1,4 +1,4 @@
-"""Puts `for`, `when` and the long form into the schemas: in all objects alike, so that no schema file says so."""
+"""Add `for`, `when` and the long form to the objects of all schemas, so that no schema file has to."""
 
 from __future__ import annotations
 
@@ -69,9 +69,9 @@ class _Repetition:
             if is_plain(part):
                 continue
             if has_names(part):
-                value = {key: said for key, said in part.items() if key != "properties"} | _VALUE
-                said = mapping(part.get("properties", {}))
-                part["properties"] = {**said, "for": {**_FOR}, "when": {**_WHEN}, "value": value}
+                value = {key: inner for key, inner in part.items() if key != "properties"} | _VALUE
+                keys = mapping(part.get("properties", {}))
+                part["properties"] = {**keys, "for": {**_FOR}, "when": {**_WHEN}, "value": value}
                 return schema
             if "properties" in part:
                 mapping(part["properties"]).update({"for": {**_FOR}, "when": {**_WHEN}})
