@@ -13,7 +13,7 @@ from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_T
 from linkforge_compile.diagnostics.suggest import suggesting
 from linkforge_compile.expand import XACRO, Arguments, Loader, SpecFile, Used
 from linkforge_compile.expand.assembly import count_entries
-from linkforge_compile.formats import render_srdf, render_urdf
+from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.limits import Budget, Limit
@@ -25,10 +25,10 @@ from linkforge_compile.syntax import YamlMap, read
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
     from linkforge_compile.expand.semantic import Semantic
-    from linkforge_compile.formats.urdf.sensor import Gazebo
+    from linkforge_compile.formats.urdf import Gazebo
 
-_RENDERED = (render_urdf, render_srdf)
-"""What makes the documents of an import again, in their order."""
+_IMPORTED = (URDF, SRDF)
+"""The formats of the documents of an import, in their order."""
 
 _WRONG_ARGUMENTS = (NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER)
 """What is told of arguments that are not those that the files take: another robot is meant than the one read."""
@@ -244,7 +244,7 @@ def _losses(imported: Imported, robot: Robot, told: Collection[Span]) -> Iterato
     from linkforge_compile.importers.losses import losses
     from linkforge_compile.importers.xml import read_xml
 
-    for document, render in zip(imported.documents, _RENDERED, strict=False):
-        again = read_xml(SourceFile("<compiled>", render(robot)), Diagnostics(), is_ours=True)
+    for document, format_ in zip(imported.documents, _IMPORTED, strict=False):
+        again = read_xml(SourceFile("<compiled>", format_.text(robot)), Diagnostics(), is_ours=True)
         assert again, "what we render is XML"
         yield from (loss for loss in losses(document, again) if loss.span not in told)

@@ -32,7 +32,7 @@ from linkforge_compile.expressions import (
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape
-from linkforge_compile.source import ComputedSpan, SourceFile, Span
+from linkforge_compile.source import SourceFile, Span, TracedSpan
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.nodes import fault_of
 
@@ -150,7 +150,7 @@ class TreeEvaluator:
     def place(self, node: YamlNode) -> Span:
         """Return where a node stands; the place of an expression can tell where its value comes from."""
         if isinstance(node, YamlScalar) and has_expression(node.text):
-            return ComputedSpan.of(node.span, ExpressionTrace(node, self))
+            return TracedSpan.computed(node.span, ExpressionTrace(node, self))
         return node.span
 
     @property
@@ -308,7 +308,7 @@ class TreeEvaluator:
 
     def _traced(self, expression: str, where: Span) -> Span:
         """Return the place of a part of an expression as one that can tell where its value comes from."""
-        return ComputedSpan.of(where, ExpressionTrace(self.expressions.alone(expression, where), self))
+        return TracedSpan.computed(where, ExpressionTrace(self.expressions.alone(expression, where), self))
 
     def _is_made_number(self, scalar: YamlScalar, value: Value) -> bool:
         return tell_made_number(scalar, value, self.expressions, self.scope_of(scalar), self.sink)

@@ -19,8 +19,8 @@ from linkforge_compile.expand.trees import known_source, tree_of
 from linkforge_compile.expand.whole import Whole, reached
 from linkforge_compile.limits import MAX_FILE_BYTES, Budget, Limit
 from linkforge_compile.roots import ANYWHERE, Roots, identity
-from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.source.encoding import EncodingError, begins_xml, place_of_byte, xml_text
+from linkforge_compile.source import SourceFile, Span, place_of_byte
+from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
 from linkforge_compile.syntax.ignore_comments import IGNORE_WORDS, ignore_comments
 

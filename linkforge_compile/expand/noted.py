@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
 from linkforge_compile.source import Span
+from linkforge_compile.source.provenance import uses_in
 
 
 class NotedSink(Diagnostics):
@@ -23,4 +24,4 @@ class NotedSink(Diagnostics):
 
 def used_from(sink: Diagnostics, trail: tuple[Span, ...]) -> Diagnostics:
     """Return a sink for what stands in a file that was brought in by a trail of uses."""
-    return NotedSink(sink, [Note("used here", use) for use in trail]) if trail else sink
+    return NotedSink(sink, notes_of(uses_in(trail))) if trail else sink

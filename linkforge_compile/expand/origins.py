@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand.values import describe
 from linkforge_compile.expressions import FAULT, forgotten_expression, handed_on
-from linkforge_compile.source import ComputedSpan, Key, Origin
+from linkforge_compile.source import Key, Origin, TracedSpan
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 
 if TYPE_CHECKING:
@@ -55,8 +55,8 @@ class ExpressionTrace:
             return None
         return Origin((node.key_span(key) if key else None) or node.span, is_data)
 
-    def meant(self, path: Path) -> str | None:
-        """Return the expression that the part at a path seems meant for, which is text; None for anything else."""
+    def forgotten_expression(self, path: Path) -> str | None:
+        """Return the expression that the text at a path looks like but for its `$(`; None for anything else."""
         written = _written(self.scalar, self.tree, path)
         node, tree = written.node, written.tree
         if tree is None or written.key or not isinstance(node, YamlScalar) or has_expression(node.text):
@@ -99,9 +99,8 @@ def _names_of(node: YamlNode, writer: TreeEvaluator | None, told: set[Setting]) 
 
 def _names_in(node: YamlNode, tree: TreeEvaluator | None) -> Iterator[tuple[str, TreeEvaluator]]:
     """Yield the names that the expressions in a node use, in the order of the text, and what computed each."""
-    span = node.span
-    if isinstance(span, ComputedSpan) and isinstance(span.trace, ExpressionTrace):
-        node, tree = span.trace.scalar, span.trace.tree
+    if computed := _expression_of(node):
+        node, tree = computed[0].scalar, computed[0].tree
     match node:
         case YamlScalar() if tree:
             template = tree.expressions.template(node, Diagnostics()) if has_expression(node.text) else None
@@ -130,9 +129,8 @@ def _written(node: YamlNode, tree: TreeEvaluator | None, path: Path) -> _Written
     """Follow a value through the names that hand it on; what computes it is where it was written."""
     is_data = False
     for _ in range(_MOST_STEPS):
-        span = node.span
-        if isinstance(span, ComputedSpan) and isinstance(span.trace, ExpressionTrace):
-            node, tree, path = span.trace.scalar, span.trace.tree, (*span.path, *path)
+        if computed := _expression_of(node):
+            node, tree, path = computed[0].scalar, computed[0].tree, (*computed[1], *path)
         elif isinstance(node, YamlScalar) and tree and has_expression(node.text):
             template = tree.expressions.template(node, Diagnostics())
             taken = handed_on(template, tree.scope_of(node)) if template else None
@@ -151,6 +149,14 @@ def _written(node: YamlNode, tree: TreeEvaluator | None, path: Path) -> _Written
                 break
             node, path = inner, path[1:]
     return _Written(node, is_data, None, tree)
+
+
+def _expression_of(node: YamlNode) -> tuple[ExpressionTrace, Path] | None:
+    """Return the expression that computed a node and the path in its value; None for what overrides changed."""
+    span = node.span
+    if isinstance(span, TracedSpan) and isinstance(span.trace, ExpressionTrace) and not span.changes:
+        return span.trace, span.path
+    return None
 
 
 def _part(node: YamlNode, key: str | int) -> YamlNode | None:

@@ -29,7 +29,7 @@ from linkforge_compile.expand.normal_form import (
 from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.schema.words import alternatives
-from linkforge_compile.source import Change, PatchedSpan, Span
+from linkforge_compile.source import Change, Span, TracedSpan
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, parse_quantity
 
@@ -118,7 +118,7 @@ class _Patch:
         for rival in CHOICES.get(shape.title, ()) if chosen else ():
             if rival not in chosen:
                 entries.pop(rival, None)
-        return YamlMap(entries, PatchedSpan.of(base.span, tuple(changes)))
+        return YamlMap(entries, TracedSpan.overridden(base.span, tuple(changes)))
 
     def _node(self, base: YamlNode | None, patch: YamlNode, shape: Shape, field: str) -> YamlNode:
         """Return what stands under a key as its patch leaves it; None for a key that says nothing so far."""
@@ -165,7 +165,7 @@ class _Patch:
             elif is_said(change.value):
                 place = int(change.name)
                 items[place] = self._node(items[place], change.value, shape.item, field)
-        span = PatchedSpan.of(base.span if base else patch.span, tuple(changes))
+        span = TracedSpan.overridden(base.span if base else patch.span, tuple(changes))
         return YamlList(tuple(item for item in items if item is not None), span)
 
     def _delete(self, entries: dict[str, YamlEntry], change: YamlEntry) -> None:

@@ -15,8 +15,7 @@ from linkforge_compile.formats.markup import is_writable
 from linkforge_compile.limits import MAX_FILE_BYTES
 from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import Roots, exists, is_file
-from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.source.encoding import place_of_byte
+from linkforge_compile.source import SourceFile, Span, place_of_byte
 
 _MOST_NAMES = 1000
 """Templates of a folder that a suggestion may name."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from linkforge_compile.core.models.shape_order import COLLISION, KINDS, PAIRS, VISUAL, grouped, in_pairs
-from linkforge_compile.diagnostics import notes_of_changes
+from linkforge_compile.diagnostics import notes_of
 from linkforge_compile.diagnostics.codes.model import SHAPE_ORDER_COUNT, UNKNOWN_CHOICE, WRONG_KIND
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.quantities import found
 from linkforge_compile.source import SourceRef
+from linkforge_compile.source.provenance import join_links, overrides_of
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlScalar
 
 _EXPECTED = f"'{PAIRS}' or a list of the words '{VISUAL}' and '{COLLISION}'"
@@ -56,9 +57,10 @@ def _listed(link: Fields, node: YamlList, kinds: Sequence[str]) -> Sequence[str]
     if sorted(listed) == sorted(kinds):
         return listed
     shapes = [said for kind in KINDS if (said := link.node.get(kind))]
-    changed = notes_of_changes([change for said in (link.node, *shapes) for change in said.span.changes], node.span)
+    overrides = overrides_of((change for written in (link.node, *shapes) for change in written.span.changes), node.span)
     facts = {"owner": link.title, "expected": _counted(kinds), "found": _counted(listed)}
-    link.sink.report(SHAPE_ORDER_COUNT.at(SourceRef(node, None, link.trail), notes=changed, **facts))
+    notes = notes_of(join_links(overrides))
+    link.sink.report(SHAPE_ORDER_COUNT.at(SourceRef(node, None, link.trail), notes=notes, **facts))
     return None
 
 

@@ -6,11 +6,12 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 
 from linkforge_compile.core.exceptions import RobotModelError
-from linkforge_compile.diagnostics import Code, Diagnostics, Note, notes_of_changes
+from linkforge_compile.diagnostics import Code, Diagnostics, notes_of
 from linkforge_compile.diagnostics.codes.model import MISSING_FIELD, REFUSED, WRONG_KIND
 from linkforge_compile.lower.quantities import found
 from linkforge_compile.source import SourceRef, Span
-from linkforge_compile.source.ref import Located, Step, brought_in
+from linkforge_compile.source.provenance import Kind, Link, Step, aliases_on, join_links, overrides_of
+from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import leaves_in
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode
 
@@ -74,16 +75,17 @@ class SpecObject:
     ) -> None:
         """Report a fault at a node of this object, or at what a path leads to from a reference."""
         if isinstance(where, SourceRef):
-            self.sink.report(code.at(where, *path, near=near, notes=self._brought_in(), **facts))
+            self.sink.report(code.at(where, *path, near=near, notes=notes_of(join_links(self._aliases())), **facts))
             return
-        changed = notes_of_changes(self.node.span.changes, where.span) if where is not self.node else ()
-        brought = self._brought_in((None, self.node.span), (self._key_of(where, str(facts.get("field"))), where.span))
-        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=(*brought, *changed), **facts))
+        overrides = overrides_of(self.node.span.changes, where.span) if where is not self.node else ()
+        aliases = self._aliases((None, self.node.span), (self._key_of(where, str(facts.get("field"))), where.span))
+        notes = notes_of(join_links((*aliases, *overrides)))
+        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=notes, **facts))
 
-    def _brought_in(self, *inside: Step) -> Iterator[Note]:
-        """Yield where aliases and `<<` bring in what stands in this object, with its name."""
-        for place in brought_in((*self._way(), *inside)):
-            yield Note(f"brought in here, for {self.title}", place)
+    def _aliases(self, *inside: Step) -> Iterator[Link]:
+        """Yield the aliases and `<<` that insert this object, or what the steps lead to in it."""
+        for place in aliases_on((*self._way(), *inside)):
+            yield Kind.OUTER_ALIAS, place, self.title
 
     def _way(self) -> tuple[Step, ...]:
         """The places of all objects that this one stands in, then of its name, or its own."""

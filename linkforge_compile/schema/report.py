@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from jsonschema import Draft7Validator
 
-from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, brought_in_at, too_many_errors
+from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, notes_of, too_many_errors
 from linkforge_compile.schema.explain import Finding, explain
 from linkforge_compile.schema.gate import HEADER, plain
 from linkforge_compile.schema.json_types import LinkedSchema, Schema
@@ -19,6 +19,7 @@ from linkforge_compile.schema.registry import linked
 from linkforge_compile.schema.shapes import FREE, shapes
 from linkforge_compile.schema.value_hints import Path
 from linkforge_compile.source import SourceRef
+from linkforge_compile.source.provenance import aliases_of, join_links
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, fault_of, is_null
 
 if TYPE_CHECKING:
@@ -98,11 +99,11 @@ def _report(tree: YamlMap, findings: Sequence[Finding], sink: Diagnostics) -> Ya
     if not findings:
         return tree
     findings = _merge_missing_levels(findings, tree)
-    found = [(one.diagnostic, SourceRef(tree).brought_in(*one.path)) for one in findings]
+    found = [(one.diagnostic, tuple(join_links(aliases_of(SourceRef(tree), *one.path)) or ())) for one in findings]
     # If several aliases of one anchor do not match, the sink keeps the first; jsonschema's order is that of a set.
-    for diagnostic, places in sorted(found, key=lambda one: (one[0].order, [place.start for place in one[1]])):
-        notes = (*diagnostic.notes, *brought_in_at(places))
-        sink.report(replace(diagnostic, notes=notes) if places else diagnostic)
+    for diagnostic, aliases in sorted(found, key=lambda one: (one[0].order, [alias.span.start for alias in one[1]])):
+        notes = (*diagnostic.notes, *notes_of(aliases))
+        sink.report(replace(diagnostic, notes=notes) if aliases else diagnostic)
     if sum(1 + len(finding.also) for finding in findings) > MAX_TOLD:
         raise too_many_errors(findings[-1].diagnostic.span)
     return _prune(tree, findings)

@@ -1,4 +1,4 @@
-"""What a person is told when linkforge itself is at fault, and what to report is put where it can be found."""
+"""Reports a bug in linkforge: a short message for the user, and a file with the traceback to send."""
 
 from __future__ import annotations
 
@@ -10,31 +10,31 @@ from linkforge_compile._version import __version__
 from linkforge_compile.cli.exits import INTERNAL_FAULT, WRONG_USAGE
 
 
-def confess(fault: Exception, words: Sequence[str]) -> int:
-    """Say that this is our fault and where the report is; the traceback itself only where LINKFORGE_DEBUG asks.
+def report_crash(error: Exception, words: Sequence[str]) -> int:
+    """Print what happened and where the report is saved; print the traceback only if LINKFORGE_DEBUG is set.
 
-    What somebody has made of our templates is his.
+    An error in an edited copy of linkforge's own templates is reported as that. Return the exit code.
     """
     import traceback
 
     from linkforge_compile.formats.own_templates import TemplateFaultError
     from linkforge_compile.source.characters import on_one_line
 
-    if isinstance(fault, TemplateFaultError):
-        print(f"linkforge: {fault}", file=sys.stderr)
+    if isinstance(error, TemplateFaultError):
+        print(f"linkforge: {error}", file=sys.stderr)
         return WRONG_USAGE
-    frames = traceback.extract_tb(fault.__traceback__)
+    frames = traceback.extract_tb(error.__traceback__)
     place = "?"
     if frames:
         place = f"{frames[-1].filename.rpartition('linkforge_compile')[2].lstrip('/')}:{frames[-1].lineno}"
-    trace = "".join(traceback.format_exception(fault))
+    trace = "".join(traceback.format_exception(error))
     if os.environ.get("LINKFORGE_DEBUG"):
         print(trace, end="", file=sys.stderr)
-    about = _about(words)
+    about = _describe_run(words)
     print(
-        f"linkforge: internal fault: {type(fault).__name__} at {place}: {on_one_line(str(fault))}\n"
+        f"linkforge: internal fault: {type(error).__name__} at {place}: {on_one_line(str(error))}\n"
         "This is a bug in linkforge, not in your spec. Please report it with the spec and\n"
-        f"  {_saved(f'{about}{trace}') or 'what LINKFORGE_DEBUG=1 prints'}\n"
+        f"  {_save(f'{about}{trace}') or 'what LINKFORGE_DEBUG=1 prints'}\n"
         f"{about}",
         end="",
         file=sys.stderr,
@@ -42,8 +42,8 @@ def confess(fault: Exception, words: Sequence[str]) -> int:
     return INTERNAL_FAULT
 
 
-def _about(words: Sequence[str]) -> str:
-    """Return what runs where, and the command as it was typed."""
+def _describe_run(words: Sequence[str]) -> str:
+    """Return the versions, the platform and the command line."""
     import platform
     import shlex
 
@@ -53,8 +53,8 @@ def _about(words: Sequence[str]) -> str:
     return f"{system}\ncommand: {on_one_line(shlex.join(('linkforge', *words)))}\n"
 
 
-def _saved(report: str) -> str | None:
-    """Put the report into a new temporary file and return its path; None where none can be written."""
+def _save(report: str) -> str | None:
+    """Write the report to a new temporary file and return its path; None if that fails."""
     import tempfile
 
     try:
