@@ -16,33 +16,32 @@ MAY_IMPORT = {
     "resources": "",
     "roots": "",
     "manifest": "roots",
-    "shape_order": "",
     "fresh_stack": "",
-    "stamps": "",
+    "file_watcher": "",
     "_version": "",
     "diagnostics": "source",
-    "bounds": "source diagnostics",
-    "syntax": "source diagnostics bounds units",
-    "expressions": "source diagnostics bounds units syntax",
+    "limits": "source diagnostics",
+    "syntax": "source diagnostics limits units",
+    "expressions": "source diagnostics limits units syntax",
     "schema": "source diagnostics syntax units resources expressions",
-    "core": "manifest source units roots shape_order",
-    "importers": "banner source diagnostics bounds units syntax core shape_order",
-    "expand": "source diagnostics bounds units syntax schema expressions importers manifest roots",
-    "lower": "source diagnostics bounds units syntax expand core roots shape_order",
+    "core": "manifest source units roots",
+    "importers": "banner source diagnostics limits units syntax core",
+    "expand": "source diagnostics limits units syntax schema expressions importers manifest roots",
+    "lower": "source diagnostics limits units syntax expand core roots",
     "checks": "source diagnostics units core roots",
-    "formats": "source diagnostics bounds units core resources roots shape_order",
+    "formats": "source diagnostics limits units core resources roots",
     "_build_hook": "schema formats",
-    "export_spec": "source units syntax core expand shape_order",
-    "compare": "units core formats shape_order",
+    "export_spec": "source units syntax core expand",
+    "compare": "units core formats",
     "pipeline": (
-        "source diagnostics bounds units syntax schema importers expand lower checks formats core roots fresh_stack"
+        "source diagnostics limits units syntax schema importers expand lower checks formats core roots fresh_stack"
     ),
-    "importing": "source diagnostics bounds syntax importers expand core lower formats pipeline fresh_stack",
-    "launch": "diagnostics formats core expand pipeline stamps",
+    "importing": "source diagnostics limits syntax importers expand core lower formats pipeline fresh_stack",
+    "launch": "diagnostics formats core expand pipeline file_watcher",
     "editor": "diagnostics syntax schema expand lower core roots resources formats fresh_stack",
     "cli": (
-        "banner source diagnostics bounds roots core checks schema expand pipeline importing formats export_spec "
-        "compare editor resources stamps _version"
+        "banner source diagnostics limits roots core checks schema expand pipeline importing formats export_spec "
+        "compare editor resources file_watcher _version"
     ),
 }
 

@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.banner import banner_of
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.one_spec import compile_spec
+from linkforge_compile.cli.options import format_options_of
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.cli.telling import say, tell
+from linkforge_compile.formats import Rendering, format_named, render_documents
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Sequence
 
     from linkforge_compile.cli.targets import Targets
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.formats.user_templates import TemplateFolder
     from linkforge_compile.pipeline import Compilation
-
-_Options: TypeAlias = "Mapping[str, Mapping[str, object]]"
-"""What the renderer of each format takes besides the robot and a banner."""
 
 
 class Output(NamedTuple):
@@ -47,19 +46,31 @@ class Order(NamedTuple):
         return self.templates.files if self.templates else ()
 
 
-def targets_for(robot: Robot, targets: Targets) -> Targets | None:
-    """Return those that are written of a robot; None where an SRDF is asked for in vain."""
-    if robot.says_semantic and not robot.semantic.is_empty:
-        return targets
-    if targets.is_srdf_asked_for and "srdf" in targets.paths:
-        return None
-    return targets.without_srdf()
+def targets_for(robot: Robot, targets: Targets) -> tuple[Targets, tuple[Diagnostic, ...]]:
+    """Return the targets that a robot has something for, and why it has nothing for a requested one."""
+    missing = {name: why for name in targets.formats if (why := format_named(name).missing(robot))}
+    return targets.without(missing), tuple(missing.values()) if targets.is_requested else ()
+
+
+def paths_for(robot: Robot, targets: Targets) -> tuple[Path, ...]:
+    """Return the files that the formats of targets make of a robot."""
+    return tuple(
+        _place(path, name)
+        for format_, path in targets.paths.items()
+        if path is not None
+        for name in format_named(format_).file_names(robot)
+    )
+
+
+def _place(target: Path, name: str) -> Path:
+    """Return the file of a document: the target, or a file below it for a format of several files."""
+    return target / name if name else target
 
 
 def compile_order(order: Order, arguments: argparse.Namespace) -> Compilation:
     """Compile the spec, as the options of `linkforge compile` say."""
     folder = order.targets.folder if arguments.installed_in is None else Path(arguments.installed_in)
-    return compile_spec(order.spec, order.assignments, arguments, folder)
+    return compile_spec(order.spec, order.assignments, arguments, output=folder, formats=order.targets.formats)
 
 
 def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespace) -> int:
@@ -90,57 +101,47 @@ def _outputs(
     robot: Robot, order: Order, arguments: argparse.Namespace
 ) -> tuple[tuple[Output, ...], tuple[Diagnostic, ...]]:
     """Return what goes where, all of it rendered before any is written; nothing, and why, where that cannot be."""
-    targets = targets_for(robot, order.targets)
-    if targets is None:
-        from linkforge_compile.diagnostics.codes.backends import NO_SEMANTIC_PART
-
-        return (), (NO_SEMANTIC_PART.at(robot.source, "name", robot=robot.name),)
+    targets, faults = targets_for(robot, order.targets)
+    if faults:
+        return (), faults
     name = Path(order.spec).name
     banner = None if order.spec == "-" else banner_of(on_one_line(name))
-    if order.templates is not None:
-        return _of_templates(robot, banner, targets, order.templates, arguments)
-    if arguments.source_map:
-        return tuple(_with_maps(robot, banner, targets, _options(arguments))), ()
-    return _rendered(robot, banner, targets, _options(arguments)), ()
-
-
-def _options(arguments: argparse.Namespace) -> _Options:
-    return {"urdf": {"gazebo": arguments.gazebo}, "srdf": {}}
-
-
-def _rendered(robot: Robot, banner: str | None, targets: Targets, options: _Options) -> tuple[Output, ...]:
-    from linkforge_compile.formats import BACKENDS
-
-    return tuple(
-        Output(path, BACKENDS[format_](robot, banner=banner, **options[format_]))
-        for format_, path in targets.paths.items()
-    )
-
-
-def _of_templates(
-    robot: Robot, banner: str | None, targets: Targets, templates: TemplateFolder, arguments: argparse.Namespace
-) -> tuple[tuple[Output, ...], tuple[Diagnostic, ...]]:
+    options = format_options_of(arguments)
+    if order.templates is None:
+        rendering = Rendering(options, banner=banner, has_map=arguments.source_map)
+        return tuple(_rendered(robot, targets, rendering)), ()
     from linkforge_compile.formats.user_templates import TemplateError
 
     try:
         if targets.are_documents:
-            texts = templates.render(robot, banner=banner or "", gazebo=arguments.gazebo)
-            return tuple(Output(path, texts[name]) for name, path in targets.paths.items()), templates.unused
-        options = {format_: {**more, "templates": templates} for format_, more in _options(arguments).items()}
-        return _rendered(robot, banner, targets, options), templates.unused
+            texts = render_documents(robot, order.templates, options, banner or "")
+            outputs = tuple(Output(path, texts[name]) for name, path in targets.paths.items())
+        else:
+            rendering = Rendering(options, banner=banner, templates=order.templates)
+            outputs = tuple(_rendered(robot, targets, rendering))
+        return outputs, order.templates.unused
     except TemplateError as error:
         return (), error.diagnostics
 
 
-def _with_maps(robot: Robot, banner: str | None, targets: Targets, options: _Options) -> Iterator[Output]:
-    from linkforge_compile.formats.map_file import ENDING, map_text
-    from linkforge_compile.formats.source_map import WITH_MAP
+def _rendered(robot: Robot, targets: Targets, rendering: Rendering) -> Iterator[Output]:
+    """Yield the documents of each format, each with its source map if that is requested."""
+    for format_, target in targets.paths.items():
+        documents = format_named(format_).render(robot, rendering)
+        if target is None:
+            if len(documents) > 1:
+                raise UsageError(
+                    f"{format_} is {len(documents)} files, and standard output takes one; write -o FOLDER/"
+                )
+            yield Output(None, documents[0].text)
+            continue
+        for text, name, map_ in documents:
+            path = _place(target, name)
+            yield Output(path, text)
+            if map_ is not None:
+                from linkforge_compile.formats.map_file import ENDING, map_text
 
-    for format_, path in targets.paths.items():
-        assert path is not None, "a map lies beside a file"
-        mapped = WITH_MAP[format_](robot, banner=banner, **options[format_])
-        yield Output(path, mapped.text)
-        yield Output(path.with_name(path.name + ENDING), map_text(mapped, path.name, path.parent))
+                yield Output(path.with_name(path.name + ENDING), map_text(text, map_, path.name, path.parent))
 
 
 def _stale(outputs: Sequence[Output], order: Order, robot: Robot | None) -> Iterator[Diagnostic]:

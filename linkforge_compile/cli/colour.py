@@ -1,4 +1,4 @@
-"""Whether what is printed is coloured."""
+"""Decides whether output is colored."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ WHEN = ("auto", "always", "never")
 
 
 def is_coloured(stream: TextIO | None, when: str = "auto") -> bool:
-    """Whether to colour what goes to the stream, None for one that is closed.
+    """Whether to color output to a stream, None if it is closed.
 
-    `--color` decides, then NO_COLOR (no-color.org), then FORCE_COLOR and CLICOLOR_FORCE, which a build sets whose log
-    shows colours though it is no terminal; a variable that is empty says nothing, and `0` forces nothing.
+    In order of precedence: `--color` (`when`), NO_COLOR (no-color.org), FORCE_COLOR and CLICOLOR_FORCE, which builds
+    set if their log shows colors, and whether the stream is a terminal. An empty variable, or a forcing one that is
+    `0`, counts as unset.
     """
     if when != "auto":
         return when == "always"

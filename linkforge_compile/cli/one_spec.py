@@ -1,4 +1,4 @@
-"""From the words of the command line to a compiled or checked spec: a file, or `-` for standard input."""
+"""Reads the input of a command, a file or `-` for standard input, and compiles or checks it."""
 
 from __future__ import annotations
 
@@ -6,24 +6,23 @@ import os
 import stat
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO, TypedDict
+from typing import TYPE_CHECKING, BinaryIO
 
-from linkforge_compile.bounds import FACTOR_VARIABLE, MAX_FILE_BYTES, factor_of
 from linkforge_compile.cli.exits import UsageError
-from linkforge_compile.cli.options import packages_of
+from linkforge_compile.cli.options import format_options_of, packages_of
+from linkforge_compile.limits import FACTOR_VARIABLE, MAX_FILE_BYTES, parse_factor
 
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.formats.urdf.sensor import Gazebo
-    from linkforge_compile.pipeline import Compilation
+    from linkforge_compile.pipeline import Compilation, Settings
 
 STDIN = "<stdin>"
-"""What standard input is called in diagnostics."""
+"""The name of standard input in diagnostics."""
 
 
 def one_spec(specs: list[str]) -> str:
-    """Return the one spec of a command line; UsageError for none or several."""
+    """Return the only spec of a command line; UsageError if there is none, or several."""
     if specs == [""]:
         raise UsageError("takes one spec, found '': is a variable of the shell empty?")
     if len(specs) == 1:
@@ -31,90 +30,93 @@ def one_spec(specs: list[str]) -> str:
     if not specs:
         raise UsageError("takes one spec, found none")
     assignment = next((word for word in specs if "=" in word), None)
-    remedy = f"; write '-p {assignment}' to set a parameter" if assignment else ""
-    raise UsageError(f"takes one spec, found {len(specs)}: {', '.join(specs)}{remedy}")
+    hint = f"; write '-p {assignment}' to set a parameter" if assignment else ""
+    raise UsageError(f"takes one spec, found {len(specs)}: {', '.join(specs)}{hint}")
 
 
 def compile_spec(
     spec: str,
     assignments: list[str],
     arguments: argparse.Namespace,
+    *,
     output: Path | None = None,
     text: str | None = None,
+    formats: tuple[str, ...] = (),
 ) -> Compilation:
-    """Compile a spec, `-` for standard input, with the options that every command on a spec has.
+    """Compile a spec with the options of `add_spec_options`.
 
-    `output` is the folder that the URDF of a file is for, None where that is not known. `text` is what was read
-    already of what can be read once only.
+    `output` is the folder of the documents, None if unknown. `text` is the content of a spec that was read already,
+    because it can be read only once. `formats` are the requested ones.
     """
-    from linkforge_compile.pipeline import compile_file, compile_text
+    from linkforge_compile.pipeline import compile_path, compile_source
 
+    settings = settings_of(assignments, arguments)._replace(formats=formats)
     if spec == "-" or text is not None:
         text = standard_input() if text is None else text
-        name = STDIN if spec == "-" else spec
-        return compile_text(text, name=name, folder=Path.cwd(), **_settings(assignments, arguments))
-    return compile_file(spec, output=output, **_settings(assignments, arguments))
+        return compile_source(text, STDIN if spec == "-" else spec, Path.cwd(), settings)
+    return compile_path(spec, settings._replace(output=output))
 
 
 def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Compilation:
-    """Check a spec, `-` for standard input, with the same options."""
-    from linkforge_compile.pipeline import check_file, check_text
+    """Check a spec with the options of `add_spec_options`."""
+    from linkforge_compile.pipeline import compile_path, compile_source
 
+    settings = check_settings_of(assignments, arguments)
     if spec == "-":
-        text = standard_input()
-        return check_text(text, name=STDIN, folder=Path.cwd(), **_settings(assignments, arguments))
-    return check_file(spec, **_settings(assignments, arguments))
+        return compile_source(standard_input(), STDIN, Path.cwd(), settings)
+    return compile_path(spec, settings)
 
 
-class _Settings(TypedDict):
-    parameters: list[str]
-    packages: dict[str, str]
-    variant: str | None
-    gazebo: Gazebo
-    allow_outside: bool
+def check_settings_of(assignments: list[str], arguments: argparse.Namespace) -> Settings:
+    """Return the settings of a check, for which a parameter may lack its value."""
+    from linkforge_compile.expand import Unset
+
+    return settings_of(assignments, arguments)._replace(unset=Unset.NOTE)
 
 
-def _settings(assignments: list[str], arguments: argparse.Namespace) -> _Settings:
-    if (factor := os.environ.get(FACTOR_VARIABLE)) and factor_of(factor) is None:
+def settings_of(assignments: list[str], arguments: argparse.Namespace) -> Settings:
+    """Return what the options that every command on a spec has say; UsageError for a wrong value."""
+    from linkforge_compile.pipeline import Settings
+
+    if (factor := os.environ.get(FACTOR_VARIABLE)) and parse_factor(factor) is None:
         raise UsageError(f"{FACTOR_VARIABLE} takes a whole number from 1 to 999999999, found '{factor}'")
-    return {
-        "parameters": [*arguments.parameters, *assignments],
-        "packages": packages_of(arguments),
-        "variant": arguments.variant,
-        "gazebo": arguments.gazebo,
-        "allow_outside": arguments.allow_outside,
-    }
+    return Settings(
+        [*arguments.parameters, *assignments],
+        packages_of(arguments),
+        arguments.variant,
+        format_options_of(arguments),
+        allow_outside=arguments.allow_outside,
+    )
 
 
 def standard_input() -> str:
-    """Return the text on standard input, of which no more is read than of a file: a spec in UTF-8, or XML."""
+    """Return the text on standard input, a spec in UTF-8 or XML; UsageError if it is larger than a file may be."""
     if sys.stdin is None:
         raise UsageError("cannot read standard input: it is closed")
-    return _text(sys.stdin.buffer, "standard input")
+    return _read_text(sys.stdin.buffer, "standard input")
 
 
 def require_file(option: str, word: str | None) -> None:
-    """Refuse standard input for what is read beside the robot."""
+    """Refuse `-` as the value of an option, because standard input may be the robot."""
     if word == "-":
         raise UsageError(f"{option} takes a file; standard input may be the robot")
 
 
 def once_only(word: str) -> str | None:
-    """Return the text of what can be read once only, standard input or a pipe; None for a file."""
+    """Return the text of standard input or a pipe, which can be read only once; None for a file."""
     if word == "-":
         return standard_input()
     try:
         if not stat.S_ISFIFO(os.stat(word).st_mode):  # noqa: PTH116
             return None
         with Path(word).open("rb") as pipe:
-            return _text(pipe, f"'{word}'")
+            return _read_text(pipe, f"'{word}'")
     except (OSError, ValueError):
-        # Who reads it as a file tells why it cannot be read.
-        return None
+        return None  # reading it as a file reports the reason
 
 
 def is_xml(word: str, text: str | None) -> bool:
-    """Whether a robot is XML, by its name or by how it begins; `text` is what was read of it already."""
+    """Whether a robot is XML, by its name or its first bytes; `text` is its content if it was read already."""
     from linkforge_compile.source.encoding import begins_xml
 
     if Path(word).suffix.lower() in {".urdf", ".xml", ".xacro"}:
@@ -123,16 +125,12 @@ def is_xml(word: str, text: str | None) -> bool:
         return begins_xml(text)
     try:
         with Path(word).open("rb") as file:
-            return begins_xml(file.read(_HEAD))
+            return begins_xml(file.read(4096))
     except (OSError, ValueError):
         return False
 
 
-_HEAD = 4096
-"""Within so many bytes a URDF begins."""
-
-
-def _text(stream: BinaryIO, name: str) -> str:
+def _read_text(stream: BinaryIO, name: str) -> str:
     content = stream.read(MAX_FILE_BYTES + 1)
     if len(content) > MAX_FILE_BYTES:
         raise UsageError(f"{name} is larger than {MAX_FILE_BYTES // 1024**2} MiB")

@@ -1,4 +1,4 @@
-"""Places as commands tell them on standard output: a line with the file, and the source line under it."""
+"""Lines that show a place in a spec on standard output."""
 
 from __future__ import annotations
 
@@ -10,6 +10,6 @@ from linkforge_compile.source.characters import on_one_line
 
 
 def told(what: str, place: Span) -> Iterator[str]:
-    """Yield `WHAT at FILE:LINE:COLUMN`, the line itself and a caret under what is meant."""
+    """Yield `WHAT at FILE:LINE:COLUMN`, the source line and a caret under the place."""
     yield on_one_line(f"{what} at {place}")
     yield from snippet(place)

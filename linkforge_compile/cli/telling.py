@@ -1,4 +1,4 @@
-"""How a command tells what it found: in which form, which of it, and where."""
+"""Prints diagnostics and status lines on standard error, as the options of the command say."""
 
 from __future__ import annotations
 
@@ -20,17 +20,22 @@ if TYPE_CHECKING:
 
 
 def add_telling_options(parser: argparse.ArgumentParser, *, is_product: bool = False) -> None:
-    """Add them; `is_product` for a command that makes nothing but diagnostics, where `--format` means them too."""
+    """Add the options about diagnostics, with `--format` as another name if they are all that the command prints."""
     group = parser.add_argument_group("diagnostics")
     group.add_argument(
         "--diagnostics",
         *(["--format"] if is_product else []),
         choices=FORMS,
         default="text",
-        help="how they are written: text (unless said), json, github (annotations) or sarif",
+        help="the form of diagnostics: text (default), json, github (annotations) or sarif",
     )
     group.add_argument(
-        "--select", metavar="CODES", type=_codes, action="extend", default=[], help="only these warnings and notes"
+        "--select",
+        metavar="CODES",
+        type=_codes,
+        action="extend",
+        default=[],
+        help="only these warnings and notes",
     )
     group.add_argument(
         "--ignore",
@@ -38,15 +43,15 @@ def add_telling_options(parser: argparse.ArgumentParser, *, is_product: bool = F
         type=_ignorable_codes,
         action="extend",
         default=[],
-        help="not these warnings and notes; codes or their beginnings, such as LF5,LF6003",
+        help="do not report these warnings and notes; codes or their beginnings, such as LF5,LF6003",
     )
-    group.add_argument("--werror", action="store_true", help="take warnings for errors")
-    group.add_argument("-q", "--quiet", action="store_true", help="tell errors only, and nothing when all is well")
-    group.add_argument("--color", choices=WHEN, default="auto", help="whether text is coloured (on a terminal)")
+    group.add_argument("--werror", action="store_true", help="report warnings as errors")
+    group.add_argument("-q", "--quiet", action="store_true", help="print errors only")
+    group.add_argument("--color", choices=WHEN, default="auto", help="whether to color text (default: on a terminal)")
 
 
 def selected(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> tuple[Diagnostic, ...]:
-    """Return what the options leave of a report, weighed as they say."""
+    """Return the diagnostics that the options select, with the severities that the options set."""
     diagnostics = tuple(diagnostics)
     if not diagnostics:
         return ()
@@ -57,10 +62,10 @@ def selected(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -
 
 
 def tell(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> bool:
-    """Write what the options leave to standard error, and return whether there are errors among it."""
-    told = selected(diagnostics, arguments)
-    to_stderr(written(told, arguments))
-    return has_errors(told)
+    """Print the diagnostics that the options select, and return whether there is an error among them."""
+    chosen = selected(diagnostics, arguments)
+    to_stderr(written(chosen, arguments))
+    return has_errors(chosen)
 
 
 def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
@@ -68,31 +73,31 @@ def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
 
 
 def say(line: str, arguments: argparse.Namespace) -> None:
-    """Write what was done to standard error, unless that is to be quiet or to hold one document for a program."""
+    """Print a line of status, unless with `--quiet` or if standard error is one document for a program."""
     if not arguments.quiet:
         say_failure(line, arguments)
 
 
 def say_failure(line: str, arguments: argparse.Namespace) -> None:
-    """Write what did not succeed to standard error, unless that is to hold one document for a program."""
-    if arguments.diagnostics in {"text", "github"}:
+    """Print a line about a failure, unless standard error is one document for a program."""
+    if getattr(arguments, "diagnostics", "text") in {"text", "github"}:
         line_to_stderr(line)
 
 
 def line_to_stderr(line: str) -> None:
-    """Write one line to standard error, where names of files can neither end it nor drive the terminal."""
+    """Print one line on standard error, with control characters in names of files escaped."""
     to_stderr(f"{on_one_line(line)}\n")
 
 
 def to_stderr(text: str) -> None:
-    """Write to standard error, which whoever started the command may have closed."""
+    """Write to standard error, unless it is closed."""
     if sys.stderr is not None:
         sys.stderr.write(text)
 
 
 def written(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> str:
-    """Return the diagnostics in the form that was asked for."""
-    # A build on GitHub may run in any folder of the checkout; its annotations name files from the top.
+    """Return the diagnostics as text, in the form that the options choose."""
+    # GitHub resolves paths in annotations from the top of the checkout, wherever the build runs.
     root = Path(os.environ.get("GITHUB_WORKSPACE") or Path.cwd()).absolute()
     match arguments.diagnostics:
         case "json":
@@ -130,7 +135,7 @@ def _page(code: Code) -> str:
 
 
 def _codes(text: str) -> list[str]:
-    """Read codes and beginnings of codes, parted by commas or spaces."""
+    """Parse codes or beginnings of codes, separated by commas or spaces."""
     import argparse
 
     from linkforge_compile.diagnostics.codes import REGISTER
@@ -150,8 +155,8 @@ def _ignorable_codes(text: str) -> list[str]:
 
     codes = _codes(text)
     for code in codes:
-        meant = {one.severity for one in REGISTER.values() if one.id.startswith(code)}
-        if meant == {Severity.ERROR}:
+        severities = {one.severity for one in REGISTER.values() if one.id.startswith(code)}
+        if severities == {Severity.ERROR}:
             kind = "is an error" if code in REGISTER else "stands for errors only"
             raise argparse.ArgumentTypeError(f"{code} {kind}, which cannot be ignored")
     return codes

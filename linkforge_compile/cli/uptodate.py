@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import UsageError
 from linkforge_compile.diagnostics import Note
-from linkforge_compile.diagnostics.codes.backends import MISSING_OUTPUT, STALE_OUTPUT
+from linkforge_compile.diagnostics.codes.formats import MISSING_OUTPUT, STALE_OUTPUT
 from linkforge_compile.source import SourceFile, Span
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""A word to who waits: a vendor's xacro may compute for a minute."""
+"""Prints a message if work takes long, as a vendor's xacro may."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     import argparse
 
 PATIENCE = 3.0
-"""Seconds after which who waits at a terminal is told for what."""
+"""Time until the message is printed [s]."""
 
 
 @contextmanager
 def told_when_long(file: str, arguments: argparse.Namespace) -> Iterator[None]:
-    """Tell at a terminal what is under way, if it is still under way after some seconds."""
+    """On a terminal, print which file is being read if the body takes longer than PATIENCE."""
     if sys.stderr is None or not sys.stderr.isatty():
         yield
         return

@@ -10,8 +10,8 @@ from linkforge_compile.compare.pairing import partners
 from linkforge_compile.compare.words import plain, shortened, told
 from linkforge_compile.core.models.link import Link, Visual
 from linkforge_compile.core.models.material import Color, Material
+from linkforge_compile.core.models.shape_order import COLLISION, VISUAL, shown_colors
 from linkforge_compile.core.models.transmission import Transmission
-from linkforge_compile.shape_order import COLLISION, VISUAL, shown_colors
 
 _LONGEST = 200
 """Characters of each of two orders that are shown."""

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 
 from linkforge_compile.core.models.link import Collision, Inertial, Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.models.shape_order import COLLISION, VISUAL, shortest_setting
 from linkforge_compile.export_spec.elements import written_element, written_fields
 from linkforge_compile.export_spec.geometry import written_geometry, written_origin
 from linkforge_compile.export_spec.material import written_visual_material
 from linkforge_compile.export_spec.pen import Pen
-from linkforge_compile.shape_order import COLLISION, VISUAL, as_said
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 
@@ -24,7 +24,7 @@ def written_link(pen: Pen, link: Link, materials: Mapping[str, Material], gazebo
         link,
         # Their order is that of the output.
         **dict(reversed(shapes.items()) if kinds[:1] == [COLLISION] else shapes),
-        shape_order=_shape_order(pen, as_said(kinds)),
+        shape_order=_shape_order(pen, shortest_setting(kinds)),
         inertial=_inertial(pen, link.inertial) if link.inertial else None,
         physics=_physics(pen, link.physics),
         gazebo=gazebo,

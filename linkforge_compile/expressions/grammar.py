@@ -1,22 +1,24 @@
-"""Which part of Python's grammar the language has, and what to write instead of the rest."""
+"""Which of Python's syntax expressions may use, and what to write instead of the rest."""
 
 from __future__ import annotations
 
 import ast
+import keyword
 import math
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes import expressions as codes
-from linkforge_compile.expressions.comparisons import COMPARISONS
 from linkforge_compile.expressions.functions import CONSTANTS, SIGNATURES
-from linkforge_compile.expressions.operators import ARITHMETIC, MAX_INTEGER_BITS
-from linkforge_compile.expressions.template import Expression
+from linkforge_compile.expressions.operators import ARITHMETIC, COMPARISONS, MAX_INTEGER_BITS
+from linkforge_compile.expressions.types import Expression
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
+from linkforge_compile.units import UNITS
 
 MAX_DEPTH = 100
-"""How deep an expression may nest; a sum of as many terms nests as deep."""
+"""How deep an expression may nest; a sum nests as deep as it has terms."""
 
 _LIST_ELSEWHERE = "lists and maps are written in YAML and given a name in 'variables'"
 _IN_FOR = "a list is repeated over by 'for'"
@@ -49,13 +51,13 @@ _REFUSED: dict[type[ast.AST], tuple[str, str]] = {
     ast.Is: ("'is'", "values are compared with '=='"),
     ast.IsNot: ("'is not'", "values are compared with '!='"),
 }
-"""What Python's grammar has and the language has not: what it is, and what to write instead."""
+"""Syntax of Python that expressions do not have: what it is called, and what to write instead."""
 
 _PYTHON_CONSTANTS = {True: "true", False: "false", None: "null"}
 
 
 def refusals(expression: Expression) -> Iterator[Diagnostic]:
-    """Yield what the language does not have; each once, and nothing about what stands inside it."""
+    """Yield an error for each part that expressions do not have, none for what is inside such a part."""
     waiting = [(expression.tree, 1)]
     while waiting:
         node, depth = waiting.pop()
@@ -71,8 +73,8 @@ def refusals(expression: Expression) -> Iterator[Diagnostic]:
             waiting.extend((operand, depth + 1) for operand in _operands(node))
 
 
-def names_in(expression: Expression) -> Expression:
-    """Return the expression with its names, spelled as written: Python folds µ and other letters to one form."""
+def with_names(expression: Expression) -> Expression:
+    """Return the expression with its names, spelled as written: Python normalizes µ and other letters."""
     names = []
     waiting = [expression.tree]
     while waiting:
@@ -86,7 +88,7 @@ def names_in(expression: Expression) -> Expression:
 
 def _operands(node: ast.expr) -> Iterable[ast.expr]:
     if isinstance(node, ast.Constant | ast.Name):
-        return ()  # as nearly all, of which Python would look at each field
+        return ()  # nearly all nodes; iter_child_nodes would look at each of their fields
     if isinstance(node, ast.Call):
         return node.args
     return (child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr))
@@ -125,7 +127,7 @@ def _comparison_fault(chain: ast.Compare, expression: Expression) -> Diagnostic 
 
 
 def _operator_fault(operator: ast.AST, left: ast.expr, right: ast.expr, expression: Expression) -> Diagnostic:
-    """Tell at the operator, which has no place of its own in Python's tree but stands between its operands."""
+    """Report an operator at its place, which the tree does not hold: it is between the operands."""
     what, instead = _REFUSED[type(operator)]
     symbol = what.strip("'")
     begin = expression.index(left.end_col_offset or 0)
@@ -177,7 +179,54 @@ def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
     if call.keywords:
         instead = f"the order tells what each is: {function.signature}"
         return codes.NOT_IN_EXPRESSIONS.at(expression.span(call), what="an argument with a name", instead=instead)
-    if any(isinstance(argument, ast.Starred) for argument in call.args) or function.takes(len(call.args)):
+    if any(isinstance(argument, ast.Starred) for argument in call.args) or function.accepts(len(call.args)):
         return None
     whole = expression.span(call)
     return codes.WRONG_ARGUMENT_COUNT.at(whole, signature=function.signature, count=len(call.args))
+
+
+# Syntax errors
+
+_STRING = re.compile(r"'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\"", re.DOTALL)
+_UNITS = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
+_KEYWORDS = "|".join(keyword.kwlist)
+
+_HABITS = (
+    (r"^\s*find\s+([\w-]+)\s*$", "'$(find ...)' is xacro's; a file of a package is package://{1}/..."),
+    (r"^\s*(?:arg|eval)\s+(.*?)\s*$", "'$(arg ...)' and '$(eval ...)' are xacro's; write $({1})"),
+    (r"^\s*(?:env|optenv)\s.*", "the environment is not read; declare a parameter"),
+    (r"&&", "'and' is written for '&&'"),
+    (r"\|\|", "'or' is written for '||'"),
+    (r"!(?!=)", "'not' is written for '!'"),
+    (r"\?", "a choice is written a if condition else b"),
+    (r"\$[({]?", "names stand here without '$'"),
+    (r"#", "it cannot hold a comment"),
+    (r"(?<![=!<>:])=(?!=)", "two values are compared with '=='"),
+    (
+        rf"(?<![\w.])((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*(?!in\b)(?:{_UNITS}))(?!\w)",
+        "a unit cannot stand here; give '{1}' a name in 'variables'",
+    ),
+    (r"[×·⋅∙]", "'*' is written for '{0}'"),
+    (r"÷", "'/' is written for '{0}'"),
+    (r"[−–—]", "'-' is written for '{0}'"),
+    (r"≤", "'<=' is written for '{0}'"),
+    (r"≥", "'>=' is written for '{0}'"),
+    (r"≠", "'!=' is written for '{0}'"),
+    (r"²", "'** 2' is written for '{0}'"),
+    (r"³", "'** 3' is written for '{0}'"),
+    (rf"\.\s*({_KEYWORDS})\b", "'{1}' is a word of the grammar; that key is read with ['{1}']"),
+    (r"(?<![\w.])0[0-9]+\b(?!\.)", "a number cannot begin with 0"),
+    (r"\bif\b(?!.*\belse\b)", "'if' needs an 'else'"),
+)
+"""Habits from other languages, searched in the text without its strings, and the problem; the first match wins."""
+
+
+def explain_syntax_error(text: str, error: SyntaxError) -> tuple[int, int, str]:
+    """Return the offset and length of a syntax error in an expression, and what is wrong."""
+    bare = _STRING.sub(lambda found: found[0][0] + " " * (len(found[0]) - 2) + found[0][0], text)
+    for habit, problem in _HABITS:
+        if found := re.search(habit, bare):
+            return found.start(), len(found[0]), problem.format(found[0], *found.groups())
+    # Python counts from 1 and saw one more parenthesis. Its own message differs between versions.
+    start = min(max((error.offset or 0) - 2, 0), len(text))
+    return start, 1, "something is missing or too much here"

@@ -10,7 +10,7 @@ from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.link import LinkPhysics
 from linkforge_compile.core.part import Element, attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic, Note
-from linkforge_compile.diagnostics.codes.backends import UNWRITABLE
+from linkforge_compile.diagnostics.codes.formats import UNWRITABLE
 from linkforge_compile.formats.element import (
     Extended,
     RawXmlError,

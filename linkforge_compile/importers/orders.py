@@ -9,10 +9,10 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
+from linkforge_compile.core.models.shape_order import KINDS, VISUAL, shown_colors
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.importing import COLORS_REORDERED, SHAPES_REORDERED
 from linkforge_compile.importers.draft import number_of
-from linkforge_compile.shape_order import KINDS, VISUAL, shown_colors
 from linkforge_compile.source.xml_tree import XmlElement
 
 if TYPE_CHECKING:

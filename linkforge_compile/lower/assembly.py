@@ -46,14 +46,14 @@ def _lower_instance(
     tree = instance.tree
     if tree is None:
         return Lowered(None, (), UnresolvedNames(prefixes=("",)))
-    file = lower_file(tree, instance.mesh_bases, instance.trail, sink, MeshReader(instance.find_mesh, meshes))
+    file = lower_file(tree, instance.mesh_bases, instance.include_stack, sink, MeshReader(instance.find_mesh, meshes))
     robot, is_compiled_file = file.robot, instance.entry is None
     texts = None
     if not is_compiled_file:
         from linkforge_compile.lower.unprefixed_names import passthrough_texts, prefix_warnings
 
         # Before modules are merged, because these have warnings of their own.
-        users = {use.file for use in instance.trail}
+        users = {use.file for use in instance.include_stack}
         texts = passthrough_texts(robot, tree, instance.prefix, users, is_shared=tree.span.file in shared_files)
     unresolved = file.unresolved | UnresolvedNames(deleted=instance.removed)
     lowered, mounts = Lowered(robot, (), unresolved), file.mounts
@@ -65,7 +65,7 @@ def _lower_instance(
     if file.states:
         faulty_states = _add_group_states(robot, file.states, mounts, lowered.unresolved)
         lowered = replace(lowered, unresolved=lowered.unresolved | faulty_states)
-    if is_compiled_file and robot.says_semantic:
+    if is_compiled_file and robot.has_semantic:
         from linkforge_compile.lower.srdf import group_by_name
 
         robot.semantic = group_by_name(robot.semantic)
@@ -75,7 +75,7 @@ def _lower_instance(
         from linkforge_compile.lower.positions import check_positions_of_module_joints
 
         joints = _joints_by_name(robot, [lowered.mount] if lowered.mount else [])
-        check_positions_of_module_joints(Fields(tree, "robot", sink, instance.trail), joints)
+        check_positions_of_module_joints(Fields(tree, "robot", sink, instance.include_stack), joints)
     check_name_lookups(instance.references, robot, lowered.unresolved_alone, sink)
     return lowered
 

@@ -55,7 +55,7 @@ def _faults(defaults: YamlMap, instance: Instance) -> Iterator[Diagnostic]:
     if entries is None:
         return
     sink = Diagnostics()
-    file = Fields(entries, "defaults", sink, instance.trail)
+    file = Fields(entries, "defaults", sink, instance.include_stack)
     deque(lower_links(file, FileScope()), maxlen=0)
     deque(file.each("joints", "joint", check_joint_defaults), maxlen=0)
     sensors_of(file)

@@ -26,8 +26,7 @@ from linkforge_compile.lower.object_context import ObjectContext
 from linkforge_compile.source import SourceRef
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
-from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
-from linkforge_compile.syntax.xacro import xacro_facts
+from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1, xacro_facts
 
 T = TypeVar("T")
 Choice = TypeVar("Choice", bound=StrEnum)

@@ -17,8 +17,9 @@ from linkforge_compile.core.models.link import (
     LinkPhysics,
     Visual,
 )
+from linkforge_compile.core.models.shape_order import COLLISION, KINDS, PAIRS, VISUAL, grouped, in_pairs
 from linkforge_compile.core.physics import inertial_of_shapes
-from linkforge_compile.diagnostics import notes_of_changes
+from linkforge_compile.diagnostics import notes_of
 from linkforge_compile.diagnostics.codes.model import (
     COPY_OF_NOTHING,
     DENSITY_WITH_INERTIA,
@@ -36,8 +37,8 @@ from linkforge_compile.lower.file_scope import FileScope
 from linkforge_compile.lower.geometry import lower_geometry
 from linkforge_compile.lower.material import lower_visual_material
 from linkforge_compile.lower.numbers import NumberType
-from linkforge_compile.shape_order import COLLISION, KINDS, PAIRS, VISUAL, apart, in_pairs
 from linkforge_compile.source import Key, SourceRef
+from linkforge_compile.source.provenance import join_links, overrides_of
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
 
@@ -198,7 +199,7 @@ def _lower_shape_order(link: Fields, visuals: Shapes, collisions: Shapes) -> tup
     # The number of shapes that a faulty link should have is unknown.
     is_whole = not link.is_faulty and None not in (*visuals, *collisions)
     order = tuple(_written_shape_order(link, kinds, is_whole=is_whole) or kinds)
-    return () if order[:1] == (VISUAL,) and order == apart(order) else order
+    return () if order[:1] == (VISUAL,) and order == grouped(order) else order
 
 
 def _written_shape_order(link: Fields, kinds: Sequence[str], *, is_whole: bool) -> Sequence[str] | None:
@@ -226,8 +227,9 @@ def _listed_shape_order(link: Fields, node: YamlList, kinds: Sequence[str]) -> S
     if sorted(listed) == sorted(kinds):
         return listed
     parts = [link.node, *(part for kind in KINDS if (part := link.node.get(kind)))]
-    notes = notes_of_changes([change for part in parts for change in part.span.changes], node.span)
+    overrides = overrides_of([change for part in parts for change in part.span.changes], node.span)
     facts = {"owner": link.title, "expected": _count_words(kinds), "found": _count_words(listed)}
+    notes = notes_of(join_links(overrides))
     link.sink.report(SHAPE_ORDER_COUNT.at(SourceRef(node, None, link.trail), notes=notes, **facts))
     return None
 

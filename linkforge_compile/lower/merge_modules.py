@@ -175,7 +175,7 @@ class ModuleMerger:
         added apart, because its parent may be a link of a later module.
         """
         self._report_other_attributes(component, module)
-        if attached_root is not None and component.says_semantic:
+        if attached_root is not None and component.has_semantic:
             self._leave_out_virtual_joints(component, attached_root, module.prefix)
         parts = dict(_parts(component))
         materials = [("material", name) for name in component.materials if name not in self._robot.materials]
@@ -193,7 +193,7 @@ class ModuleMerger:
     def _report_other_attributes(self, component: Robot, module: Instance) -> None:
         """Report raw attributes of the robot and the SRDF that have another value in a module."""
         owners = [("the robot", dict(self._robot.extra_attributes), dict(component.extra_attributes))]
-        if self._robot.says_semantic and component.says_semantic:
+        if self._robot.has_semantic and component.has_semantic:
             own, other = self._robot.semantic, component.semantic
             owners.append(("the SRDF", dict(own.extra_attributes), dict(other.extra_attributes)))
         for owner, ours, theirs in owners:
@@ -281,7 +281,7 @@ def _parts(robot: Robot) -> Iterator[tuple[PartKey, SourceRef | None]]:
     ):
         for part in parts:
             yield (kind, part.name), part.source
-    if robot.says_semantic:
+    if robot.has_semantic:
         yield from _semantic_parts(robot.semantic)
 
 

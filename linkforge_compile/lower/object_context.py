@@ -6,12 +6,13 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 
 from linkforge_compile.core.exceptions import RobotModelError
-from linkforge_compile.diagnostics import Code, Diagnostics, Note, notes_of_changes
+from linkforge_compile.diagnostics import Code, Diagnostics, Note, notes_of
 from linkforge_compile.diagnostics.codes.model import MISSING_FIELD, REFUSED, WRONG_KIND
 from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME
 from linkforge_compile.lower.numbers import describe_node
 from linkforge_compile.source import SourceRef, Span
-from linkforge_compile.source.ref import Located, Step, brought_in
+from linkforge_compile.source.provenance import Kind, Link, Step, aliases_on, join_links, overrides_of, uses_in
+from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import leaves_in
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode
 
@@ -37,7 +38,7 @@ def report_duplicate(
     """Report two things of one name at the second, with the first and the files that use it as notes."""
     notes = []
     if first:
-        notes = [Note("the first stands here", first.span), *(Note("used here", use) for use in first.trail)]
+        notes = [Note("the first stands here", first.span), *notes_of(uses_in(first.trail))]
     sink.report(DUPLICATE_NAME.at(second, kind=kind, name=name, notes=notes))
 
 
@@ -85,11 +86,12 @@ class ObjectContext:
     ) -> None:
         """Report a fault at a node of this object, or at what a path leads to from a reference."""
         if isinstance(where, SourceRef):
-            self.sink.report(code.at(where, *path, near=near, notes=self._alias_notes(), **facts))
+            self.sink.report(code.at(where, *path, near=near, notes=notes_of(join_links(self._aliases())), **facts))
             return
-        changes = notes_of_changes(self.node.span.changes, where.span) if where is not self.node else ()
-        aliases = self._alias_notes((None, self.node.span), (self._key_of(where, str(facts.get("field"))), where.span))
-        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=(*aliases, *changes), **facts))
+        overrides = overrides_of(self.node.span.changes, where.span) if where is not self.node else ()
+        aliases = self._aliases((None, self.node.span), (self._key_of(where, str(facts.get("field"))), where.span))
+        notes = notes_of(join_links((*aliases, *overrides)))
+        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=notes, **facts))
 
     def report_missing(self, key: str, example: str) -> None:
         """Report that a required field has no value, with an example of one."""
@@ -124,10 +126,10 @@ class ObjectContext:
     def _has_reported_faults(self) -> bool:
         return any(isinstance(node, YamlFault) or self.sink.has_error_in(node.span) for node in leaves_in(self.node))
 
-    def _alias_notes(self, *inside: Step) -> Iterator[Note]:
-        """Yield the aliases and `<<` that this object came in by."""
-        for place in brought_in((*self._way(), *inside)):
-            yield Note(f"brought in here, for {self.title}", place)
+    def _aliases(self, *inside: Step) -> Iterator[Link]:
+        """Yield the aliases and `<<` that insert this object, or what the steps lead to in it."""
+        for place in aliases_on((*self._way(), *inside)):
+            yield Kind.OUTER_ALIAS, place, self.title
 
     def _way(self) -> tuple[Step, ...]:
         """Return the places of all objects around this one, then of its name, or its own."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
 from linkforge_compile.cli.one_spec import compile_spec, one_spec
 from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
-from linkforge_compile.cli.targets import add_output_option, name_of, targets_of
+from linkforge_compile.cli.targets import add_output_option, default_format, name_of, targets_of
 from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
@@ -59,14 +59,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _outputs(spec: str, outputs: list[str], compilation: Compilation) -> tuple[Path, ...]:
-    """Return the files that `linkforge compile` would write for these outputs, the URDF where there are none."""
-    from linkforge_compile.cli.build import targets_for
+    """Return the files that `linkforge compile` would write for these outputs, that of one format if there are none."""
+    from linkforge_compile.cli.build import paths_for, targets_for
 
-    targets = targets_of(spec, outputs or [f"{name_of(spec)}.urdf"], None)
+    targets = targets_of(spec, outputs or [f"{name_of(spec)}{default_format().suffix}"], None)
     targets.require_files("a rule of Make", "says what files are made from")
-    if compilation.robot is not None:
-        targets = targets_for(compilation.robot, targets) or targets
-    return tuple(path for path in targets.paths.values() if path is not None)
+    assert compilation.robot is not None, "a spec without errors has a robot"
+    needed, faults = targets_for(compilation.robot, targets)
+    return paths_for(compilation.robot, targets if faults else needed)
 
 
 def _json_text(compilation: Compilation) -> str:

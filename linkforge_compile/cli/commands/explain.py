@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
@@ -11,12 +11,14 @@ from linkforge_compile.cli.one_spec import compile_spec, one_spec
 from linkforge_compile.cli.options import add_spec_options, split_assignments
 from linkforge_compile.cli.places import told
 from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.source.provenance import Kind, Provenance
 
 if TYPE_CHECKING:
     import argparse
 
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.export_spec import ComputedFrom, Explanation, NameStory, Place, UnknownPathError
+    from linkforge_compile.expand.origins import NameOrigin, Setting
+    from linkforge_compile.export_spec import ComputedFrom, Explanation, UnknownPathError
 
 _EXAMPLES = """\
 PATH is that of the value in the finished robot: the language's keys in their long form, and final names.
@@ -28,6 +30,9 @@ examples:
   linkforge explain LF4102                  what a diagnostic means, with a wrong and a right spec
   linkforge explain --codes                 all of them
 """
+
+
+_LONGEST_TEXT = 60
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -124,52 +129,57 @@ def _frame_hint(robot: Robot, path: str) -> str:
 
 def _lines(explanation: Explanation) -> Iterator[str]:
     yield explanation.text
-    if explanation.place is None:
+    chain = explanation.provenance
+    if chain is None:
         yield "written in no file"
         return
-    yield from _said(explanation, explanation.place)
-    for replaced in explanation.replaced:
-        yield from told(
-            "instead of the default" if replaced.is_default else "instead of what is written", replaced.span
-        )
-    for change in explanation.overridden:
-        yield from told(f"'{change.key}' is overridden", change.span)
-    for included in explanation.place.span.file.includes:
-        yield from told("included", included)
-    for use in explanation.trail:
-        yield from told("used", use)
-
-
-def _said(explanation: Explanation, place: Place) -> Iterator[str]:
-    """Yield what made the value, which or around which something was written at the place."""
     if explanation.is_written:
-        yield from told(_written(place), place.span)
-        if explanation.expression:
-            yield f"computed: {explanation.expression}"
-            for name in explanation.names:
-                yield from _name(name, "  ")
-        if explanation.origin:
-            yield from told("the value itself is written", explanation.origin)
+        yield from told(chain.sentence, chain.span)
     elif explanation.computed_from is None:
         yield "nothing is written for it"
-        yield from told(f"what it belongs to is {_written(place)}", place.span)
+        yield from told(f"what it belongs to is {chain.sentence}", chain.span)
+    links = [link for link in chain.outer or () if link.sentence]
+    of_value = [link for link in links if link.kind in {Kind.EXPRESSION, Kind.VALUE}]
+    for link in of_value:
+        yield from _link(link, explanation.names)
     if explanation.computed_from:
         yield from _computed(explanation.computed_from)
+    for link in links:
+        if link not in of_value:
+            yield from _link(link)
+
+
+def _link(link: Provenance, names: Sequence[NameOrigin] = ()) -> Iterator[str]:
+    if link.kind is not Kind.EXPRESSION:
+        yield from told(link.sentence, link.span)
+        return
+    yield link.sentence
+    for name in names:
+        yield from _name(name, "  ")
 
 
 def _computed(inertial: ComputedFrom) -> Iterator[str]:
     yield f"computed from the {inertial.quantity}, even over the shapes of the link"
-    yield from told(f"the {inertial.quantity} is {_written(inertial.place)}", inertial.place.span)
+    yield from told(f"the {inertial.quantity} is {inertial.place.sentence}", inertial.place.span)
     for shape in inertial.shapes:
         yield f"{shape.path}, a {shape.geometry}" + (f", is written at {shape.place}" if shape.place else "")
 
 
-def _written(place: Place) -> str:
-    return "written as a default" if place.is_default else "written"
-
-
-def _name(name: NameStory, indent: str) -> Iterator[str]:
-    yield f"{indent}{name.name} is {name.value}, {name.setting}"
-    yield from (f"{indent}  instead of {beaten}" for beaten in name.instead_of)
+def _name(name: NameOrigin, indent: str) -> Iterator[str]:
+    yield f"{indent}{name.name} is {name.value}, {_setting(name.setting)}"
+    yield from (f"{indent}  instead of {_setting(other)}" for other in name.setting.instead_of)
     for inner in name.names:
         yield from _name(inner, f"{indent}  ")
+
+
+def _setting(setting: Setting) -> str:
+    """Return what set a name: "the default 0.8 m at arm.robot.yaml:6:11"."""
+    from linkforge_compile.expand.listing import as_written
+
+    place = setting.node.span
+    if setting.named_by is not None:
+        return f"the content of {place.file.name}, named at {setting.named_by.span}"
+    if setting.by == "the command line":
+        return f"from {setting.by}: {place.file.text}"
+    text = as_written(setting.node)
+    return f"{setting.by} {text} at {place}" if text and len(text) <= _LONGEST_TEXT else f"{setting.by} at {place}"

@@ -11,8 +11,8 @@ from linkforge_compile.cli.build import Order, compile_order, deliver
 from linkforge_compile.cli.commands import compile as compile_command
 from linkforge_compile.cli.exits import OK, WRONG_USAGE, UsageError
 from linkforge_compile.cli.telling import line_to_stderr, say, say_failure
+from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.roots import identity
-from linkforge_compile.stamps import Stamps
 
 if TYPE_CHECKING:
     import argparse
@@ -53,32 +53,32 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.then is not None and not arguments.then.strip():
         raise UsageError("--then takes a command, found nothing")
     order.targets.require_files("watch", "renews files")
-    stamps = Stamps([Path(order.spec)])
-    exit_code = _build(order, stamps, arguments)
+    watcher = FileWatcher([Path(order.spec)])
+    exit_code = _build(order, watcher, arguments)
     while True:
         if exit_code == OK and arguments.then is not None:
             _run_then(arguments)
-        say(f"watching {_listed(stamps.paths)}; Ctrl-C ends", arguments)
+        say(f"watching {_listed(watcher.paths)}; Ctrl-C ends", arguments)
         # What the command of --then takes away is not missed.
         outputs = [path for path in order.targets.paths.values() if path and path.exists()] if exit_code == OK else []
-        changed, gone = _wait(stamps, outputs)
+        changed, gone = _wait(watcher, outputs)
         if changed:
             say(f"{_listed(changed)} changed", arguments)
         if gone:
             say(f"{_listed(gone)} {'is' if len(gone) == 1 else 'are'} gone", arguments)
-        exit_code = _build_again(stamps, arguments)
+        exit_code = _build_again(watcher, arguments)
 
 
-def _build(order: Order, stamps: Stamps, arguments: argparse.Namespace) -> int:
+def _build(order: Order, watcher: FileWatcher, arguments: argparse.Namespace) -> int:
     began = time.time_ns()
     compilation = compile_order(order, arguments)
     files = (*compilation.files, *compilation.unread)
     # Before anything that may fail or take its time: what changes meanwhile is to be seen.
-    stamps.follow(files, began)
+    watcher.track(files, began)
     try:
         return deliver(order, compilation, arguments)
     finally:
-        stamps.follow((*files, *_templates(order)), began)
+        watcher.track((*files, *_templates(order)), began)
 
 
 def _templates(order: Order) -> tuple[Path, ...]:
@@ -92,26 +92,26 @@ def _templates(order: Order) -> tuple[Path, ...]:
     return (*folder.files, *folder.unread, *(() if is_written else (folder.folder,)))
 
 
-def _build_again(stamps: Stamps, arguments: argparse.Namespace) -> int:
+def _build_again(watcher: FileWatcher, arguments: argparse.Namespace) -> int:
     """Build, and tell of what cannot be done where the first build would end: it is mended while we watch."""
     try:
-        return _build(compile_command.order(arguments), stamps, arguments)
+        return _build(compile_command.order(arguments), watcher, arguments)
     except UsageError as error:
         line_to_stderr(f"linkforge watch: {error}")
         return WRONG_USAGE
 
 
-def _wait(stamps: Stamps, outputs: Sequence[Path]) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
+def _wait(watcher: FileWatcher, outputs: Sequence[Path]) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
     """Wait until something changes, or an output is gone, and nothing more does; return what did, and what is gone."""
     changed: tuple[Path, ...] = ()
     gone: tuple[Path, ...] = ()
     while not changed and not gone:
         time.sleep(_SECONDS)
-        changed = stamps.look()
+        changed = watcher.poll()
         gone = tuple(path for path in outputs if not path.exists())
     while True:
         time.sleep(_SETTLED)
-        more = stamps.look()
+        more = watcher.poll()
         if not more:
             return changed, gone
         changed = tuple(dict.fromkeys((*changed, *more)))

@@ -111,7 +111,7 @@ def _faults_of(path: Path, document: str, source_map: MapFile) -> list[Diagnosti
 
 
 def _changed(file: SourceFile, when: str) -> Diagnostic:
-    from linkforge_compile.diagnostics.codes.backends import CHANGED_SINCE
+    from linkforge_compile.diagnostics.codes.formats import CHANGED_SINCE
 
     return CHANGED_SINCE.at(file.whole, when=when)
 
@@ -173,7 +173,7 @@ class _Sources:
         return whole._replace(line=line, column=column, end_line=line, end_column=end)
 
     def _whole(self, number: int) -> Span:
-        from linkforge_compile.diagnostics.codes.backends import SOURCE_NOT_SHOWN
+        from linkforge_compile.diagnostics.codes.formats import SOURCE_NOT_SHOWN
         from linkforge_compile.formats.map_file import hash_of
 
         source = self.map.sources[number]

@@ -21,9 +21,9 @@ from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidation
 from linkforge_compile.core.fields import Child, Children, Flag, Name, Number, Pose, Text, check_numbers
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
 from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.models.shape_order import COLLISION, KINDS, VISUAL
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, prefixed_fields, set_field
 from linkforge_compile.core.rules import require_name, require_valid_characters
-from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import CONTACT_DAMPING, INERTIA, MASS, STIFFNESS
 

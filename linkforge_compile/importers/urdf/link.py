@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
+from linkforge_compile.core.models.shape_order import COLLISION, KINDS, VISUAL, shortest_setting
 from linkforge_compile.importers.draft import Draft, same
 from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.urdf.gazebo import Blocks
 from linkforge_compile.importers.urdf.geometry import read_geometry, read_origin
 from linkforge_compile.importers.urdf.material import Palette
-from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL, as_said
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlMap, YamlNode
 
@@ -29,7 +29,7 @@ def read_link(link: Reading, palette: Palette, blocks: Blocks) -> YamlMap:
     return link.map(
         # Their order is that of the output.
         **dict(reversed(shapes.items()) if kinds[:1] == [COLLISION] else shapes),
-        shape_order=_shape_order(link.draft, as_said(kinds), read[0].span) if read else None,
+        shape_order=_shape_order(link.draft, shortest_setting(kinds), read[0].span) if read else None,
         inertial=link.one("inertial", _inertial),
         gazebo=blocks.beside(link.element.get("name") or ""),
     )

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from functools import partial
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import SRDF_FOR_URDF
 from linkforge_compile.importers.comments import placed_comments
@@ -21,6 +20,7 @@ from linkforge_compile.importers.urdf.material import Named, Palette
 from linkforge_compile.importers.urdf.refused import refused_by_readers
 from linkforge_compile.importers.urdf.ros2_control import read_ros2_control
 from linkforge_compile.importers.urdf.transmission import read_transmission
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
