@@ -27,7 +27,7 @@ from linkforge_compile.lower.extra import common_kwargs, free_elements, free_tex
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.numbers import ANGLE, LENGTH, NumberType, number_type
 from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlList
+from linkforge_compile.syntax.nodes import YamlList, YamlMap
 from linkforge_compile.units import FieldUnit, Motion
 
 P = TypeVar("P", bound=Part)
@@ -78,13 +78,8 @@ def lower_each(kind: type[P], fields: Fields, key: str, noun: str) -> dict[str, 
     return dict(fields.each(key, noun, lambda each, name: lower_element(kind, each, name=name)))
 
 
-def lower_origin(fields: Fields) -> Transform:
-    """Read `origin`, a pose in the parent's frame: `[x, y, z]` or `{xyz, rpy}`; an absent or faulty part is 0."""
-    return lower_pose(fields, "origin")
-
-
-def lower_pose(fields: Fields, key: str) -> Transform:
-    """Read a pose: `[x, y, z]` or `{xyz, rpy}`; an absent or faulty part is 0."""
+def lower_pose(fields: Fields, key: str = "origin") -> Transform:
+    """Read a pose in the parent's frame: `[x, y, z]` or `{xyz, rpy}`; an absent or faulty part is 0."""
     node = fields.get(key)
     if node is None:
         return IDENTITY
@@ -149,10 +144,14 @@ def _noise(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUni
     return lower_element(kind, noise, **values)
 
 
-def _children(spec: Any, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> list[object]:
-    kind = spec.kinds[0]
-    items = [fields.map_at(node, kind.TAG) for node in fields.items(key)]
-    return [element for item in items if item and (element := lower_element(kind, item, motion))]
+def _children(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> list[Part]:
+    kind: type[Part] = spec.kinds[0]
+    if isinstance(fields.get(key), YamlMap):
+        children = [*lower_each(kind, fields, key, spec.kinds[0].TAG).values()]
+    else:
+        items = [fields.map_at(node, key) for node in fields.items(key)]
+        children = [lower_element(kind, item) for item in items if item]
+    return [child for child in children if child]
 
 
 def _parameters(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> Mapping[str, object]:

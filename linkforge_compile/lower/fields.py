@@ -247,8 +247,3 @@ def _count_words(counts: tuple[int, ...]) -> str:
 def by_word(choices: type[Choice]) -> Mapping[str, Choice]:
     """Return the members of an enumeration by the words that the language has for them."""
     return {str(choice): choice for choice in choices}
-
-
-def default_if_none(value: T | None, default: T) -> T:
-    """Return a value, or the default in place of None."""
-    return default if value is None else value

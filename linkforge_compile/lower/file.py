@@ -13,7 +13,7 @@ from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.lower.elements import lower_origin
+from linkforge_compile.lower.elements import lower_pose
 from linkforge_compile.lower.extra import outer_extras_of
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.file_scope import FileScope
@@ -175,7 +175,7 @@ def _lower_frame(fields: Fields, name: str) -> _Frame:
     joint_name = f"{name}_joint" if written_name is None else written_name
     if written_name is not None and not fields.name_is_valid(written_name, "joint", fields.node.get("joint")):
         is_valid = False
-    ends = JointEnds(fields.text("parent", required="base"), name, lower_origin(fields))
+    ends = JointEnds(fields.text("parent", required="base"), name, lower_pose(fields))
     joint = joint_between(fields, joint_name if is_valid else None, JointType.FIXED, ends)
     return _Frame(name, joint_name, Link(name, source=fields.ref) if joint else None, joint)
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from linkforge_compile.core.frozen_map import FreePart
-from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, GazeboPlugin
+from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement
 from linkforge_compile.core.models.link import PHYSICS_TAGS
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import TAG_TWICE
-from linkforge_compile.lower.elements import lower_each, lower_element
+from linkforge_compile.lower.elements import lower_element
 from linkforge_compile.lower.extra import free_elements, is_absent
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, BARE, LENGTH, NumberType
@@ -50,7 +50,6 @@ def lower_gazebo(owner: Fields, reference: str | None, joints: Mapping[str, Yaml
             block,
             reference=target,
             properties={**dict(_known_properties(block, position)), **free_elements(block, "properties")},
-            plugins=[plugin for plugin in _plugins(block) if plugin],
         )
         if element:
             yield element
@@ -63,15 +62,6 @@ def _known_properties(block: Fields, position: NumberType) -> Iterator[tuple[str
         text = read(block, entry.name) if read else None
         if text is not None:
             yield entry.name, text
-
-
-def _plugins(block: Fields) -> Iterator[GazeboPlugin | None]:
-    """Lower the plugins: a map by their names, or a list of plugins with names."""
-    if isinstance(block.node.get("plugins"), YamlMap):
-        yield from lower_each(GazeboPlugin, block, "plugins", "plugin").values()
-        return
-    listed = (block.map_at(node, "plugins") for node in block.items("plugins"))
-    yield from (lower_element(GazeboPlugin, plugin) for plugin in listed if plugin)
 
 
 def _report_repeated_tags(block: Fields, tags_of_physics: Mapping[str, YamlEntry]) -> None:

@@ -16,7 +16,7 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_AXIS,
     ZERO_AXIS,
 )
-from linkforge_compile.lower.elements import lower_element, lower_fields, lower_origin
+from linkforge_compile.lower.elements import lower_element, lower_fields, lower_pose
 from linkforge_compile.lower.extra import common_kwargs
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.numbers import BARE, describe_node
@@ -66,7 +66,7 @@ def _lower_joint(fields: Fields, name: str, links: Sequence[str]) -> Joint | Non
     child_name = child_node.text if isinstance(child_node, YamlScalar) else None
     example = next((link for link in links if link != child_name), "base")
     parent, child = fields.text("parent", required=example), fields.text("child", required="arm")
-    ends = JointEnds(parent, child, lower_origin(fields))
+    ends = JointEnds(parent, child, lower_pose(fields))
     return joint_between(fields, valid_name, joint_type, ends)
 
 

@@ -30,7 +30,7 @@ from linkforge_compile.diagnostics.codes.model import (
     SHAPE_ORDER_COUNT,
     UNKNOWN_CHOICE,
 )
-from linkforge_compile.lower.elements import lower_element, lower_origin
+from linkforge_compile.lower.elements import lower_element, lower_pose
 from linkforge_compile.lower.extra import common_kwargs, outer_extras_of
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.file_scope import FileScope
@@ -128,7 +128,7 @@ def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes, scope: 
     density = inertial.number("density", _DENSITY)
     if is_written:
         return _as_written(inertial, mass)
-    lower_origin(inertial)
+    lower_pose(inertial)
     if (node := inertial.node.get("origin")) is not None:
         inertial.report(ORIGIN_WITHOUT_INERTIA, node, owner=inertial.title)
     elif _has_mass_or_density(inertial) and _has_shapes(link, inertial, shapes):

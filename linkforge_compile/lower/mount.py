@@ -20,7 +20,7 @@ from linkforge_compile.diagnostics.codes.model import (
     TWO_MOUNTS,
 )
 from linkforge_compile.expand.assembly import Instance, joint_name_of
-from linkforge_compile.lower.elements import lower_origin
+from linkforge_compile.lower.elements import lower_pose
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.joint import JointEnds, joint_between
 from linkforge_compile.lower.object_context import report_duplicate
@@ -72,7 +72,7 @@ def lower_module_joint(module: Instance, root: str | None, sink: Diagnostics) ->
     name = valid_name or default
     joint = _as_joint(entry, name)
     joint_type = JointType.FIXED if joint.node.get("type") is None else joint.choice("type", JointType)
-    ends = JointEnds(joint.text("parent"), root, lower_origin(joint))
+    ends = JointEnds(joint.text("parent"), root, lower_pose(joint))
     return ModuleJoint(name, joint_between(joint, valid_name, joint_type, ends), _lower_gazebo(joint, name))
 
 
@@ -156,7 +156,7 @@ def attach_mount(mount: ModuleJoint, module: Instance, root: str | None, sink: D
         return final
     if (node := entry.node.get("joint")) is not None:
         entry.report(MOUNT_AND_JOINT, node, owner=entry.owner, joint=mount.name)
-    parent, origin = entry.text("parent"), lower_origin(entry)
+    parent, origin = entry.text("parent"), lower_pose(entry)
     if parent is None or not _is_at_root(final, root, module.prefix, sink):
         return final._replace(joint=None)
     joint = replace(final.joint, source=_with_ends_of(entry.node, final.joint.source))

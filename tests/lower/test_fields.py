@@ -5,7 +5,7 @@ import pytest
 
 from linkforge_compile.core import Box, Transform, Vector3
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.lower.elements import lower_origin
+from linkforge_compile.lower.elements import lower_pose
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.numbers import EXTENT, NumberType
 from linkforge_compile.source import SourceFile
@@ -34,7 +34,7 @@ def test_what_is_absent_or_null_is_read_as_none_in_silence():
     assert fields.number("mass") is None
     assert fields.text("name") is None
     assert fields.vector3("axis") is None
-    assert lower_origin(fields) == Transform.identity()
+    assert lower_pose(fields) == Transform.identity()
     assert told(fields) == []
 
 
@@ -110,8 +110,8 @@ def test_a_name_with_a_space_is_told_at_the_name():
 
 def test_an_origin_is_three_lengths_or_a_map_of_xyz_and_rpy():
     zero = Vector3(0, 0, 0)
-    assert lower_origin(fields_of("origin: [1, 20 mm, 0]")) == Transform(Vector3(1, 0.02, 0))
-    turned = lower_origin(fields_of("origin: {rpy: [0, 0, 1 rev]}"))
+    assert lower_pose(fields_of("origin: [1, 20 mm, 0]")) == Transform(Vector3(1, 0.02, 0))
+    turned = lower_pose(fields_of("origin: {rpy: [0, 0, 1 rev]}"))
     assert (turned.xyz, turned.rpy.z) == (zero, pytest.approx(6.283185307))
 
 
