@@ -43,7 +43,7 @@ class Vector3(Part):
 
     def __post_init__(self) -> None:
         if self.x.__class__ is self.y.__class__ is self.z.__class__ is float and isfinite(self.x + self.y + self.z):
-            return  # nine of ten
+            return  # most vectors
         for position, (name, value) in enumerate(zip("xyz", self, strict=True)):
             if not is_finite(value):
                 raise not_finite(value, name, f"Vector3.{name}", (position,))
@@ -79,7 +79,7 @@ class Transform(Element):
 
     @property
     def is_written(self) -> bool:
-        """Whether it becomes an element: it moves something, or is stated all the same."""
+        """Whether it becomes an element: it moves something, or is stated."""
         return self.is_stated or self != IDENTITY
 
     @classmethod
@@ -243,7 +243,7 @@ class Mesh(Element):
 
     @property
     def is_scale_written(self) -> bool:
-        """Whether `scale` becomes an attribute: it is not 1, or is stated all the same."""
+        """Whether `scale` becomes an attribute: it is not 1, or is stated."""
         return self.is_scale_stated or self.scale != _ONE
 
     def __post_init__(self) -> None:

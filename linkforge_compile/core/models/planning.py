@@ -1,4 +1,4 @@
-"""What motion planning knows about a robot: groups of joints, their named poses, end effectors, passive joints."""
+"""Motion planning: groups of joints, their named poses, end effectors, virtual and passive joints."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class VirtualJointType(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class VirtualJoint(Element):
-    """How the robot stands in the world: `<virtual_joint name type parent_frame child_link>`.
+    """The joint between the world and the robot: `<virtual_joint name type parent_frame child_link>`.
 
     `type` is `fixed`, `planar` or `floating`; `parent_frame` belongs to the world and takes no prefix.
 
@@ -77,7 +77,7 @@ class Chain(Element):
 
 @dataclass(frozen=True, slots=True)
 class PlanningGroup(Element):
-    """Joints that are planned together: `<group name>`; said by links, joints, chains or other groups.
+    """Joints that are planned together: `<group name>`; given by links, joints, chains or other groups.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank name, VALUE_EMPTY for a group of nothing.
@@ -142,7 +142,7 @@ class GroupState(Element):
 
     name: Annotated[str, Name()]
     group: Annotated[str, Reference("group", key="")]
-    # Any: a number may go in, a tuple comes out
+    # Any: numbers are accepted, and made tuples
     joint_values: Annotated[Mapping[str, Any], Reference("joint", key="", xml="joint/@name")] = FrozenMap()
 
     def __post_init__(self) -> None:
@@ -165,9 +165,9 @@ def _position_tuple(given: object) -> tuple[object, ...]:
 
 @dataclass(frozen=True, slots=True)
 class EndEffector(Element):
-    """A group that works as a hand: `<end_effector name group parent_link parent_group>`.
+    """A group that is a tool at the end of an arm: `<end_effector name group parent_link parent_group>`.
 
-    `parent_link` is the link of the arm that carries it, `parent_group` the group of the arm, None if not said.
+    `parent_link` is the link of the arm that carries it, `parent_group` the group of the arm, None if not given.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank name or group.

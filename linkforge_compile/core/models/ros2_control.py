@@ -1,4 +1,4 @@
-"""ros2_control: which hardware moves the joints, reads the sensors and switches the pins, and by which interfaces."""
+"""ros2_control: hardware with its joints, sensors, gpios and their interfaces."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ class Ros2Control(Element):
     """One piece of hardware: `<ros2_control name type>`.
 
     `type` is `system`, `actuator` or `sensor`; `hardware_plugin` the class that talks to it, `<plugin>` in
-    `<hardware>`, where `parameters` go as well. `extra_elements` stand in `<ros2_control>` itself.
+    `<hardware>`, with the `parameters`. `extra_elements` are children of `<ros2_control>` itself.
 
     Raises:
         RobotValidationError: NAME_EMPTY for an empty name; INVALID_VALUE for another type, a command interface in a
