@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterable
+from enum import StrEnum
 from typing import Protocol
 
 from linkforge_compile.core.exceptions import FieldPath, RobotMathError, RobotValidationError, ValidationErrorCode
@@ -60,6 +61,23 @@ def require_valid_characters(name: str, what: str, target: str) -> None:
             target=target,
             value=name,
             field=("name",),
+        )
+
+
+def require_choice(found: str, words: type[StrEnum], what: str, target: str, field: str) -> None:
+    """Refuse a text that is none of an enumeration's words.
+
+    Raises:
+        RobotValidationError: INVALID_VALUE.
+
+    """
+    if found not in tuple(words):
+        raise RobotValidationError(
+            ValidationErrorCode.INVALID_VALUE,
+            f"{what} must be one of {', '.join(words)}, found '{found}'",
+            target=target,
+            value=found,
+            field=(field,),
         )
 
 

@@ -13,7 +13,7 @@ from linkforge_compile.core.exceptions import RobotValidationError, ValidationEr
 from linkforge_compile.core.fields import Children, Choice, Name, Reference, Text
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.part import Element, freeze, set_field
-from linkforge_compile.core.rules import is_finite, not_finite, require_not_blank
+from linkforge_compile.core.rules import is_finite, not_finite, require_choice, require_not_blank
 
 
 class VirtualJointType(StrEnum):
@@ -45,14 +45,7 @@ class VirtualJoint(Element):
     def __post_init__(self) -> None:
         freeze(self)
         require_not_blank(self.name, "virtual joint name", "VirtualJointName")
-        if self.type not in tuple(VirtualJointType):
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
-                f"virtual joint type must be one of {', '.join(VirtualJointType)}, found '{self.type}'",
-                target="VirtualJointType",
-                value=self.type,
-                field=("type",),
-            )
+        require_choice(self.type, VirtualJointType, "virtual joint type", "VirtualJointType", "type")
 
 
 @dataclass(frozen=True, slots=True)

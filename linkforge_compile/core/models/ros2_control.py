@@ -14,7 +14,7 @@ from linkforge_compile.core.fields import Children, Choice, Name, Parameters, Re
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_name, require_unique_names
+from linkforge_compile.core.rules import require_choice, require_name, require_unique_names
 
 __all__ = ["Interface", "Ros2Control", "Ros2ControlGpio", "Ros2ControlJoint", "Ros2ControlSensor"]
 
@@ -147,13 +147,7 @@ class Ros2Control(Element):
     def __post_init__(self) -> None:
         freeze(self, "joints", "sensors", "gpios", mappings=("parameters",))
         require_name(self.name, "ros2_control name", "Ros2ControlName")
-        if self.type not in tuple(Ros2ControlType):
-            raise _invalid(
-                f"ros2_control type must be one of {', '.join(Ros2ControlType)}, found '{self.type}'",
-                "Ros2ControlType",
-                self.type,
-                "type",
-            )
+        require_choice(self.type, Ros2ControlType, "ros2_control type", "Ros2ControlType", "type")
         if not self.hardware_plugin:
             raise RobotValidationError(
                 ValidationErrorCode.VALUE_EMPTY,

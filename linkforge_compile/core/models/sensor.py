@@ -26,7 +26,7 @@ from linkforge_compile.core.fields import (
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_name
+from linkforge_compile.core.rules import require_choice, require_name
 from linkforge_compile.units import ANGLE, FREQUENCY, LENGTH, LOAD, PIXELS, TURN_RATE, VELOCITY
 
 
@@ -284,19 +284,11 @@ class ForceTorqueInfo(Element):
 
     def __post_init__(self) -> None:
         freeze(self)
-        self._check_word("frame", tuple(ForceTorqueFrame), "ForceTorqueFrame")
-        self._check_word("measure_direction", tuple(ForceTorqueDirection), "ForceTorqueDirection")
-
-    def _check_word(self, name: str, words: tuple[str, ...], target: str) -> None:
-        found: str = getattr(self, name)
-        if found not in words:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
-                f"{name} must be one of {', '.join(words)}, found '{found}'",
-                target=target,
-                value=found,
-                field=(name,),
-            )
+        require_choice(self.frame, ForceTorqueFrame, "frame", "ForceTorqueFrame", "frame")
+        direction = self.measure_direction
+        require_choice(
+            direction, ForceTorqueDirection, "measure_direction", "ForceTorqueDirection", "measure_direction"
+        )
 
 
 @dataclass(frozen=True, slots=True)
