@@ -6,10 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from linkforge_compile.core.fields import number_fields
-from linkforge_compile.core.models.collision_rules import SrdfSphere
-from linkforge_compile.core.models.geometry import Box
-from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
+from linkforge_compile.core.fields import Number, Vector, field_specs
 from linkforge_compile.core.part import Part
 from linkforge_compile.units import Dimension, Motion
 
@@ -29,26 +26,15 @@ ANGLE = Measure("deg", 180 / math.pi, as_share=False)
 _BY_DIMENSION: Mapping[Dimension | None, Measure] = {Dimension.LENGTH: LENGTH, Dimension.ANGLE: ANGLE}
 _POSITION = (ANGLE, LENGTH)
 """Of a joint that turns, and of one that slides."""
-_TRAVEL = (
-    (TransmissionJoint, "offset"),
-    (TransmissionActuator, "offset"),
-)
-
-_OF_JOINTS: Mapping[tuple[type, str], tuple[Measure, Measure]] = {
-    **dict.fromkeys(_TRAVEL, _POSITION),
-}
-
-_LENGTHS = ((Box, "size"), *((SrdfSphere, name) for name in ("center_x", "center_y", "center_z", "radius")))
-_MEASURES: Mapping[tuple[type, str], Measure] = dict.fromkeys(_LENGTHS, LENGTH)
 
 
 def measure_of(kind: type, field: str, *, slides: bool) -> Measure:
     """Return what a field measures; `slides` says that it is about a prismatic joint."""
-    if issubclass(kind, Part) and (spec := number_fields(kind).get(field)):
-        motion = Motion.SLIDING if slides else Motion.TURNING
-        return _BY_DIMENSION.get(spec.unit.dimension(motion)) or Measure(spec.unit.text(motion))
-    of_joint = _OF_JOINTS.get((kind, field))
-    return of_joint[slides] if of_joint else _MEASURES.get((kind, field), BARE)
+    spec = field_specs(kind).get(field) if issubclass(kind, Part) else None
+    if not isinstance(spec, Number | Vector):
+        return BARE
+    motion = Motion.SLIDING if slides else Motion.TURNING
+    return _BY_DIMENSION.get(spec.unit.dimension(motion)) or Measure(spec.unit.text(motion))
 
 
 def position_measure(*, slides: bool) -> Measure:

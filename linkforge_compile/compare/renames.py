@@ -4,30 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
-from enum import Enum, auto
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.compare.likeness import likeness
-from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
-from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.core.fields import Name, Reference, Spec, field_specs
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import Joint, JointMimic
 from linkforge_compile.core.models.link import Collision, Link, Visual
-from linkforge_compile.core.models.planning import (
-    Chain,
-    EndEffector,
-    GroupState,
-    JointProperty,
-    PassiveJoint,
-    PlanningGroup,
-    VirtualJoint,
-)
+from linkforge_compile.core.models.planning import GroupState
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
-from linkforge_compile.core.models.sensor import Sensor
-from linkforge_compile.core.models.srdf import SemanticRobotDescription
-from linkforge_compile.core.models.transmission import TransmissionJoint
-from linkforge_compile.core.part import Inside
+from linkforge_compile.core.part import Part
 
 
 class Renames(NamedTuple):
@@ -128,39 +114,6 @@ _NAMES: Mapping[type, Collection[str]] = {
 """The fields of links, joints and states that say not what these do, but what they and others are called."""
 
 
-class _Names(Enum):
-    """Whose names a field holds."""
-
-    LINKS = auto()
-    JOINTS = auto()
-    BOTH = auto()
-
-
-_LINKS, _JOINTS, _BOTH = _Names
-
-REFERENCES: Mapping[type, Mapping[str, _Names]] = {
-    Link: {"name": _LINKS},
-    Joint: {"name": _JOINTS, "parent": _LINKS, "child": _LINKS},
-    JointMimic: {"joint": _JOINTS},
-    GazeboElement: {"reference": _BOTH},
-    Sensor: {"link_name": _LINKS, "frame": _LINKS},
-    TransmissionJoint: {"name": _JOINTS},
-    Ros2ControlJoint: {"name": _JOINTS},
-    VirtualJoint: {"child_link": _LINKS},
-    PlanningGroup: {"links": _LINKS, "joints": _JOINTS},
-    Chain: {"base_link": _LINKS, "tip_link": _LINKS},
-    GroupState: {"joint_values": _JOINTS},
-    EndEffector: {"parent_link": _LINKS},
-    PassiveJoint: {"name": _JOINTS},
-    CollisionPair: {"link1": _LINKS, "link2": _LINKS},
-    LinkSphereApproximation: {"link": _LINKS},
-    JointProperty: {"joint_name": _JOINTS},
-    SemanticRobotDescription: {"no_default_collision_links": _LINKS},
-    Inside: {"name": _BOTH},
-}
-"""The fields that hold names of links and joints."""
-
-
 def under_new_names(value: object, renames: Renames) -> object:
     """Return a value in which every name of a renamed link or joint is the new one."""
     if not any(renames):
@@ -169,12 +122,13 @@ def under_new_names(value: object, renames: Renames) -> object:
         return tuple(under_new_names(one, renames) for one in value)
     if not is_dataclass(value) or isinstance(value, type):
         return value
-    references = REFERENCES.get(type(value), {})
+    kind = type(value)
+    specs = field_specs(kind) if issubclass(kind, Part | Link) else {}
     changes: dict[str, object] = {}
     for field in fields(value):
         held: object = getattr(value, field.name)
-        names = references.get(field.name)
-        new = under_new_names(held, renames) if names is None else _renamed(held, _table(names, renames))
+        new_names = _new_names(kind, specs.get(field.name), renames)
+        new = under_new_names(held, renames) if new_names is None else _renamed(held, new_names)
         if new is not held and new != held:
             changes[field.name] = new
     if isinstance(value, GroupState) and (name := renames.states.get((value.group, value.name))):
@@ -182,10 +136,18 @@ def under_new_names(value: object, renames: Renames) -> object:
     return replace(value, **changes) if changes else value
 
 
-def _table(names: _Names, renames: Renames) -> Mapping[str, str]:
-    if names is _BOTH:
-        return {**renames.joints, **renames.links}
-    return renames.links if names is _LINKS else renames.joints
+def _new_names(kind: type, spec: Spec | None, renames: Renames) -> Mapping[str, str] | None:
+    """Return the new names, by the old ones, of what a field names; None for a field without names of these."""
+    match spec:
+        case Name():
+            return {Link: renames.links, Joint: renames.joints}.get(kind)
+        case Reference(to="link" | "frame"):
+            return renames.links
+        case Reference(to="joint"):
+            return renames.joints
+        case Reference(to="part"):
+            return {**renames.joints, **renames.links}
+    return None
 
 
 def _renamed(held: object, new_names: Mapping[str, str]) -> object:
