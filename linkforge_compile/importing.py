@@ -117,7 +117,7 @@ def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     if imported is None:
         return None
     judge = _judge_of(SpecFile(file, imported.tree, None), loader)
-    semantic = SourceFile("<srdf>", render_srdf(robot)) if robot.says_semantic else None
+    semantic = SourceFile("<srdf>", render_srdf(robot)) if robot.has_semantic else None
     both = with_srdf(imported, semantic, judge, sink) if semantic else (imported, judge(imported.tree))
     if both is None:
         return None

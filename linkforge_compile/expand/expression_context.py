@@ -11,6 +11,7 @@ from linkforge_compile.diagnostics.codes.files import NAME_OUTSIDE_TEXT, PATH_OF
 from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
 from linkforge_compile.expand.syntax_markers import CONTEXT_PATTERN
 from linkforge_compile.expressions import Expression, parse_template
+from linkforge_compile.schema.json_types import LinkedSchema
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.schema.words import field
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
@@ -22,7 +23,7 @@ _NAME_TITLES = frozenset({"a name", "a joint's name", "a material's name", "a jo
 _PREFIXED_KEYS = frozenset({"topic", "frame", "prefix"})
 """Keys of text that is not a name but gets the prefix automatically."""
 
-_NAME = Shape({"title": "a name", "type": "string"})
+_NAME = Shape(LinkedSchema({"title": "a name", "type": "string"}))
 
 _MAPS_WITHOUT_PREFIX = frozenset({"interfaces by name", "folders by package name"})
 """The titles of maps whose keys get no prefix."""

@@ -223,9 +223,9 @@ def _items(base: YamlNode | None, shape: Shape) -> tuple[YamlNode, ...]:
 
 def _nesting_hint(name: str, base: YamlMap, shape: Shape) -> str:
     """Return how to write a path such as `elbow/limits` that was written as a name; "" for any other name."""
-    from linkforge_compile.schema.keys_meant import nested, steps_of
+    from linkforge_compile.schema.words import nested, split_path
 
-    first, *steps = steps_of(name)
+    first, *steps = split_path(name)
     is_path = steps and first in base.entries and steps[0] in shape.under(first).keys
     return f"; write '{nested([first, *steps], '…')}'" if is_path else ""
 

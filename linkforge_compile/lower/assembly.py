@@ -62,7 +62,7 @@ def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids, shared: 
         lowered = replace(
             lowered, unresolved=lowered.unresolved | _resolve_states(robot, file.states, mounts, lowered.unresolved)
         )
-    if is_alone and robot.says_semantic:
+    if is_alone and robot.has_semantic:
         from linkforge_compile.lower.srdf_order import side_by_side
 
         robot.semantic = side_by_side(robot.semantic)
