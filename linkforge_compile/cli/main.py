@@ -131,9 +131,9 @@ def _make_parser(
 
 
 def _report_usage_error(command: str, reason: str) -> int:
-    from linkforge_compile.cli.telling import line_to_stderr
+    from linkforge_compile.cli.reports import print_line
 
-    line_to_stderr(f"linkforge {command}: {reason}")
+    print_line(f"linkforge {command}: {reason}")
     return WRONG_USAGE
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.build import Order, compile_order, deliver
+from linkforge_compile.cli.build import BuildRequest, compile_request, write_outputs
 from linkforge_compile.cli.exits import UsageError
-from linkforge_compile.cli.one_spec import one_spec
+from linkforge_compile.cli.inputs import require_one_spec
 from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, packages_of, split_assignments
+from linkforge_compile.cli.reports import add_report_options
 from linkforge_compile.cli.targets import Targets, add_target_options, targets_of, targets_of_documents
-from linkforge_compile.cli.telling import add_telling_options
 
 if TYPE_CHECKING:
     import argparse
@@ -71,18 +71,18 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
         help="where the URDF will lie beside what it names, that of -o unless said: meshes are looked for from there",
     )
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    ordered = order(arguments)
-    return deliver(ordered, compile_order(ordered, arguments), arguments)
+    request = parse_request(arguments)
+    return write_outputs(request, compile_request(request, arguments), arguments)
 
 
-def order(arguments: argparse.Namespace) -> Order:
-    """Return what the words and options ask for; UsageError for what cannot be meant."""
+def parse_request(arguments: argparse.Namespace) -> BuildRequest:
+    """Return what to build; UsageError for options that contradict each other."""
     specs, assignments = split_assignments(arguments.words)
-    spec = one_spec(specs)
+    spec = require_one_spec(specs)
     templates = None if arguments.template is None else _template_folder(arguments)
     targets = _targets(spec, templates, arguments)
     if arguments.source_map:
@@ -95,7 +95,7 @@ def order(arguments: argparse.Namespace) -> Order:
         targets.require_files("--depfile", "tells what files are made from")
         if arguments.check:
             raise UsageError("--check writes nothing, so there is no --depfile with it")
-    return Order(spec, assignments, targets, templates)
+    return BuildRequest(spec, assignments, targets, templates)
 
 
 def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
-from linkforge_compile.cli.one_spec import compile_spec, one_spec
+from linkforge_compile.cli.inputs import compile_spec, require_one_spec
 from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
+from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.cli.targets import add_output_option, default_format, name_of, targets_of
-from linkforge_compile.cli.telling import add_telling_options, tell
 
 if TYPE_CHECKING:
     import argparse
@@ -39,16 +39,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_output_option(parser)
     parser.add_argument("--format", choices=FORMATS, default="make", help="a rule of Make (unless said), or JSON")
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
 
     specs, assignments = split_assignments(arguments.words)
-    spec = one_spec(specs)
+    spec = require_one_spec(specs)
     compilation = compile_spec(spec, assignments, arguments)
-    is_faulty = tell(compilation.diagnostics, arguments)
+    is_faulty = report(compilation.diagnostics, arguments)
     if arguments.format == "json":
         write_to_stdout(_json_text(compilation))
     elif not is_faulty:

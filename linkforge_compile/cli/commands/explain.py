@@ -7,10 +7,9 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.one_spec import compile_spec, one_spec
+from linkforge_compile.cli.inputs import compile_spec, require_one_spec
 from linkforge_compile.cli.options import add_spec_options, split_assignments
-from linkforge_compile.cli.places import told
-from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.cli.reports import add_report_options, place_lines, report
 from linkforge_compile.source.provenance import Kind, Provenance
 
 if TYPE_CHECKING:
@@ -47,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--codes", action="store_true", help="list the code of every diagnostic")
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -59,14 +58,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _print_manual(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.colour import is_coloured
     from linkforge_compile.cli.manual import UnknownCodeError, page, register_table
     from linkforge_compile.cli.output import write_to_stdout
+    from linkforge_compile.cli.reports import is_colored
 
     words: list[str] = arguments.words
     if arguments.codes and words:
         raise UsageError(f"--codes lists all codes and takes no words, found '{words[0]}'")
-    is_styled = is_coloured(sys.stdout, arguments.color)
+    is_styled = is_colored(sys.stdout, arguments.color)
     try:
         write_to_stdout(register_table() if arguments.codes else page(words[0], styled=is_styled))
     except UnknownCodeError as error:
@@ -79,10 +78,10 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     if len(words) < 2:
         raise UsageError("takes a spec and a path, such as joints/elbow/limits/effort, or a code, such as LF4102")
     *specs, path = words
-    compilation = compile_spec(one_spec(specs), assignments, arguments)
+    compilation = compile_spec(require_one_spec(specs), assignments, arguments)
     # Whoever asks of one value is not told of the rest of the spec, unless that leaves no robot to ask of.
     arguments.quiet = True
-    if tell(compilation.diagnostics, arguments) or compilation.robot is None:
+    if report(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.export_spec import UnknownPathError, explain
@@ -134,10 +133,10 @@ def _lines(explanation: Explanation) -> Iterator[str]:
         yield "written in no file"
         return
     if explanation.is_written:
-        yield from told(chain.sentence, chain.span)
+        yield from place_lines(chain.sentence, chain.span)
     elif explanation.computed_from is None:
         yield "nothing is written for it"
-        yield from told(f"what it belongs to is {chain.sentence}", chain.span)
+        yield from place_lines(f"what it belongs to is {chain.sentence}", chain.span)
     links = [link for link in chain.outer or () if link.sentence]
     of_value = [link for link in links if link.kind in {Kind.EXPRESSION, Kind.VALUE}]
     for link in of_value:
@@ -151,7 +150,7 @@ def _lines(explanation: Explanation) -> Iterator[str]:
 
 def _link(link: Provenance, names: Sequence[NameOrigin] = ()) -> Iterator[str]:
     if link.kind is not Kind.EXPRESSION:
-        yield from told(link.sentence, link.span)
+        yield from place_lines(link.sentence, link.span)
         return
     yield link.sentence
     for name in names:
@@ -160,7 +159,7 @@ def _link(link: Provenance, names: Sequence[NameOrigin] = ()) -> Iterator[str]:
 
 def _computed(inertial: ComputedFrom) -> Iterator[str]:
     yield f"computed from the {inertial.quantity}, even over the shapes of the link"
-    yield from told(f"the {inertial.quantity} is {inertial.place.sentence}", inertial.place.span)
+    yield from place_lines(f"the {inertial.quantity} is {inertial.place.sentence}", inertial.place.span)
     for shape in inertial.shapes:
         yield f"{shape.path}, a {shape.geometry}" + (f", is written at {shape.place}" if shape.place else "")
 

@@ -7,10 +7,10 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.build import Order, compile_order, deliver
+from linkforge_compile.cli.build import BuildRequest, compile_request, write_outputs
 from linkforge_compile.cli.commands import compile as compile_command
 from linkforge_compile.cli.exits import OK, WRONG_USAGE, UsageError
-from linkforge_compile.cli.telling import line_to_stderr, say, say_failure
+from linkforge_compile.cli.reports import print_failure, print_line, print_status
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.roots import identity
 
@@ -44,50 +44,50 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    order = compile_command.order(arguments)
-    if order.spec == "-":
+    request = compile_command.parse_request(arguments)
+    if request.spec == "-":
         raise UsageError("takes a file, not standard input")
     # Path.is_dir raises for a name that is too long.
-    if os.path.isdir(order.spec):  # noqa: PTH112
-        raise UsageError(f"takes a spec, NAME.robot.yaml, found the folder '{order.spec}'")
+    if os.path.isdir(request.spec):  # noqa: PTH112
+        raise UsageError(f"takes a spec, NAME.robot.yaml, found the folder '{request.spec}'")
     if arguments.then is not None and not arguments.then.strip():
         raise UsageError("--then takes a command, found nothing")
-    order.targets.require_files("watch", "renews files")
-    watcher = FileWatcher([Path(order.spec)])
-    exit_code = _build(order, watcher, arguments)
+    request.targets.require_files("watch", "renews files")
+    watcher = FileWatcher([Path(request.spec)])
+    exit_code = _build(request, watcher, arguments)
     while True:
         if exit_code == OK and arguments.then is not None:
             _run_then(arguments)
-        say(f"watching {_listed(watcher.paths)}; Ctrl-C ends", arguments)
+        print_status(f"watching {_listed(watcher.paths)}; Ctrl-C ends", arguments)
         # What the command of --then takes away is not missed.
-        outputs = [path for path in order.targets.paths.values() if path and path.exists()] if exit_code == OK else []
+        outputs = [path for path in request.targets.paths.values() if path and path.exists()] if exit_code == OK else []
         changed, gone = _wait(watcher, outputs)
         if changed:
-            say(f"{_listed(changed)} changed", arguments)
+            print_status(f"{_listed(changed)} changed", arguments)
         if gone:
-            say(f"{_listed(gone)} {'is' if len(gone) == 1 else 'are'} gone", arguments)
+            print_status(f"{_listed(gone)} {'is' if len(gone) == 1 else 'are'} gone", arguments)
         exit_code = _build_again(watcher, arguments)
 
 
-def _build(order: Order, watcher: FileWatcher, arguments: argparse.Namespace) -> int:
+def _build(request: BuildRequest, watcher: FileWatcher, arguments: argparse.Namespace) -> int:
     began = time.time_ns()
-    compilation = compile_order(order, arguments)
+    compilation = compile_request(request, arguments)
     files = (*compilation.files, *compilation.unread)
     # Before anything that may fail or take its time: what changes meanwhile is to be seen.
     watcher.track(files, began)
     try:
-        return deliver(order, compilation, arguments)
+        return write_outputs(request, compilation, arguments)
     finally:
-        watcher.track((*files, *_templates(order)), began)
+        watcher.track((*files, *_templates(request)), began)
 
 
-def _templates(order: Order) -> tuple[Path, ...]:
+def _templates(request: BuildRequest) -> tuple[Path, ...]:
     """Return the templates that were read or looked for, and the folder, to which one may be added."""
-    folder = order.templates
+    folder = request.templates
     if folder is None:
         return ()
     # What is written into the folder itself would change it again and again.
-    outputs = (path for path in order.targets.paths.values() if path is not None)
+    outputs = (path for path in request.targets.paths.values() if path is not None)
     is_written = any(identity(path.parent) == identity(folder.folder) for path in outputs)
     return (*folder.files, *folder.unread, *(() if is_written else (folder.folder,)))
 
@@ -95,9 +95,9 @@ def _templates(order: Order) -> tuple[Path, ...]:
 def _build_again(watcher: FileWatcher, arguments: argparse.Namespace) -> int:
     """Build, and tell of what cannot be done where the first build would end: it is mended while we watch."""
     try:
-        return _build(compile_command.order(arguments), watcher, arguments)
+        return _build(compile_command.parse_request(arguments), watcher, arguments)
     except UsageError as error:
-        line_to_stderr(f"linkforge watch: {error}")
+        print_line(f"linkforge watch: {error}")
         return WRONG_USAGE
 
 
@@ -127,4 +127,4 @@ def _run_then(arguments: argparse.Namespace) -> None:
 
     code = subprocess.run(arguments.then, shell=True, check=False).returncode
     if code:
-        say_failure(f"'{arguments.then}' ended with exit code {code}", arguments)
+        print_failure(f"'{arguments.then}' ended with exit code {code}", arguments)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.banner import BANNER
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.source import SourceFile
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("file", metavar="FILE[:LINE[:COLUMN]]", help="a line of a URDF or SRDF file")
     parser.add_argument("name", metavar="NAME", nargs="?", help="what has this name in the file, instead of a line")
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -53,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     rows = (row for asked in lines for row in _answer(path, document, sources, asked))
     write_to_stdout("".join(f"{row}\n" for row in rows))
-    return FAULTY_SPEC if tell(sources.faults, arguments) else OK
+    return FAULTY_SPEC if report(sources.faults, arguments) else OK
 
 
 class _Asked(NamedTuple):
@@ -200,7 +200,7 @@ def _from_here(path: Path) -> str:
 
 
 def _answer(path: Path, document: str, sources: _Sources, asked: _Asked) -> Iterator[str]:
-    from linkforge_compile.cli.places import told
+    from linkforge_compile.cli.reports import place_lines
 
     lines = document.split("\n")
     if not 0 < asked.line <= len(lines):
@@ -215,8 +215,8 @@ def _answer(path: Path, document: str, sources: _Sources, asked: _Asked) -> Iter
         return
     stretch, trail = found
     place = sources.span(stretch)
-    yield from told("written", place)
+    yield from place_lines("written", place)
     if stretch.length and place.text and "$(" in place.text.replace("$$(", ""):
         yield f"computed: {place.text}"
     for how, step in trail:
-        yield from told(how, sources.span(step))
+        yield from place_lines(how, sources.span(step))
