@@ -1,4 +1,4 @@
-"""`linkforge compile`: a spec to URDF and SRDF, on standard output or into files."""
+"""`linkforge compile`: compiles a spec to standard output or to files."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ examples:
   linkforge compile arm.robot.yaml -o build/            build/arm.urdf, and build/arm.srdf if it has `semantic`
   linkforge compile arm.robot.yaml -o arm.urdf          one file
   linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
-  linkforge compile arm.robot.yaml --gazebo classic     with sensors as Gazebo Classic reads them
+  linkforge compile arm.robot.yaml --gazebo classic     with sensors for Gazebo Classic
   linkforge compile arm.robot.yaml --variant sim        with the values of one of its variants
-  linkforge compile arm.robot.yaml -o build/ --source-map   and what wrote each line, in build/arm.urdf.map.json
-  linkforge compile arm.robot.yaml -o urdf/ --check     write nothing; fail where urdf/arm.urdf is not up to date
-  linkforge compile arm.robot.yaml -o arm.urdf --depfile arm.urdf.d     and what it was made from, for Make and Ninja
+  linkforge compile arm.robot.yaml -o build/ --source-map   and the source of each line, in build/arm.urdf.map.json
+  linkforge compile arm.robot.yaml -o urdf/ --check     write nothing; fail if urdf/arm.urdf is out of date
+  linkforge compile arm.robot.yaml -o arm.urdf --depfile arm.urdf.d     and its dependencies, for Make and Ninja
   linkforge compile - < arm.robot.yaml                  from standard input
   linkforge compile arm.robot.yaml --template docs/templates -o docs/     docs/joints.md, of docs/templates/joints.md.j2
 
---template FOLDER writes NAME for each Jinja2 template NAME.j2 at the top of FOLDER, in place of URDF and SRDF. These
-are written where --format or -o FILE asks for them, or FOLDER has no such template; templates in FOLDER/urdf/ and
-FOLDER/srdf/ then replace linkforge's own. docs/templates.md describes what a template is given.
+--template FOLDER writes NAME for each Jinja2 template NAME.j2 at the top of FOLDER, instead of URDF and SRDF. With
+--format or -o FILE for one of these, or if FOLDER has no such template, URDF and SRDF are written, and templates in
+FOLDER/urdf/ and FOLDER/srdf/ replace linkforge's own. docs/templates.md describes the data of a template.
 """
 
 
@@ -42,33 +42,33 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     add_build_arguments(parser)
     parser.add_argument(
-        "--check", action="store_true", help="write nothing, and fail where a file is not what the spec compiles to"
+        "--check", action="store_true", help="write nothing, and fail if a file differs from what the spec compiles to"
     )
 
 
 def add_build_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add what is said of each compile, be it the only one or one of many."""
+    """Add the arguments that `compile` and `watch` share."""
     add_spec_and_values(parser)
     add_target_options(parser)
     parser.add_argument(
         "--source-map",
         action="store_true",
-        help="write FILE.map.json beside each file, for `linkforge where FILE:LINE` to tell what wrote the line",
+        help="write FILE.map.json beside each file, with which `linkforge where FILE:LINE` finds what wrote a line",
     )
     parser.add_argument(
         "--template",
         metavar="FOLDER",
-        help="write what the Jinja2 templates NAME.j2 in FOLDER make of the robot, in place of URDF and SRDF",
+        help="render the Jinja2 templates NAME.j2 in FOLDER, instead of URDF and SRDF",
     )
     parser.add_argument(
         "--depfile",
         metavar="FILE",
-        help="write what the output was made from, as a rule of Make, for a build to read; - for standard output",
+        help="write the dependencies of the output as a rule of Make, for a build to read; - for standard output",
     )
     parser.add_argument(
         "--installed-in",
         metavar="FOLDER",
-        help="where the URDF will lie beside what it names, that of -o unless said: meshes are looked for from there",
+        help="the final folder of the output, from which relative paths of meshes start (default: that of -o)",
     )
     add_spec_options(parser)
     add_report_options(parser)

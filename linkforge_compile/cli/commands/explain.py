@@ -1,4 +1,4 @@
-"""`linkforge explain`: where a value of the finished robot comes from, and what a diagnostic's code means."""
+"""`linkforge explain`: explains where a value of the robot comes from, or what a diagnostic means."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from linkforge_compile.export_spec import ComputedFrom, Explanation, UnknownPathError
 
 _EXAMPLES = """\
-PATH is that of the value in the finished robot: the language's keys in their long form, and final names.
+PATH is the path of the value in the finished robot, with the language's keys in their long form and final names.
 
 examples:
   linkforge explain cell.robot.yaml joints/left_elbow/limits/effort
@@ -79,7 +79,7 @@ def _explain_value(arguments: argparse.Namespace) -> int:
         raise UsageError("takes a spec and a path, such as joints/elbow/limits/effort, or a code, such as LF4102")
     *specs, path = words
     compilation = compile_spec(require_one_spec(specs), assignments, arguments)
-    # Whoever asks of one value is not told of the rest of the spec, unless that leaves no robot to ask of.
+    # Warnings about the rest of the spec are not of interest here.
     arguments.quiet = True
     if report(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
@@ -94,21 +94,21 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     return OK
 
 
-_NOT_OF_A_ROBOT = {
+_ONLY_IN_SPECS = {
     "parameters": "`linkforge params` lists those of a spec",
     "variables": "a value that uses one tells of it",
     "modules": "what a module brings is among the links and joints, with its prefix",
     "mount": "the joint is among the `joints`",
     "defaults": "an entry that took one over tells of it",
 }
-"""Sections of a spec that the finished robot has no more, and where to look instead."""
+"""Sections of a spec that the finished robot does not have, with a hint where to look instead."""
 
 
 def _hint(error: UnknownPathError, robot: Robot, path: str) -> str:
     from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
 
-    if not error.owner and error.name in _NOT_OF_A_ROBOT:
-        return f", which is finished; {_NOT_OF_A_ROBOT[error.name]}"
+    if not error.owner and error.name in _ONLY_IN_SPECS:
+        return f", which is finished; {_ONLY_IN_SPECS[error.name]}"
     if not error.owner and error.name == "frames":
         return f", where a frame is a link and a fixed joint{_frame_hint(robot, path.strip('/').partition('/')[2])}"
     if hint := did_you_mean(error.name, error.names):
@@ -118,7 +118,7 @@ def _hint(error: UnknownPathError, robot: Robot, path: str) -> str:
 
 
 def _frame_hint(robot: Robot, path: str) -> str:
-    """Return where what is asked of a frame stands in the robot: its pose and all else is that of the joint."""
+    """Return a hint to the joint of a frame, which has its pose and other values."""
     found = [joint for joint in robot.joints if f"{path}/".startswith(f"{joint.child}/")]
     if not found:
         return ""

@@ -1,4 +1,4 @@
-"""`linkforge watch`: compile a spec, and again whenever something changes that it is made from."""
+"""`linkforge watch`: compiles a spec, and again whenever one of its files changes."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-_SECONDS = 0.3
-"""Between two looks at the files: less than a person takes from the editor to the other window."""
+_POLL_INTERVAL = 0.3
+"""Time between two polls of the files [s]."""
 
-_SETTLED = 0.05
-"""For how long nothing more must change [s]: an editor may write a file in steps, and several at once."""
+_SETTLE_TIME = 0.05
+"""Time without another change before compiling [s], because an editor may write files in several steps."""
 
 _EXAMPLES = """\
-A spec with errors is told and the old output left; the next change compiles again. It ends with Ctrl-C.
+Errors are reported and leave the old output; the next change compiles again. Press Ctrl-C to end it.
 
 examples:
   linkforge watch arm.robot.yaml -o build/
@@ -37,9 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     compile_command.add_build_arguments(parser)
     parser.usage = "linkforge watch [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
-    parser.add_argument(
-        "--then", metavar="COMMAND", help="a command of the shell that is run after each compile without errors"
-    )
+    parser.add_argument("--then", metavar="COMMAND", help="a shell command to run after each compile without errors")
     parser.set_defaults(check=False)
 
 
@@ -59,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
         if exit_code == OK and arguments.then is not None:
             _run_then(arguments)
         print_status(f"watching {_listed(watcher.paths)}; Ctrl-C ends", arguments)
-        # What the command of --then takes away is not missed.
+        # Outputs that the command of --then removed need not be written again.
         outputs = [path for path in request.targets.paths.values() if path and path.exists()] if exit_code == OK else []
         changed, gone = _wait(watcher, outputs)
         if changed:
@@ -73,7 +71,7 @@ def _build(request: BuildRequest, watcher: FileWatcher, arguments: argparse.Name
     began = time.time_ns()
     compilation = compile_request(request, arguments)
     files = (*compilation.files, *compilation.unread)
-    # Before anything that may fail or take its time: what changes meanwhile is to be seen.
+    # Start before rendering, so that a file that changes meanwhile is noticed.
     watcher.track(files, began)
     try:
         return write_outputs(request, compilation, arguments)
@@ -82,18 +80,18 @@ def _build(request: BuildRequest, watcher: FileWatcher, arguments: argparse.Name
 
 
 def _templates(request: BuildRequest) -> tuple[Path, ...]:
-    """Return the templates that were read or looked for, and the folder, to which one may be added."""
+    """Return the templates that were read or not found, and their folder, to which the user may add one."""
     folder = request.templates
     if folder is None:
         return ()
-    # What is written into the folder itself would change it again and again.
+    # If outputs are written into the folder itself, each compile changes it.
     outputs = (path for path in request.targets.paths.values() if path is not None)
     is_written = any(identity(path.parent) == identity(folder.folder) for path in outputs)
     return (*folder.files, *folder.unread, *(() if is_written else (folder.folder,)))
 
 
 def _build_again(watcher: FileWatcher, arguments: argparse.Namespace) -> int:
-    """Build, and tell of what cannot be done where the first build would end: it is mended while we watch."""
+    """Build, and report a usage error instead of ending, because the user may correct its cause."""
     try:
         return _build(compile_command.parse_request(arguments), watcher, arguments)
     except UsageError as error:
@@ -102,15 +100,15 @@ def _build_again(watcher: FileWatcher, arguments: argparse.Namespace) -> int:
 
 
 def _wait(watcher: FileWatcher, outputs: Sequence[Path]) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
-    """Wait until something changes, or an output is gone, and nothing more does; return what did, and what is gone."""
+    """Wait for changed files or deleted outputs, then until nothing else changes; return both."""
     changed: tuple[Path, ...] = ()
     gone: tuple[Path, ...] = ()
     while not changed and not gone:
-        time.sleep(_SECONDS)
+        time.sleep(_POLL_INTERVAL)
         changed = watcher.poll()
         gone = tuple(path for path in outputs if not path.exists())
     while True:
-        time.sleep(_SETTLED)
+        time.sleep(_SETTLE_TIME)
         more = watcher.poll()
         if not more:
             return changed, gone
