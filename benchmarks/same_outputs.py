@@ -83,7 +83,9 @@ def inputs(folders: list[Path]) -> Iterator[Path]:
 
 def run_all(robots: list[Path], code: Path) -> dict[str, str]:
     """Return the digest of each command's messages and files, by robot and command."""
-    environment = os.environ | {"PYTHONPATH": str(code.resolve()), "LINKFORGE_LIMITS": "1", "COLUMNS": "100"}
+    # A safe path leaves out the current folder, whose linkforge would be imported before that of `code`.
+    paths = {"PYTHONPATH": str(code.resolve()), "PYTHONSAFEPATH": "1"}
+    environment = os.environ | paths | {"LINKFORGE_LIMITS": "1", "COLUMNS": "100"}
     outputs = {}
     with (
         tempfile.TemporaryDirectory() as folder,
