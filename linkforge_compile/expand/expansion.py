@@ -1,51 +1,56 @@
-"""Every use of every file, all that it says computed: for a robot that has expressions or modules."""
+"""Expand each use of each file: compute its tree, apply defaults and overrides, and go on with its modules."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.modules import (
-    MODULES_NOT_MAP,
-    SRDF_BESIDE_SPEC,
-    USE_CIRCLE,
-    USE_TOO_DEEP,
-)
+from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CIRCLE, USE_TOO_DEEP
+from linkforge_compile.expand.annotating_sink import with_use_trace
 from linkforge_compile.expand.arguments import Arguments, Unset
-from linkforge_compile.expand.assembly import Instance, count_entries, own_name, robot_part
-from linkforge_compile.expand.evaluate_tree import Expressions, TreeEvaluator
-from linkforge_compile.expand.given import Given
+from linkforge_compile.expand.assembly import Instance, charge_entries, own_name, robot_part
+from linkforge_compile.expand.bound_arguments import BoundArguments
+from linkforge_compile.expand.evaluate import Expressions
+from linkforge_compile.expand.expand_tree import expand_node
+from linkforge_compile.expand.file_functions import references_left
+from linkforge_compile.expand.file_scope import CompileState, FileScope, FileUse
 from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.mesh_files import MakeSite, mesh_finder
-from linkforge_compile.expand.module_entry import ModuleEntry, found, read_entry
-from linkforge_compile.expand.names import FileNames, Shared, UseOfFile
-from linkforge_compile.expand.noted import used_from
-from linkforge_compile.expand.own_names import asked_in
-from linkforge_compile.expand.uses import SPEC_ENDINGS, XACRO, UseSite, locate, mesh_base, name_from, open_use
-from linkforge_compile.expand.variants import tell_unknown_variant, variants_of
+from linkforge_compile.expand.modules import ModuleEntry, read_modules
+from linkforge_compile.expand.uses import (
+    SPEC_ENDINGS,
+    XACRO,
+    MakeSite,
+    PathSite,
+    locate,
+    mesh_base,
+    mesh_finder,
+    name_from,
+    open_use,
+)
+from linkforge_compile.expand.variants import report_unknown_variant, variants_of
 from linkforge_compile.expressions import FAULT, Fault
-from linkforge_compile.schema.shapes import FREE, shapes
-from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.syntax import YamlFault, YamlMap, YamlScalar
+from linkforge_compile.schema.shapes import shapes
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax import YamlMap, YamlScalar
 
 if TYPE_CHECKING:
-    from linkforge_compile.expand.xacro import XacroUse
+    from linkforge_compile.expand.xacro_use import XacroUse
 
 MAX_DEPTH = 50
 
 
-def expanded(
+def expand_uses(
     spec: SpecFile, arguments: Arguments, loader: Loader, sink: Diagnostics, *, unset: Unset, variant: str | None
 ) -> Instance:
-    """Compute every expression of a file and of the modules it uses; see `expand`."""
+    """Compute every expression of a file and of the modules that it uses; see `expand`."""
     if variant is not None and variant not in variants_of(spec):
-        tell_unknown_variant(variant, spec, sink)
-        # Nobody knows what it would have set.
+        report_unknown_variant(variant, spec, sink)
+        # It may have set parameters, so missing ones are not reported.
         arguments = replace(arguments, is_partial=True)
-    shared = Shared(spec, loader, Expressions(loader.budget), unset, variant)
-    return _Expansion(spec, shared, sink).instance(_Use(spec, Given(arguments, sink)))
+    state = CompileState(spec, loader, Expressions(loader.budget), unset, variant)
+    return _Expansion(state, sink).expand(_Use(spec, BoundArguments(arguments, sink)))
 
 
 @dataclass(frozen=True)
@@ -53,196 +58,165 @@ class _Use:
     """One use of a file: by an entry in the file of the `outer` use, or the compiled file itself."""
 
     spec: SpecFile
-    given: Given
+    bound: BoundArguments
     entry: ModuleEntry | None = None
     outer: _Use | None = None
-    sites_around: Mapping[SourceFile, MakeSite] = field(default_factory=dict)
+    outer_sites: Mapping[SourceFile, MakeSite] = field(default_factory=dict)
 
     @property
     def chain(self) -> tuple[_Use, ...]:
-        """The use itself and those around it, the compiled file last."""
+        """The use itself and those around it, that of the compiled file last."""
         return (self, *self.outer.chain) if self.outer else (self,)
 
     @property
     def prefix(self) -> str | Fault:
-        """What is put before every name of the file in the end; FAULT where a part of it is at fault."""
+        """The full prefix of the names of the file; FAULT if a part of it is faulty."""
         if self.entry is None or self.outer is None:
             return ""
         outer = self.outer.prefix
         return outer + self.entry.prefix if self.entry.is_named and not isinstance(outer, Fault) else FAULT
 
     @property
-    def trail(self) -> tuple[Span, ...]:
-        """Every `use` that led here, the last one first."""
-        return tuple(use.given.use for use in self.chain if use.given.use)
+    def include_stack(self) -> tuple[Span, ...]:
+        """The `use` of this file and of those around it, the innermost first."""
+        return tuple(use.bound.use for use in self.chain if use.bound.use)
+
+    def sites(self, scope: FileScope) -> dict[SourceFile, MakeSite]:
+        """Return how to read paths that this use's files or those around it wrote."""
+        return {**self.outer_sites, **dict.fromkeys((self.spec.file, *self.spec.included), scope.builtins.site)}
 
 
 class _Expansion:
-    """One compile: what all its uses share, and how many there are."""
+    """One compile: its shared state, and the files used so far."""
 
-    def __init__(self, compiled: SpecFile, shared: Shared, sink: Diagnostics) -> None:
-        self._compiled = compiled
-        self._shared = shared
+    def __init__(self, state: CompileState, sink: Diagnostics) -> None:
+        self._state = state
         self._sink = sink
         self._used: set[SourceFile] = set()
 
-    def instance(self, use: _Use) -> Instance:
+    def expand(self, use: _Use) -> Instance:
         """Expand one use of one file, and all that it uses."""
         if use.spec.file in self._used:
-            self._shared.expressions.write_again(use.spec.tree, use.given.use or use.spec.file.whole)
+            self._state.expressions.charge_copy(use.spec.tree, use.bound.use or use.spec.file.whole)
         self._used.add(use.spec.file)
-        file = UseOfFile(use.spec, use.given, use.prefix, use.trail)
-        names = FileNames(file, self._shared, used_from(self._sink, use.trail))
-        names.judge_parameters()
-        tree, defaults = _tree(use, names.tree), None
+        sink = with_use_trace(self._sink, use.include_stack)
+        scope = FileScope(FileUse(use.spec, use.bound, use.prefix, use.include_stack), self._state, sink)
+        scope.check_parameters()
+        tree = expand_node(robot_part(use.spec.tree), scope.evaluator, shapes())
+        assert isinstance(tree, YamlMap), "a map that is computed is a map"
+        defaults = None
         if use.spec.tree.get("defaults") is not None:
-            from linkforge_compile.expand.defaults import defaults_of, with_defaults
+            from linkforge_compile.expand.defaults import compute_defaults, with_defaults
 
-            defaults = defaults_of(use.spec.tree, names.tree)
+            defaults = compute_defaults(use.spec.tree, scope.evaluator)
             tree = with_defaults(tree, defaults) if defaults else tree
-        entries, removed = tuple(_entries(use, names.tree)), names.tree.disabled.removed
-        asked = names.own.asked
+        entries = tuple(read_modules(use.spec, scope.evaluator, use.include_stack))
+        removed, references = scope.evaluator.disabled.deleted, scope.builtins.references
         if use.entry and use.entry.overrides:
-            from linkforge_compile.expand.module_overrides import Body
+            from linkforge_compile.expand.module_override import ModuleBody
 
-            body = Body(tree, entries, removed).under(*use.entry.overrides)
-            asked = asked_in(asked, tree, body.tree) if asked else asked
+            body = ModuleBody(tree, entries, removed).with_overrides(use.entry.overrides)
+            references = references_left(references, tree, body.tree) if references else references
             tree, entries, removed = body.tree, body.entries, body.removed
-        count_entries(tree, len(use.chain), self._shared.loader.budget, use.given.use)
-        modules = tuple(self._module(entry, use, names) for entry in entries)
-        names.judge_unused_variables()
-        if use.entry is None:
-            instance = Instance(own_name(tree), tree)
-        else:
-            instance = Instance(use.entry.name, tree, use.entry.ref, use.entry.prefix, trail=use.trail)
-        return replace(
-            instance,
+        charge_entries(tree, len(use.chain), self._state.loader.budget, use.bound.use)
+        modules = tuple(self._expand_module(entry, use, scope) for entry in entries)
+        scope.check_unused_variables()
+        return Instance(
+            use.entry.name if use.entry else own_name(tree),
+            tree,
+            entry=use.entry.ref if use.entry else None,
+            prefix=use.entry.prefix if use.entry else "",
             mesh_bases=self._mesh_bases(use),
-            find_mesh=mesh_finder(_sites(use, names), self._shared.loader),
+            include_stack=use.include_stack,
             modules=modules,
-            references=asked,
+            references=references,
+            find_mesh=mesh_finder(use.sites(scope), self._state.loader),
             removed=removed,
-            packages=names.packages,
+            packages=scope.packages,
             defaults=defaults,
         )
 
     def _mesh_bases(self, use: _Use) -> dict[SourceFile, str]:
-        """Return what makes a path of the compiled file of one that this use's files wrote, or those around it."""
         files = [part for one in reversed(use.chain) for part in (one.spec, *one.spec.included.values())]
-        return {part.file: mesh_base(part, self._compiled) for part in files if part.folder is not None}
+        return {part.file: mesh_base(part, self._state.compiled) for part in files if part.folder is not None}
 
-    def _module(self, entry: ModuleEntry, outer: _Use, names: FileNames) -> Instance:
+    def _expand_module(self, entry: ModuleEntry, outer: _Use, scope: FileScope) -> Instance:
         if entry.use is None:
             return _unread(entry)
-        sink = names.tree.sink
-        spec, arguments = self._robot(entry, names.own.site(entry.use.text, entry.use.span), names)
+        sink = scope.evaluator.sink
+        spec, arguments = self._open_robot(entry, scope.builtins.site(entry.use.text, entry.use.span), scope)
         if spec is None:
             return _unread(entry)
-        given = Given(arguments, sink, entry.tree, entry.use.span)
-        use = _Use(spec, given, entry, outer, _sites(outer, names))
-        instance = self.instance(use) if self._is_bounded(use, sink) else None
+        bound = BoundArguments(arguments, sink, entry.evaluator, entry.use.span)
+        use = _Use(spec, bound, entry, outer, outer.sites(scope))
+        instance = self.expand(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
 
-    def _robot(self, entry: ModuleEntry, site: UseSite, names: FileNames) -> tuple[SpecFile | None, Arguments]:
-        """Return the file that an entry uses, and the arguments that are left for it.
-
-        Those of a xacro are spent on it, and on that of its SRDF: both take what they have of them.
-        """
-        loader, sink = self._shared.loader, names.tree.sink
+    def _open_robot(self, entry: ModuleEntry, site: PathSite, scope: FileScope) -> tuple[SpecFile | None, Arguments]:
+        """Return the file that an entry uses with its SRDF merged, and the arguments that no xacro has used."""
+        loader, sink = self._state.loader, scope.evaluator.sink
         srdf = entry.ref.node.child("srdf")
         if not isinstance(srdf, YamlScalar):
-            return self._opened(entry, site, frozenset(), sink)
+            return self._open(entry, site, frozenset(), sink)
         if site.text.lower().endswith(SPEC_ENDINGS):
             sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
             return None, entry.arguments
         from linkforge_compile.expand.semantic import open_semantic, with_semantic
 
-        beside = self._to_expand(names.own.site(srdf.text, srdf.span), entry, sink)
-        semantic = open_semantic(beside, loader, sink) if beside else None
-        taken = semantic.arguments if semantic else None if beside else frozenset[str]()
-        spec, arguments = self._opened(entry, site, taken, sink)
-        if spec is None or semantic is None or beside is None:
+        srdf_use = self._xacro_use(scope.builtins.site(srdf.text, srdf.span), entry, sink)
+        semantic = open_semantic(srdf_use, loader, sink) if srdf_use else None
+        # An SRDF that cannot be read may have used any argument.
+        used = semantic.arguments if semantic else None if srdf_use else frozenset[str]()
+        spec, arguments = self._open(entry, site, used, sink)
+        if spec is None or semantic is None or srdf_use is None:
             return None, arguments
-        return with_semantic(spec, semantic, beside, loader, sink), arguments
+        return with_semantic(spec, semantic, srdf_use, loader, sink), arguments
 
-    def _opened(
-        self, entry: ModuleEntry, site: UseSite, taken: frozenset[str] | None, sink: Diagnostics
+    def _open(
+        self, entry: ModuleEntry, site: PathSite, used: frozenset[str] | None, sink: Diagnostics
     ) -> tuple[SpecFile | None, Arguments]:
-        """Return the file at a site, and the arguments that are left for it of those that its SRDF has not `taken`.
-
-        None for an SRDF that could not be read: it may have taken any.
-        """
-        loader = self._shared.loader
+        """Return the file at a site, and the arguments left for it; its SRDF has `used` some, None if unknown."""
+        loader = self._state.loader
         if not site.text.lower().endswith(XACRO):
-            return open_use(site, loader, sink), entry.arguments.without(taken or ())
+            return open_use(site, loader, sink), entry.arguments.without(used or ())
         from linkforge_compile.expand.xacro import open_xacro
 
-        xacro = self._to_expand(site, entry, sink)
-        return open_xacro(replace(xacro, taken=taken), loader, sink) if xacro else None, Arguments()
+        xacro = self._xacro_use(site, entry, sink)
+        return open_xacro(replace(xacro, used_elsewhere=used), loader, sink) if xacro else None, Arguments()
 
-    def _to_expand(self, site: UseSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
-        """Return the use of a file with the arguments of an entry."""
-        from linkforge_compile.expand.xacro import XacroUse
+    def _xacro_use(self, site: PathSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
+        from linkforge_compile.expand.xacro_use import XacroUse
 
-        target = locate(site, self._shared.loader, sink)
+        target = locate(site, self._state.loader, sink)
         if target is None:
             return None
-        return XacroUse(target.path, site.used, entry.arguments, entry.tree, site.packages, target.package)
+        return XacroUse(target.path, site.used, entry.arguments, entry.evaluator, site.packages, target.package)
 
     def _is_bounded(self, use: _Use, sink: Diagnostics) -> bool:
-        """Whether a use leads on and to an end; reports why not."""
-        where = use.given.use
-        chain = use.chain
-        files = [other.spec.file for other in chain]
+        """Whether a use is neither circular nor too deep; reports why not."""
+        files = [other.spec.file for other in use.chain]
         if use.spec.file in files[1:]:
-            sink.report(_circle(chain[: files.index(use.spec.file, 1) + 1], self._compiled))
-        elif len(chain) > MAX_DEPTH:
-            sink.report(USE_TOO_DEEP.at(where, limit=MAX_DEPTH))
+            sink.report(_circle(use.chain[: files.index(use.spec.file, 1) + 1], self._state.compiled))
+        elif len(files) > MAX_DEPTH:
+            sink.report(USE_TOO_DEEP.at(use.bound.use, limit=MAX_DEPTH))
         else:
             return True
         return False
 
 
-def _sites(use: _Use, names: FileNames) -> dict[SourceFile, MakeSite]:
-    """Return how paths are read that a use's files wrote, and those around it."""
-    return {**use.sites_around, **dict.fromkeys((use.spec.file, *use.spec.included), names.own.site)}
-
-
-def _tree(use: _Use, tree: TreeEvaluator) -> YamlMap:
-    """Return what a file says of the robot, computed, without its defaults."""
-    computed = tree.node(robot_part(use.spec.tree), shapes())
-    assert isinstance(computed, YamlMap), "a map that is computed is a map"
-    return computed
-
-
-def _entries(use: _Use, tree: TreeEvaluator) -> Iterator[ModuleEntry]:
-    """Yield the entries of `modules`, each as often as it says; one without a name for what nobody can read."""
-    written = use.spec.tree.get("modules")
-    shape = shapes().under("modules")
-    section = tree.node(written, shape, key="modules") if isinstance(written, YamlScalar) else written
-    if isinstance(section, YamlMap):
-        shape = shape if section is written else FREE
-        for scope, entry in tree.entries(section, shape):
-            yield read_entry(entry, scope, use.spec.writer(entry.key.span).folder, use.trail)
-    elif section is not None and not (isinstance(section, YamlScalar) and section.value is None):
-        if not isinstance(section, YamlFault):
-            tree.sink.report(MODULES_NOT_MAP.at(section.span, found=found(section)))
-        yield ModuleEntry("", SourceRef(YamlFault(section.span), None, use.trail), is_named=False)
-
-
 def _unread(entry: ModuleEntry) -> Instance:
-    """Return what stands for a module that could not be had; its arguments are judged, whatever they were for."""
-    if entry.tree:
+    """Return the Instance of a module that cannot be read; faults in its arguments are still reported."""
+    if entry.evaluator:
         for argument in entry.arguments.entries.values():
-            entry.tree.value(argument.value)
+            entry.evaluator.value(argument.value)
     return Instance(entry.name, None, entry.ref, entry.prefix if entry.is_named else "")
 
 
 def _circle(chain: tuple[_Use, ...], compiled: SpecFile) -> Diagnostic:
-    """Tell of a chain of uses, the last one first, that ends in the file with which it begins."""
+    """Return the diagnostic for a chain of uses, the innermost first, that ends in the file it starts with."""
     path = [name_from(use.spec, compiled) for use in reversed(chain)]
     notes = [
-        Note(f"'{name}' is used here", use.given.use)
+        Note(f"'{name}' is used here", use.bound.use)
         for name, use in zip(path[1:-1], reversed(chain[1:-1]), strict=True)
     ]
-    return USE_CIRCLE.at(chain[0].given.use, path=" → ".join(path), notes=notes)
+    return USE_CIRCLE.at(chain[0].bound.use, path=" → ".join(path), notes=notes)

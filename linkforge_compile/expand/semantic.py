@@ -1,4 +1,4 @@
-"""An SRDF beside a vendor's robot, or the xacro of one: the two make one spec."""
+"""Merge the SRDF that `srdf` names into the URDF or xacro robot of the same module."""
 
 from __future__ import annotations
 
@@ -7,23 +7,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.expand.annotating_sink import with_use_trace
 from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.noted import used_from
 from linkforge_compile.expand.packages import Package
 from linkforge_compile.expand.uses import XACRO
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlMap
 
 if TYPE_CHECKING:
-    from linkforge_compile.expand.xacro import XacroUse
+    from linkforge_compile.expand.xacro_use import XacroUse
     from linkforge_compile.importers.document import Move
 
 
 class Semantic(NamedTuple):
-    """An SRDF in a folder, as `package` was walked to it: its text, which a xacro was expanded to.
+    """The text of an SRDF, expanded if it is a xacro, in a folder that was reached through `package`.
 
-    `moved` puts the elements where they were written, None for where they are. `files` are those in which they were
-    written, and `arguments` the names of those that a xacro takes.
+    `moved` gives its elements the places where they were written in `files`, None for a text that was not expanded.
+    `arguments` are the names of those that a xacro uses.
     """
 
     text: SourceFile
@@ -35,15 +35,15 @@ class Semantic(NamedTuple):
 
 
 def open_semantic(use: XacroUse, loader: Loader, sink: Diagnostics) -> Semantic | None:
-    """Read an SRDF, and expand it if it is a xacro; None where it cannot be had, which is reported."""
+    """Read an SRDF, expanded if it is a xacro; None after a reported error."""
     folder = use.path.parent
     if use.path.suffix.lower() != XACRO:
         file = loader.open_xml(use.path, sink, use.used if use.used.where else None)
         return Semantic(file, (file,), folder, use.package) if file else None
     from linkforge_compile.expand.xacro import expand_xacro
 
-    # The URDF is read next, and tells of arguments that neither takes.
-    expansion = expand_xacro(replace(use, taken=None), loader, sink)
+    # The URDF, which is read next, reports arguments that neither of the two uses.
+    expansion = expand_xacro(replace(use, used_elsewhere=None), loader, sink)
     if expansion is None:
         return None
     return Semantic(expansion.text, expansion.files, folder, use.package, expansion.moved, expansion.arguments)
@@ -52,25 +52,25 @@ def open_semantic(use: XacroUse, loader: Loader, sink: Diagnostics) -> Semantic 
 def with_semantic(
     spec: SpecFile, semantic: Semantic, use: XacroUse, loader: Loader, sink: Diagnostics
 ) -> SpecFile | None:
-    """Return a vendor's robot with what its SRDF says, which `use` names; None where it is none, as is reported."""
+    """Return a robot with its SRDF merged; None after a reported error. `use` names the SRDF."""
     from linkforge_compile.importers.comments import Comments
     from linkforge_compile.importers.document import Imported
     from linkforge_compile.importers.srdf import with_srdf
 
-    def together(tree: YamlMap) -> SpecFile:
+    def merged(tree: YamlMap) -> SpecFile:
         parts = {file: SpecFile(file, tree, semantic.folder, semantic.package) for file in semantic.files}
         return replace(spec, tree=tree, included={**spec.included, **parts})
 
     def judged(tree: YamlMap) -> _Judged:
-        return _Judged(loader.judge(together(tree), loader))
+        return _Judged(loader.check_spec(merged(tree), loader))
 
     imported = Imported(spec.tree, Comments({}, {}))
-    inside = used_from(sink, (use.used.where,) if use.used.where else ())
+    inside = with_use_trace(sink, (use.used.where,))
     read = with_srdf(imported, semantic.text, judged, inside, semantic.moved)
-    return together(read[0].tree) if read else None
+    return merged(read[0].tree) if read else None
 
 
 class _Judged(NamedTuple):
-    """The errors of a vendor's robot by itself: what of its SRDF they are told of is kept raw, as an import does."""
+    """The errors of a robot with its SRDF, as `with_srdf` needs them."""
 
     faults: tuple[Diagnostic, ...]

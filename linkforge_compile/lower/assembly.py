@@ -45,7 +45,7 @@ def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids, shared: 
     if instance.tree is None:
         return Lowered(None, (), UnresolvedNames(prefixes=("",)))
     reader = MeshReader(instance.find_mesh, meshes)
-    file = lower_file(instance.tree, instance.mesh_bases, instance.trail, sink, reader)
+    file = lower_file(instance.tree, instance.mesh_bases, instance.include_stack, sink, reader)
     robot, is_alone = file.robot, instance.entry is None
     # Only a module takes a prefix. What it says without one is looked for before others are joined to it.
     passed_on = None if is_alone else _passed_on(robot, instance, is_shared=instance.tree.span.file in shared)
@@ -62,7 +62,7 @@ def _lowered(instance: Instance, sink: Diagnostics, meshes: MeshSolids, shared: 
         lowered = replace(
             lowered, unresolved=lowered.unresolved | _resolve_states(robot, file.states, mounts, lowered.unresolved)
         )
-    if is_alone and robot.says_semantic:
+    if is_alone and robot.has_semantic:
         from linkforge_compile.lower.srdf_order import side_by_side
 
         robot.semantic = side_by_side(robot.semantic)
@@ -105,7 +105,7 @@ def _judge_references(instance: Instance, lowered: Lowered, sink: Diagnostics) -
 
         joints: dict[str, Joint | None] = {joint.name: joint for joint in lowered.robot.joints}
         joints |= {lowered.mount.name: lowered.mount.joint} if lowered.mount else {}
-        judge_positions_elsewhere(Fields(instance.tree, "robot", sink, instance.trail), joints)
+        judge_positions_elsewhere(Fields(instance.tree, "robot", sink, instance.include_stack), joints)
     if instance.references:
         from linkforge_compile.lower.asked_names import tell_unknown_names
 
@@ -118,4 +118,6 @@ def _passed_on(robot: Robot, instance: Instance, *, is_shared: bool) -> PassedOn
         return None
     from linkforge_compile.lower.unprefixed import passed_on
 
-    return passed_on(robot, instance.tree, instance.prefix, {use.file for use in instance.trail}, is_shared=is_shared)
+    return passed_on(
+        robot, instance.tree, instance.prefix, {use.file for use in instance.include_stack}, is_shared=is_shared
+    )

@@ -54,7 +54,7 @@ def _faults(defaults: YamlMap, instance: Instance) -> Iterator[Diagnostic]:
     if entries is None:
         return
     sink = Diagnostics()
-    file = Fields(entries, "defaults", sink, instance.trail)
+    file = Fields(entries, "defaults", sink, instance.include_stack)
     deque(lower_links(file, FileScope()), maxlen=0)
     deque(file.each("joints", "joint", read_joint_of_any_type), maxlen=0)
     sensors_of(file)

@@ -129,7 +129,7 @@ class Joining:
         The joint by which it hangs is added apart, for its parent may be a link of a module that comes later.
         """
         self._sink.report_all(self._attributes_that_stay(component, module))
-        if held is not None and component.says_semantic:
+        if held is not None and component.has_semantic:
             self._leave_out_virtual_joints(component, held, module.prefix)
         parts = dict(_parts(component))
         materials = [("material", name) for name in component.materials if name not in self._robot.materials]
@@ -147,7 +147,7 @@ class Joining:
     def _attributes_that_stay(self, component: Robot, module: Instance) -> Iterator[Diagnostic]:
         """Yield what a module says of the whole robot that this file says otherwise."""
         whole = [("the robot", dict(self._robot.extra_attributes), dict(component.extra_attributes))]
-        if self._robot.says_semantic and component.says_semantic:
+        if self._robot.has_semantic and component.has_semantic:
             own, other = self._robot.semantic, component.semantic
             whole.append(("the SRDF", dict(own.extra_attributes), dict(other.extra_attributes)))
         for owner, ours, theirs in whole:
@@ -211,7 +211,7 @@ def _parts(robot: Robot) -> Iterator[tuple[PartKey, SourceRef | None]]:
     ):
         for part in parts:
             yield (kind, part.name), part.source
-    if robot.says_semantic:
+    if robot.has_semantic:
         yield from _semantic_parts(robot.semantic)
 
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.diagnostics import UnresolvedNames
-from linkforge_compile.expand.mesh_files import no_mesh
-from linkforge_compile.expand.path_starts import written_place
-from linkforge_compile.expand.uses import from_base
+from linkforge_compile.expand.paths import path_base
+from linkforge_compile.expand.uses import from_base, no_mesh
 from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.ref import Located
@@ -29,4 +28,4 @@ class FileScope:
 
     def resource(self, path: str, node: Located) -> str:
         """Return a relative path, which stands at a node, as the compiled file would; any other path as written."""
-        return from_base(path, self.mesh_bases.get(written_place(node).file, ""))
+        return from_base(path, self.mesh_bases.get(path_base(node).file, ""))

@@ -157,7 +157,7 @@ def run(arguments: argparse.Namespace) -> int:
         sides,
         tolerance,
         semantic,
-        not semantic and (before.says_semantic or after.says_semantic),
+        not semantic and (before.has_semantic or after.has_semantic),
         not_read_back,
         compare(before, after, tolerance=tolerance, semantic=semantic),
         vanished(before, after, semantic=semantic),

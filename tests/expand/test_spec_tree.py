@@ -7,7 +7,7 @@ import pytest
 
 from linkforge_compile import compile_file, compile_text, render_urdf
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand import trees
+from linkforge_compile.expand import spec_tree
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 
@@ -17,7 +17,7 @@ WRIST = "joints: {wrist: {type: fixed, parent: base, child: palm}}"
 
 @pytest.fixture(autouse=True)
 def nothing_remembered(monkeypatch):
-    monkeypatch.setattr(trees, "_faultless", trees._Memory())
+    monkeypatch.setattr(spec_tree, "_cache", spec_tree._TreeCache())
 
 
 @pytest.fixture
@@ -29,8 +29,8 @@ def texts_read(monkeypatch) -> list[str]:
         texts.append(source.text)
         return original(source, sink, budget)
 
-    original = trees.read
-    monkeypatch.setattr(trees, "read", read)
+    original = spec_tree.read
+    monkeypatch.setattr(spec_tree, "read", read)
     return texts
 
 
@@ -77,20 +77,20 @@ def test_what_is_remembered_is_counted_all_the_same():
     for _ in range(2):
         budget = Budget()
         whole = budget.left(Limit.VALUES)
-        assert trees.tree_of(trees.known_source(SourceFile("arm", ARM)), Diagnostics(), budget)
+        assert spec_tree.read_tree(spec_tree.cached_source(SourceFile("arm", ARM)), Diagnostics(), budget)
         spent.append(whole - budget.left(Limit.VALUES))
     assert spent[0] == spent[1] > 0
 
 
 def test_old_texts_are_forgotten(monkeypatch, texts_read):
-    monkeypatch.setattr(trees, "MOST_REMEMBERED", 3 * len(ARM))
+    monkeypatch.setattr(spec_tree, "MAX_CACHED_CHARACTERS", 3 * len(ARM))
     for name in ("one", "two", "three", "four", "four", "one"):
         compile_text(ARM, name=name)
     assert len(texts_read) == 5
 
 
 def test_a_text_that_is_too_large_to_remember_leaves_the_others(monkeypatch, texts_read):
-    monkeypatch.setattr(trees, "MOST_REMEMBERED", 3 * len(ARM))
+    monkeypatch.setattr(spec_tree, "MAX_CACHED_CHARACTERS", 3 * len(ARM))
     compile_text(ARM, name="one")
     compile_text(ARM + "#" * 3 * len(ARM), name="large")
     compile_text(ARM, name="one")

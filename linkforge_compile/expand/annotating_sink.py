@@ -1,4 +1,4 @@
-"""A sink that tells, with every fault, what the reader must know besides: who used this file, who declared this."""
+"""Add notes to diagnostics on their way into a sink: who uses this file, who declares this parameter."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from linkforge_compile.source import Span
 from linkforge_compile.source.provenance import uses_in
 
 
-class NotedSink(Diagnostics):
-    """Hands each diagnostic on to another sink with notes behind its own."""
+class AnnotatingSink(Diagnostics):
+    """Pass each diagnostic on to another sink, with notes appended to its own."""
 
     def __init__(self, sink: Diagnostics, notes: Iterable[Note]) -> None:
         super().__init__()
@@ -22,6 +22,7 @@ class NotedSink(Diagnostics):
         self._sink.report(replace(diagnostic, notes=(*diagnostic.notes, *self._notes)))
 
 
-def used_from(sink: Diagnostics, trail: tuple[Span, ...]) -> Diagnostics:
-    """Return a sink for what stands in a file that was brought in by a trail of uses."""
-    return NotedSink(sink, notes_of(uses_in(trail))) if trail else sink
+def with_use_trace(sink: Diagnostics, uses: Iterable[Span | None]) -> Diagnostics:
+    """Return a sink for a file that is reached through these uses, the innermost first; None stands for no use."""
+    notes = notes_of(uses_in(use for use in uses if use is not None))
+    return AnnotatingSink(sink, notes) if notes else sink

@@ -1,4 +1,4 @@
-"""The names that the expressions of a file may use: its parameters, its variables, and what is always there."""
+"""The scope of one use of a file: its parameters, variables and data, `name`, `standalone`, `prefix` and functions."""
 
 from __future__ import annotations
 
@@ -20,13 +20,12 @@ from linkforge_compile.diagnostics.codes.modules import (
     RESERVED_NAME,
 )
 from linkforge_compile.expand.arguments import Unset
-from linkforge_compile.expand.evaluate_tree import Expressions, TreeEvaluator
-from linkforge_compile.expand.given import Given, parameter_value, tell_unset
-from linkforge_compile.expand.kinds import KINDS
+from linkforge_compile.expand.bound_arguments import BoundArguments, parameter_value, report_unset
+from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
+from linkforge_compile.expand.expand_tree import expand_node
+from linkforge_compile.expand.file_functions import FileBuiltins
 from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.made_number import tell_made_quantity
 from linkforge_compile.expand.origins import Setting
-from linkforge_compile.expand.own_names import OwnNames
 from linkforge_compile.expand.parameters import Declaration, declarations
 from linkforge_compile.expand.paths import follow
 from linkforge_compile.expand.uses import from_base, mesh_base, rebased
@@ -41,12 +40,12 @@ from linkforge_compile.syntax.nodes import names_at_fault
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 _KINDS = {"parameters": "parameter", "variables": "variable", "data": "data name"}
-"""The sections that declare names, and what each is called."""
+"""The sections that declare names, and what each is called in messages."""
 
 
 @dataclass(frozen=True)
-class Shared:
-    """What all uses of all files in one compile share; `variant` is the one chosen for the compiled file."""
+class CompileState:
+    """What all uses in one compile share; `variant` is the one selected for the compiled file."""
 
     compiled: SpecFile
     loader: Loader
@@ -55,127 +54,131 @@ class Shared:
     variant: str | None = None
 
 
-class UseOfFile(NamedTuple):
-    """One use of a file: what it is given, its whole prefix (FAULT where that is at fault), and each `use` to it."""
+class FileUse(NamedTuple):
+    """One use of a file: its arguments, its full prefix (FAULT if that is faulty), and the uses that led to it."""
 
     spec: SpecFile
-    given: Given
+    bound: BoundArguments
     prefix: str | Fault = ""
-    trail: tuple[Span, ...] = ()
+    include_stack: tuple[Span, ...] = ()
 
 
-class FileNames:
-    """The scope of one use of a file; each name is computed when first used, in any order, and once."""
+class FileScope:
+    """The names of one use of a file; each value is computed when first used, in any order, and once."""
 
-    def __init__(self, use: UseOfFile, shared: Shared, sink: Diagnostics) -> None:
-        spec, given = use.spec, use.given
+    def __init__(self, use: FileUse, state: CompileState, sink: Diagnostics) -> None:
+        spec, bound = use.spec, use.bound
         self._spec = spec
-        self._path_base = "" if spec.folder is None else mesh_base(spec, shared.compiled)
-        self._given = given
-        self._loader = shared.loader
+        self._path_base = "" if spec.folder is None else mesh_base(spec, state.compiled)
+        self._bound = bound
+        self._loader = state.loader
         self._packages: dict[str, Path] | None = None
-        self._is_unset_told = shared.unset is Unset.ERROR or given.use is not None
-        self._variants = Variants() if given.use else Variants(variants_of(spec), shared.variant)
+        self._reports_unset = state.unset is Unset.ERROR or bound.use is not None
+        self._variants = Variants() if bound.use else Variants(variants_of(spec), state.variant)
         self.declared = declarations(spec.tree.get("parameters"))
         self._unset: list[Declaration] = []
         self._sink = sink
-        self._of_two: set[str] = set()
-        """The names that two sections declare: what is meant where they are used nobody knows, which has been told."""
+        self._ambiguous: set[str] = set()
+        """Names that two sections declare, which is reported; they have no value."""
         self._parameters = {
             name: Lazy(partial(self._parameter, declaration), declaration.key.span)
             for name, declaration in self.declared.items()
-            if self._is_name(declaration.key, "parameter")
+            if self._is_valid_name(declaration.key, "parameter")
         }
         self._variables = {name: self._lazy(self._variable, entry) for name, entry in self._entries("variables")}
         self._data = {name: self._lazy(self._data_value, entry) for name, entry in self._entries("data")}
-        always: dict[str, Value | Fault | Lazy] = {
+        self.builtins = FileBuiltins(spec, use.prefix, lambda: self.packages, state.loader, use.include_stack)
+        values: dict[str, Value | Fault | Lazy] = {
             "name": Lazy(self._name, spec.file.whole),
-            "standalone": given.use is None,
+            "standalone": bound.use is None,
             "prefix": use.prefix,
+            **self._variables,
+            **self._data,
+            **self._parameters,
+            **dict.fromkeys(self._ambiguous, FAULT),
         }
-        self.own = OwnNames(spec, use.prefix, lambda: self.packages, shared.loader, use.trail)
-        values = {**always, **self._variables, **self._data, **self._parameters, **dict.fromkeys(self._of_two, FAULT)}
-        scope = Scope(values, self._names_unread(), self.own.functions, self._loader.budget)
-        self.tree = TreeEvaluator(scope, shared.expressions, sink, self._paths_seen_from_elsewhere())
+        scope = Scope(values, self._unread_names(), self.builtins.functions, self._loader.budget)
+        self.evaluator = Evaluator(scope, state.expressions, sink, self._paths_elsewhere())
 
     @property
     def packages(self) -> Mapping[str, Path]:
-        """The folders that the file declares for packages, those that lead somewhere."""
+        """The package folders that the file and those around it declare."""
         if self._packages is None:
-            # None of them is found by way of another one: that may be the way back.
+            # Set before the declarations are computed, because computing them may look for packages.
             self._packages = dict(self._spec.packages)
             self._packages.update(self._declared_packages())
         return self._packages
 
     def _declared_packages(self) -> dict[str, Path]:
         section = self._spec.tree.get("packages")
-        declared = self.tree.node(section, shapes().under("packages"), key="packages") if section else None
+        shape = shapes().under("packages")
+        declared = expand_node(section, self.evaluator, shape, key="packages") if section else None
         folders = {}
         for entry in declared if isinstance(declared, YamlMap) else ():
             if isinstance(entry.value, YamlScalar):
-                folder, target = self._spec.writer(entry.value.span).folder, entry.value.text
+                folder, target = self._spec.part_at(entry.value.span).folder, entry.value.text
                 if folder is not None or Path(target).is_absolute():
                     folders[entry.name] = follow(folder or Path(), target)
-                    self._judge_package(entry.name, folders[entry.name], entry.value)
+                    self._check_package(entry.name, folders[entry.name], entry.value)
         return folders
 
-    def _judge_package(self, name: str, folder: Path, said: YamlScalar) -> None:
-        """Tell of a folder within the roots that is not there; where its user says where the package is, nothing."""
+    def _check_package(self, name: str, folder: Path, declared: YamlScalar) -> None:
+        """Report a declared folder within the roots that does not exist, unless the user says where the package is."""
         may_look = name not in self._loader.packages and self._loader.roots.hold(folder)
-        if may_look and not os.path.isdir(folder):  # noqa: PTH112 - answers for names that no file can have as well
-            self._sink.report(PACKAGE_NOWHERE.at(said.span, path=said.text, name=name))
+        if may_look and not os.path.isdir(folder):  # noqa: PTH112 - handles names that no file can have
+            self._sink.report(PACKAGE_NOWHERE.at(declared.span, path=declared.text, name=name))
 
-    def judge_parameters(self) -> None:
-        """Report what is wrong with the parameters and with what sets them, used or not."""
+    def check_parameters(self) -> None:
+        """Report what is wrong with the parameters and their arguments, used or not."""
         if not self._is_faulty("parameters", "include"):
-            self._given.tell_unknown(self.declared, self._variants, self._spec)
+            self._bound.report_unknown(self.declared, self._variants, self._spec)
         for name in (*self._parameters, *self._data):
-            self.tree.scope.lookup(name, self._sink)
-        if self._unset and self._is_unset_told and not self._given.arguments.is_partial:
-            tell_unset(self._unset, self._given, self._variants)
-        elif self._unset and not self._is_unset_told:
+            self.evaluator.scope.lookup(name, self._sink)
+        if self._unset and self._reports_unset and not self._bound.arguments.is_partial:
+            report_unset(self._unset, self._bound, self._variants)
+        elif self._unset and not self._reports_unset:
             names = ", ".join(f"'{declaration.name}'" for declaration in self._unset)
             pronoun = "it" if len(self._unset) == 1 else "them"
             self._sink.report(NOT_JUDGED.at(self._unset[0].key.span, names=names, pronoun=pronoun))
 
-    def judge_unused_variables(self) -> None:
-        """Report of the variables that nothing used, and of variants, what is wrong whatever the values are.
+    def check_unused_variables(self) -> None:
+        """Report faults of unused variables and of variants that do not depend on values.
 
-        They are computed when used: that one divides by zero is no fault of a robot that does not need it.
+        Other faults, such as a division by zero, do not matter in a variable that is not used.
         """
-        self.tree = replace(self.tree, sink=_TextFaults(self._sink))
+        self.evaluator = replace(self.evaluator, sink=_TextFaultSink(self._sink))
         for name in self._variables:
-            self.tree.scope.lookup(name, self.tree.sink)
+            self.evaluator.scope.lookup(name, self.evaluator.sink)
         for setting in self._variants.entries():
-            self.tree.value(setting.value)
+            self.evaluator.value(setting.value)
 
     def _parameter(self, declaration: Declaration) -> Value | Fault:
-        value, setting = parameter_value(declaration, self._given, self._variants, self._spec, self.tree)
+        value, setting = parameter_value(declaration, self._bound, self._variants, self._spec, self.evaluator)
         if setting is not None:
-            self.tree.settings[declaration.name] = setting
+            self.evaluator.settings[declaration.name] = setting
         if value is not None:
-            return self._as_path(value) if declaration.kind is KINDS["file"] else value
-        if declaration.is_faulty:
-            return FAULT
-        self._unset.append(declaration)
+            is_file = declaration.type is not None and declaration.type.name == "file"
+            return self._as_path(value) if is_file else value
+        if not declaration.is_faulty:
+            self._unset.append(declaration)
         return FAULT
 
     def _entries(self, section: str) -> Iterator[tuple[str, YamlEntry]]:
-        """Yield the entries of `variables` or `data` whose names are theirs alone."""
+        """Yield the entries of `variables` or `data` with valid names that no section before declares."""
         kind = _KINDS[section]
         declared = self._spec.tree.get(section)
         for entry in declared if isinstance(declared, YamlMap) else ():
-            other = self._kind_of_other(entry.name, section)
+            other = self._declared_before(entry.name, section)
             if other:
-                self._of_two.add(entry.name)
+                self._ambiguous.add(entry.name)
                 notes = [Note(f"the {other[0]} is declared here", other[1].span)]
                 kinds = f"a {other[0]} and a {kind}"
                 self._sink.report(NAME_OF_TWO_KINDS.at(entry.key.span, name=entry.name, kinds=kinds, notes=notes))
-            elif self._is_name(entry.key, kind):
+            elif self._is_valid_name(entry.key, kind):
                 yield entry.name, entry
 
-    def _kind_of_other(self, name: str, section: str) -> tuple[str, YamlScalar] | None:
-        """Return what declares a name of a section before it, and where."""
+    def _declared_before(self, name: str, section: str) -> tuple[str, YamlScalar] | None:
+        """Return the kind and the key of the same name in a section before this one."""
         for other, kind in _KINDS.items():
             if other == section:
                 return None
@@ -188,24 +191,28 @@ class FileNames:
         return Lazy(partial(compute, entry), entry.key.span)
 
     def _variable(self, entry: YamlEntry) -> Value | Fault:
-        self.tree.settings[entry.name] = Setting("the variable", entry.value, self.tree)
-        value = self.tree.value(entry.value)
-        return FAULT if tell_made_quantity(entry.value, value, self.tree) else value
+        self.evaluator.settings[entry.name] = Setting("the variable", entry.value, self.evaluator)
+        value = self.evaluator.value(entry.value)
+        return FAULT if report_interpolated_quantity(entry.value, value, self.evaluator) else value
 
     def _data_value(self, entry: YamlEntry) -> Value | Fault:
-        from linkforge_compile.expand.data import data_of
+        from linkforge_compile.expand.data import load_data
 
-        path = self.tree.value(entry.value)
-        place = self.tree.place(entry.value)
-        node = data_of(entry, path, lambda text: self.own.site(text, place), self._loader, self._sink)
+        path = self.evaluator.value(entry.value)
+        place = self.evaluator.place(entry.value)
+        node = load_data(entry, path, lambda text: self.builtins.site(text, place), self._loader, self._sink)
         if node is None:
             return FAULT
-        self.tree.settings[entry.name] = Setting("data", node, named_by=entry.value)
+        self.evaluator.settings[entry.name] = Setting("data", node, named_by=entry.value)
         return plain_value(node)
 
-    def _paths_seen_from_elsewhere(self) -> dict[SourceFile, dict[str, Lazy]]:
-        """Return the parameters that are paths, for each included file that lies in another folder than this one."""
-        paths = [one for one in self.declared.values() if one.kind is KINDS["file"] and one.name in self._parameters]
+    def _paths_elsewhere(self) -> dict[SourceFile, dict[str, Lazy]]:
+        """Return the path parameters as seen from each included file that lies in another folder."""
+        paths = [
+            one
+            for one in self.declared.values()
+            if one.type is not None and one.type.name == "file" and one.name in self._parameters
+        ]
         return {
             file: {path.name: Lazy(partial(self._seen_from, part, path.name), path.key.span) for path in paths}
             for file, part in self._spec.included.items()
@@ -213,17 +220,17 @@ class FileNames:
         }
 
     def _seen_from(self, part: SpecFile, name: str) -> Value | Fault:
-        path = self.tree.scope.lookup(name, self._sink)
+        path = self.evaluator.scope.lookup(name, self._sink)
         return self._as_path(path, rebased(path, self._spec.folder, part)) if isinstance(path, str) else path
 
     def _as_path(self, value: Value | Fault, text: str | None = None) -> Value | Fault:
-        """Return a path of this file as one that can tell how the compiled file writes it; `text` is it as read."""
-        # An empty text is no path, and would have no length by which to bound what is put together of it.
+        """Return a path that knows how the compiled file would write it; `text` is its text, the path by default."""
+        # An empty text is not a path, and has no length by which to bound what is built from it.
         if not isinstance(value, str) or not value:
             return value
         return PathText(value if text is None else text, from_base(value, self._path_base))
 
-    def _is_name(self, key: YamlScalar, kind: str) -> bool:
+    def _is_valid_name(self, key: YamlScalar, kind: str) -> bool:
         """Whether an expression can use the name; reports why not."""
         if not _NAME.fullmatch(key.text):
             self._sink.report(INVALID_VARIABLE_NAME.at(key.span, name=key.text, kind=kind))
@@ -236,22 +243,22 @@ class FileNames:
 
     def _name(self) -> Value | Fault:
         node = self._spec.tree.get("name")
-        key = self.tree.key(node) if isinstance(node, YamlScalar) else None
+        key = self.evaluator.key(node) if isinstance(node, YamlScalar) else None
         return key.text if key else FAULT
 
-    def _names_unread(self) -> Scope | None:
-        """Return a scope for what a faulty section, an unknown key, or a file around this one may have declared."""
+    def _unread_names(self) -> Scope | None:
+        """Return a scope for names that a faulty section, an unknown key or an unread file may have declared."""
         if self._spec.tree.get("name") is None or self._is_faulty(*_KINDS, "include"):
-            return _LostNames(None)
-        lost = frozenset(names_at_fault(self._spec.tree))
-        return _LostNames(lost) if lost else None
+            return _FaultyScope(None)
+        names = frozenset(names_at_fault(self._spec.tree))
+        return _FaultyScope(names) if names else None
 
     def _is_faulty(self, *sections: str) -> bool:
         return any(isinstance(self._spec.tree.get(section), YamlFault) for section in sections)
 
 
-class _LostNames(Scope):
-    """Knows names, every one for None, and has no value for any: their declarations are at fault, which was told."""
+class _FaultyScope(Scope):
+    """A scope with the given names, or every name for None, whose values are faults that were reported."""
 
     def __init__(self, names: frozenset[str] | None) -> None:
         super().__init__({})
@@ -264,8 +271,8 @@ class _LostNames(Scope):
         return FAULT
 
 
-class _TextFaults(Diagnostics):
-    """Hands on only the faults that an expression has whatever its names stand for."""
+class _TextFaultSink(Diagnostics):
+    """Passes on only faults of the text of an expression, which do not depend on values."""
 
     def __init__(self, sink: Diagnostics) -> None:
         super().__init__()
