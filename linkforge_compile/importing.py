@@ -15,10 +15,11 @@ from linkforge_compile.expand import XACRO, Arguments, Loader, SpecFile, Used
 from linkforge_compile.expand.assembly import count_entries
 from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
+from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.lower import MeshSolids
-from linkforge_compile.pipeline import Judged, Packages, Parameters, Settings, gc_paused, judged
+from linkforge_compile.pipeline import Judged, Packages, Parameters, Settings, judged
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlMap, read
 

@@ -5,9 +5,7 @@ Values flow down, faults flow sideways into the sink, and no stage stops the lin
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
@@ -31,6 +29,7 @@ from linkforge_compile.expand import (
 )
 from linkforge_compile.formats import NO_OPTIONS, Options, limits, require_options
 from linkforge_compile.fresh_stack import on_fresh_stack
+from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.limits import Budget
 from linkforge_compile.lower import MeshSolids, lower
 from linkforge_compile.roots import ANYWHERE, Roots
@@ -63,21 +62,6 @@ diagnostics then say of a missing one as well."""
 
 Packages: TypeAlias = Mapping[str, str | Path]
 """The folder that `package://NAME/` stands for, by name; they come before every other place to look."""
-
-
-@contextmanager
-def gc_paused() -> Iterator[None]:
-    """Pause the garbage collector: a robot holds no cycles, and to look for them takes a third of a long compile.
-
-    The collector is one for all threads: of two compiles at once, the first that ends resumes it.
-    """
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()
 
 
 class CompileError(Exception):

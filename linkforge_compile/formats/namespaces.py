@@ -8,9 +8,9 @@ from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.formats import UNDECLARED_PREFIX
 from linkforge_compile.formats.element import Extended, place_of_attribute, raw_texts
-from linkforge_compile.formats.node import Node
 from linkforge_compile.formats.parts import Held
 from linkforge_compile.source import Key, SourceRef
+from linkforge_compile.source.xml_tree import XmlElement
 
 _OF_XML = frozenset({"xml", "xmlns"})
 _DECLARATION = "xmlns:"
@@ -40,17 +40,16 @@ def _names(part: Extended) -> list[str]:
 
 def _in_xml(text: str, known: frozenset[str]) -> Iterator[str]:
     """Yield the prefixes of raw XML that nothing declares; nothing for XML that cannot be read, which is told."""
-    from linkforge_compile.formats.raw import well_formed_nodes
+    from linkforge_compile.formats.raw import well_formed_elements
 
-    def unknown(node: Node, known: frozenset[str]) -> Iterator[str]:
-        names = [name for name, _ in node.attributes]
+    def unknown(node: XmlElement, known: frozenset[str]) -> Iterator[str]:
+        names = list(node.values)
         known |= _declared_by(names)
         yield from _unknown([node.tag, *names], known)
-        for child in node.content:
-            if isinstance(child, Node):
-                yield from unknown(child, known)
+        for child in node.children:
+            yield from unknown(child, known)
 
-    for node in well_formed_nodes(text):
+    for node in well_formed_elements(text):
         yield from unknown(node, known)
 
 

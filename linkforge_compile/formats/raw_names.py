@@ -41,7 +41,7 @@ def check_raw_names(robot: Robot) -> Iterator[Diagnostic]:
 
 def _named_in(text: str) -> Iterator[tuple[str, str]]:
     """Yield the tag and name of each element of raw XML that has one."""
-    from linkforge_compile.formats.raw import well_formed_nodes
+    from linkforge_compile.formats.raw import well_formed_elements
 
-    for node in well_formed_nodes(text):
-        yield from ((node.tag, value) for key, value in node.attributes if key == "name")
+    for node in well_formed_elements(text):
+        yield from ((node.tag, value) for key, value in node.values.items() if key == "name")

@@ -47,11 +47,11 @@ def written_twice(parts: Iterable[Held]) -> Iterator[Diagnostic]:
 
 
 def _written_again(part: Part, where: SourceRef | None, fields: Mapping[str, str]) -> Iterator[Diagnostic]:
-    from linkforge_compile.formats.raw import well_formed_nodes
+    from linkforge_compile.formats.raw import well_formed_elements
 
     first = {tag: _place(where, field) for tag, field in fields.items() if _is_written(part, field, where)}
     for text, source, path in raw_texts(part, where):
-        for tag in (node.tag for node in well_formed_nodes(text)):
+        for tag in (node.tag for node in well_formed_elements(text)):
             if tag not in fields:
                 continue
             if tag not in first:
