@@ -27,7 +27,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 from linkforge_compile.expand import XACRO
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.formats import SRDF, URDF, Format, Rendering
-from linkforge_compile.pipeline import CompileError, Packages, Told, compile_file, parameters_of
+from linkforge_compile.pipeline import CliArgument, CompileError, Packages, compile_file, parameters_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from linkforge_compile.expand.listing import ListedParameter
     from linkforge_compile.formats.urdf import Gazebo
 
-    Values: TypeAlias = tuple[str | None, Mapping[str, Told]]
+    Values: TypeAlias = tuple[str | None, Mapping[str, CliArgument]]
     Words: TypeAlias = str | Substitution | Sequence[str | Substitution]
     Given: TypeAlias = Mapping[str, bool | int | float | Words | Sequence[float | str | Substitution]]
 
@@ -174,7 +174,7 @@ class RobotDescription:
             self._compiled = _Compiled(ref(context), (variant, values), files, texts)
         return self._compiled
 
-    def _compile(self, variant: str | None, values: Mapping[str, Told]) -> tuple[Robot, Sequence[Path]]:
+    def _compile(self, variant: str | None, values: Mapping[str, CliArgument]) -> tuple[Robot, Sequence[Path]]:
         """Return the robot, and the files on which it depends, those that are missing as well."""
         compilation = compile_file(
             self.spec,
@@ -195,7 +195,7 @@ class RobotDescription:
                 log(render_text(told))
         return compilation.robot, (*compilation.files, *compilation.unread)
 
-    def _require_values(self, variant: str | None, values: Mapping[str, Told]) -> None:
+    def _require_values(self, variant: str | None, values: Mapping[str, CliArgument]) -> None:
         """Refuse what the compiler would tell as its commands do, which have no launch arguments."""
         try:
             sets = self._sets_of(variant)
@@ -224,17 +224,17 @@ class RobotDescription:
     def _variant_of(self, context: LaunchContext) -> str | None:
         return None if self._variant is None else str(perform_substitutions(context, self._variant)) or None
 
-    def _assignments(self, context: LaunchContext) -> dict[str, Told]:
+    def _assignments(self, context: LaunchContext) -> dict[str, CliArgument]:
         """Return what sets parameters; one that has its default is left to the spec, which may compute it."""
         values = {
-            name: Told("<launch file>", name, perform_substitutions(context, value))
+            name: CliArgument("<launch file>", name, perform_substitutions(context, value))
             for name, value in self._given.items()
         }
         for name, default in self._defaults.items():
             spelt = self._prefix + name
             value = context.launch_configurations.get(spelt)
             if name not in values and value is not None and value != default:
-                values[name] = Told("<launch argument>", spelt, value)
+                values[name] = CliArgument("<launch argument>", spelt, value)
         return values
 
 

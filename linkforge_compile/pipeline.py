@@ -18,11 +18,11 @@ from linkforge_compile.diagnostics.suggest import suggesting
 from linkforge_compile.expand import (
     XACRO,
     Arguments,
+    CliArgument,
+    ImportSite,
     Loader,
     SpecFile,
-    Told,
     Unset,
-    Used,
     arguments_from_text,
     arguments_from_values,
     expand,
@@ -41,12 +41,12 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.urdf import Gazebo
 
 __all__ = [
+    "CliArgument",
     "Compilation",
     "CompileError",
     "Packages",
     "Parameters",
     "Settings",
-    "Told",
     "check_file",
     "check_text",
     "check_variants",
@@ -214,7 +214,7 @@ def parameters_of(
     listing = None
     try:
         if Path(path).suffix.lower() == XACRO:
-            from linkforge_compile.expand.xacro_arguments import list_arguments
+            from linkforge_compile.expand.listing import list_arguments
 
             listing = list_arguments(Path(path), loader, sink)
         elif spec := loader.open(Path(path), sink):
@@ -264,9 +264,10 @@ def compile_path(path: str | Path, settings: Settings) -> Compilation:
         return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
 
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
-        from linkforge_compile.expand.xacro import XacroUse, open_xacro
+        from linkforge_compile.expand.xacro import open_xacro
+        from linkforge_compile.expand.xacro_use import XacroUse
 
-        return open_xacro(XacroUse(file, Used(str(path), None), settings.arguments(loader, sink)), loader, sink)
+        return open_xacro(XacroUse(file, ImportSite(str(path), None), settings.arguments(loader, sink)), loader, sink)
 
     # The expansion has no parameters any more.
     return _compile(read, file, settings._replace(parameters=None))
@@ -288,7 +289,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
     sink = Diagnostics()
     loader = settings.loader(place)
     meshes = MeshSolids(loader.budget)
-    loader.judge = lambda spec, loader: judged(meshes, spec, loader).faults
+    loader.check_spec = lambda spec, loader: judged(meshes, spec, loader).faults
     robot = None
     ignores: tuple[Ignore, ...] = ()
     try:
@@ -343,7 +344,7 @@ class Judged(NamedTuple):
 def judged(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Judged:
     """Compile a spec by itself at a cost of its own; it reads the meshes that are read for the whole."""
     sink, was_told = Diagnostics(), meshes.is_without_library
-    with loader.judging():
+    with loader.separate_budget():
         robot = robot_of(spec, Settings(), loader, meshes, sink)
     meshes.is_without_library = was_told  # this sink is nobody's: the robot tells it where it is used
     faults = tuple(fault for fault in sink if fault.severity is Severity.ERROR)

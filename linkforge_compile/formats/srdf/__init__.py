@@ -26,7 +26,7 @@ class Srdf(TemplateFormat):
     is_default = True
 
     def missing(self, robot: Robot) -> Diagnostic | None:
-        if robot.says_semantic and not robot.semantic.is_empty:
+        if robot.has_semantic and not robot.semantic.is_empty:
             return None
         from linkforge_compile.diagnostics.codes.formats import NO_SEMANTIC_PART
 
@@ -34,7 +34,7 @@ class Srdf(TemplateFormat):
 
     def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
         """Yield what rendering refuses."""
-        if not robot.says_semantic:
+        if not robot.has_semantic:
             return  # `robot.semantic` would make an empty part
         from linkforge_compile.formats.limits import check_attributes
         from linkforge_compile.formats.namespaces import undeclared_prefixes
@@ -52,4 +52,4 @@ class Srdf(TemplateFormat):
         return semantic_view(robot)
 
     def view(self, robot: Robot, options: Options) -> SemanticView | None:
-        return self.root_view(robot, options) if robot.says_semantic else None
+        return self.root_view(robot, options) if robot.has_semantic else None
