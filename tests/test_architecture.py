@@ -34,9 +34,10 @@ MAY_IMPORT = {
     "_build_hook": "schema formats",
     "export_spec": "source units syntax core expand",
     "compare": "source units core formats",
+    "compilation": "diagnostics core",
     "pipeline": (
         "source diagnostics limits units syntax schema importers expand lower checks formats core roots fresh_stack "
-        "gc_paused"
+        "gc_paused compilation"
     ),
     "importing": "source diagnostics limits syntax importers expand core lower formats pipeline fresh_stack gc_paused",
     "launch": "diagnostics formats core expand pipeline file_watcher",

@@ -14,7 +14,7 @@ from linkforge_compile.formats.element import (
     inside_of,
     place_of_attribute,
 )
-from linkforge_compile.formats.namespaces import undeclared_prefixes
+from linkforge_compile.formats.extra_limits import undeclared_prefixes
 from linkforge_compile.formats.parts import Doubtful, Held, Part
 from linkforge_compile.formats.unwritable import unwritable_raw, unwritable_texts
 from linkforge_compile.formats.xml_document import InsideError
@@ -60,6 +60,6 @@ def _is_extended(part: Part) -> bool:
 def check_written_twice(parts: Sequence[Held]) -> Iterator[Diagnostic]:
     """An element of which there can be one is written by its field or as raw XML, and not twice."""
     if any(part.extra_elements for part, *_ in parts):
-        from linkforge_compile.formats.written_twice import written_twice
+        from linkforge_compile.formats.extra_limits import written_twice
 
         yield from written_twice(parts)

@@ -26,10 +26,13 @@ if TYPE_CHECKING:
 SUFFIX = ".j2"
 """How the names of templates end; without it, that of a document's template is the document's."""
 
-_BEYOND_LIMIT = replace(
-    BEYOND_LIMIT, message=BEYOND_LIMIT.message.replace("the robot takes", "rendering takes"), in_xml=""
+_RENDERING_BEYOND_LIMIT = replace(
+    BEYOND_LIMIT,
+    message="rendering takes more than {most} {counted}; {way_out} (LINKFORGE_LIMITS=10 in the environment allows ten "
+    "times as much)",
+    in_xml="",
 )
-"""What exceeds a bound is a user's template, and no robot."""
+"""What exceeds the limit is a user's template, and not the robot."""
 
 _NOT_DOCUMENTS = ("_", ".")
 """How the names of templates begin at the top of a folder that others include."""
@@ -72,7 +75,7 @@ class TemplateFolder:
             OSError: for a folder that cannot be read.
 
         """
-        self.folder, self._budget = Path(folder), Budget(code=_BEYOND_LIMIT)
+        self.folder, self._budget = Path(folder), Budget(code=_RENDERING_BEYOND_LIMIT)
         self._roots = ANYWHERE if allow_outside else Roots.around(self.folder, (self.folder, *packages))
         with os.scandir(self.folder) as entries:
             names = sorted(entry.name for entry in entries if entry.is_symlink() or entry.is_file())
