@@ -15,10 +15,11 @@ from linkforge_compile.expand import XACRO, Arguments, ImportSite, Loader, SpecF
 from linkforge_compile.expand.assembly import charge_entries
 from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
+from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.lower import MeshSolids
-from linkforge_compile.pipeline import Judged, Packages, Parameters, Settings, gc_paused, judged
+from linkforge_compile.pipeline import Checked, Packages, Parameters, Settings, check_alone
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlMap, read
 
@@ -125,10 +126,10 @@ def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     return None if sink.has_errors else both[1].robot
 
 
-def _judge_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Judged]:
+def _judge_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Checked]:
     """Return what compiles a tree as that of a spec, by itself; of all that it is asked for, each mesh is read once."""
     meshes = MeshSolids(loader.budget)
-    return lambda tree: judged(meshes, replace(spec, tree=tree), loader)
+    return lambda tree: check_alone(meshes, replace(spec, tree=tree), loader)
 
 
 @gc_paused()

@@ -17,6 +17,7 @@ MAY_IMPORT = {
     "roots": "",
     "manifest": "roots",
     "fresh_stack": "",
+    "gc_paused": "",
     "file_watcher": "",
     "_version": "",
     "diagnostics": "source",
@@ -29,14 +30,16 @@ MAY_IMPORT = {
     "expand": "source diagnostics limits units syntax schema expressions importers manifest roots",
     "lower": "source diagnostics limits units syntax expand core roots",
     "checks": "source diagnostics units core roots",
-    "formats": "source diagnostics limits units core resources roots",
+    "formats": "source diagnostics limits units core resources roots gc_paused",
     "_build_hook": "schema formats",
     "export_spec": "source units syntax core expand",
-    "compare": "units core formats",
+    "compare": "source units core formats",
+    "compilation": "diagnostics core",
     "pipeline": (
-        "source diagnostics limits units syntax schema importers expand lower checks formats core roots fresh_stack"
+        "source diagnostics limits units syntax schema importers expand lower checks formats core roots fresh_stack "
+        "gc_paused compilation"
     ),
-    "importing": "source diagnostics limits syntax importers expand core lower formats pipeline fresh_stack",
+    "importing": "source diagnostics limits syntax importers expand core lower formats pipeline fresh_stack gc_paused",
     "launch": "diagnostics formats core expand pipeline file_watcher",
     "editor": "diagnostics syntax schema expand lower core roots resources formats fresh_stack",
     "cli": (

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.formats.node import Node, inline, is_text
-from linkforge_compile.formats.raw import nodes_of
+from linkforge_compile.formats.raw import elements_of, plain_text
+from linkforge_compile.source.xml_tree import XmlElement
 
 
 @dataclass(frozen=True)
@@ -37,22 +37,22 @@ def raw_parts(texts: Iterable[str]) -> tuple[RawElement | str, ...]:
 
 def _parts(text: str) -> tuple[RawElement | str, ...]:
     try:
-        return tuple(map(_element, nodes_of(text)))
+        return tuple(map(_element, elements_of(text)))
     except RobotGeneratorError:
         return (text,)
 
 
-def _element(node: Node) -> RawElement:
-    inside = tuple(_element(item) for item in node.content if isinstance(item, Node))
-    return RawElement(node.tag, dict(node.attributes), _texts(node), inside, str(inline(node)))
+def _element(element: XmlElement) -> RawElement:
+    inside = tuple(map(_element, element.children))
+    return RawElement(element.tag, dict(element.values), _texts(element), inside, plain_text(element))
 
 
-def _texts(node: Node) -> tuple[str, ...]:
+def _texts(element: XmlElement) -> tuple[str, ...]:
     runs: list[list[str]] = [[]]
-    for item in node.content:
-        if isinstance(item, Node):
+    for item in element.content:
+        if isinstance(item, XmlElement):
             runs.append([])
-        elif is_text(item):
+        elif isinstance(item, str):
             runs[-1].append(item)
     texts = ["".join(run).strip() for run in runs]
     while len(texts) > 1 and not texts[-1]:

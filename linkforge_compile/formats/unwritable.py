@@ -14,13 +14,12 @@ from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.formats import UNWRITABLE
 from linkforge_compile.formats.element import (
     Extended,
-    RawXmlError,
     place_of_attribute,
     raw_texts,
     require_attribute_name,
 )
-from linkforge_compile.formats.markup import is_writable, require_writable
 from linkforge_compile.formats.parts import RAW_XML, Held, Part
+from linkforge_compile.formats.xml_text import RawXmlError, is_writable, require_writable
 from linkforge_compile.source import Key, SourceRef
 
 
