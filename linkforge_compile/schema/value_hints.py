@@ -237,7 +237,7 @@ def _entries_by_name(node: YamlList, mismatch: SchemaMismatch) -> str:
         only_key = next(iter(first)).key if len(first) == 1 else None
         first = first.get("group" if mismatch.field == "group_states" else "name") or only_key
     name = first.text if isinstance(first, YamlScalar) else "NAME"
-    return f"each under its name, without '-': '{name}: …'"
+    return f"each entry under its name, without '-': '{name}: …'"
 
 
 # Rules for maps
@@ -249,7 +249,7 @@ def _interfaces(node: YamlMap, mismatch: SchemaMismatch) -> str:
     first = next(iter(node), None)
     if first is None or around not in ("command_interfaces", "state_interfaces"):
         return ""
-    return f"a map in place of the list: '{around}: {{{first.name}: …}}'"
+    return f"a map instead of the list: '{around}: {{{first.name}: …}}'"
 
 
 def _axes(node: YamlMap, mismatch: SchemaMismatch) -> str:

@@ -285,7 +285,7 @@ def _text_in_quotes_ended(failure: _Failure, quoted: Span) -> Diagnostic:
     lines = range(quoted.line + 1, quoted.end_line + 1)
     if any(_LINE_OF_ENTRY.match(quoted.file.line(line)) for line in lines):
         ending = Span(quoted.file, quoted.end_line, quoted.end_column - 1, quoted.end_line, quoted.end_column)
-        return codes.UNCLOSED_QUOTE.at(opening, notes=[Note("the next quote of its kind stands here", ending)])
+        return codes.UNCLOSED_QUOTE.at(opening, notes=[Note("the next quote of its kind is here", ending)])
     return codes.TEXT_AFTER_VALUE.at(failure.here, notes=[Note("the text in quotes begins here", opening)])
 
 
@@ -294,7 +294,7 @@ def _unknown_escape(failure: _Failure) -> Diagnostic:
     backslash = text.rfind("\\", failure.began, failure.at + 1)
     if escape := _ESCAPE_OF_NUMBER.match(text, backslash):
         number = int(escape[0][2:], 16)
-        half = ", which is half of one; write the whole one as it is" if 0xD800 <= number < 0xE000 else ""
+        half = ", half of a character; write the whole character as it is" if 0xD800 <= number < 0xE000 else ""
         place = failure.marks.part(backslash, len(escape[0]))
         return codes.FORBIDDEN_CHARACTER.at(place, character=f"U+{number:04X}{half}")
     span = failure.marks.part(backslash, 2)
