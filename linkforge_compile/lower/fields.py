@@ -36,7 +36,7 @@ from linkforge_compile.lower.spec_object import SpecObject
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
-from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1, xacro_facts
+from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS, xacro_facts
 
 T = TypeVar("T")
 Choice = TypeVar("Choice", bound=StrEnum)
@@ -103,7 +103,7 @@ class Fields(SpecObject):
             return None
         if isinstance(node, YamlScalar) and isinstance(node.value, bool):
             return node.value
-        if isinstance(node, YamlScalar) and (meant := TRUTHS_OF_YAML_1_1.get(node.text.lower())):
+        if isinstance(node, YamlScalar) and (meant := YAML_1_1_BOOLEANS.get(node.text.lower())):
             self.tell(TRUTH_AS_TEXT, node, name=node.text, meant=meant)
         else:
             self.tell(WRONG_KIND, node, field=key, expected="true or false", found=found(node))

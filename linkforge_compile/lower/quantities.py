@@ -29,7 +29,7 @@ from linkforge_compile.units import (
     Quantity,
     number_text,
     parse_quantity,
-    unit_meant,
+    suggested_unit,
     unit_text,
     units_of,
 )
@@ -253,7 +253,7 @@ def _no_number(node: YamlNode, measure: Measure) -> Refusal:
     if unit is None or not isinstance(node, YamlScalar) or not measure.dimensions:
         return Refusal(WRONG_KIND, {"expected": measure.words, "found": found(node)})
     known = tuple(name for dimension in measure.dimensions for name in units_of(dimension))
-    meant = unit_meant(unit)
+    meant = suggested_unit(unit)
     if meant and meant.dimension in measure.dimensions:
         hint = f"; write '{node.text.strip().removesuffix(unit).rstrip()} {meant.name}'"
         return Refusal(UNKNOWN_UNIT, {"expected": measure.words, "name": unit, "hint": hint})
