@@ -164,7 +164,7 @@ class _Evaluation:
             return FAULT
 
     def passed_on(self, node: ast.expr) -> tuple[str, tuple[str | int, ...]] | None:
-        """Return what `passed_on` does for a part of the expression."""
+        """Return what the function `passed_on` does, for a part of the expression."""
         match node:
             case ast.Name(id=name):
                 return None if name in CONSTANTS else (name, ())
