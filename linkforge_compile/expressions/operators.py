@@ -173,7 +173,7 @@ def signed(sign: ast.unaryop, value: Value) -> Value:
 
 
 def truth(value: Value, taker: str, operand: int | None = None) -> bool:
-    """Return a boolean; reject other values, such as the text 'false', which Python takes as true."""
+    """Return a boolean; reject other values, such as the text 'false', which is true in Python."""
     if isinstance(value, bool):
         return value
     if isinstance(value, str) and (intended := YAML_1_1_BOOLEANS.get(value.lower())):

@@ -316,7 +316,7 @@ def _explain_missing_value(failure: _Failure) -> Diagnostic:
 
 
 def _explain_document_end(failure: _Failure) -> Diagnostic:
-    """Report a second document, or a first line without a key, which the parser takes for a whole document."""
+    """Report a second document, or a first line without a key, which the parser reads as a whole document."""
     if _strip_comment(failure.marks.file.line(failure.line_above())) == "...":
         return codes.SEVERAL_DOCUMENTS.at(failure.here)
     if failure.character in ("}", "]"):
