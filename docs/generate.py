@@ -17,7 +17,7 @@ from linkforge_compile.core.meshes.read import MAX_TRIANGLES
 from linkforge_compile.diagnostics.render.text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_REPORTED, MAX_TOLD, MAX_WARNED
 from linkforge_compile.expand import includes, parameter_types
-from linkforge_compile.expand.expansion import MAX_DEPTH
+from linkforge_compile.expand.expand_uses import MAX_DEPTH
 from linkforge_compile.expressions import grammar, operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.limits import MAX_FILE_BYTES, Limit

@@ -24,7 +24,7 @@ from linkforge_compile.syntax import YamlMap, read
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
-    from linkforge_compile.expand.semantic import Semantic
+    from linkforge_compile.expand.merge_srdf import Semantic
     from linkforge_compile.formats.urdf import Gazebo
 
 _IMPORTED = (URDF, SRDF)
@@ -204,7 +204,7 @@ _Read = tuple[SourceFile, Imported]
 
 
 def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnostics) -> Semantic | None:
-    from linkforge_compile.expand.semantic import open_semantic
+    from linkforge_compile.expand.merge_srdf import open_semantic
     from linkforge_compile.expand.xacro_use import XacroUse
 
     # Its user named it as he named the URDF, and a xacro of MoveIt includes what lies in a package of its own.

@@ -1,4 +1,4 @@
-"""Meshes as solid bodies for the links whose inertia is computed: found, read once, and their faults reported."""
+"""Read the meshes that an inertia is computed from as solid bodies, once for all, and report their faults."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ MAX_BYTES = 128 * 1024 * 1024
 _MAX_WIDTH = 100.0  # [m]
 
 _BYTES_UNTIL_COLLECTION = 8 * 1024 * 1024
-"""After so many bytes of meshes the garbage collector runs, which is paused while compiling."""
+"""The garbage collector, paused during a compile, runs after this many bytes of meshes."""
 
 _CODES = {
     MeshFault.NO_LIBRARY: NO_MESH_LIBRARY,
@@ -58,7 +58,7 @@ class MeshSolids:
     """The solids of all mesh files of one compile, each read once."""
 
     def __init__(self, budget: Budget | None = None) -> None:
-        """`budget` is what the files of the compile share; without one it is a compile by itself."""
+        """`budget` is shared by the files of the compile; None for a new one."""
         self._budget = budget or Budget()
         self._known: dict[str, Solid | MeshError] = {}  # by real path
         self._files: list[Path] = []

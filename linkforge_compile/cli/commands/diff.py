@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli.exits import OK, UsageError
-from linkforge_compile.cli.one_spec import STDIN, compile_spec, is_xml, once_only, require_file
+from linkforge_compile.cli.inputs import STDIN, compile_spec, is_xml, read_unseekable, require_file
 from linkforge_compile.cli.options import add_spec_options, name_set_by, packages_of, split_assignments
-from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(f"--{side}-variant", metavar="NAME", help=f"the variant of the robot {side} alone")
         parser.add_argument(f"--{side}-srdf", metavar="SRDF", help=f"the SRDF of the robot {side}, which is a URDF")
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def _tolerance(text: str) -> float:
@@ -175,7 +175,7 @@ def _parse_side(name: str, word: str, arguments: argparse.Namespace) -> _Side:
     require_file(f"--{name}-srdf", srdf)
     if word.lower().endswith((".srdf", ".srdf.xacro")):
         raise UsageError(f"'{word}' is an SRDF; give it with its robot: --{name}-srdf {word}")
-    text = once_only(word)
+    text = read_unseekable(word)
     side = _Side(word, assignments, variant, srdf, text, is_xml(word, text))
     if side.is_urdf and (variant or (assignments and not side.parameter_files)):
         raise UsageError(f"'{word}' has no {'variants' if variant else 'parameters'}")
@@ -229,12 +229,12 @@ def _load(side: _Side, common: Iterable[str], arguments: argparse.Namespace) -> 
             allow_outside=arguments.allow_outside,
             text=side.text,
         )
-        if tell((*_errors(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
+        if report((*_errors(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
             return None
         compilation = compile_text(imported.text, name=name, folder=Path(side.word).parent)
     else:
         compilation = compile_spec(side.word, [], own, text=side.text)
-    return None if tell(_errors(compilation.diagnostics), arguments) else compilation.robot
+    return None if report(_errors(compilation.diagnostics), arguments) else compilation.robot
 
 
 def _errors(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:

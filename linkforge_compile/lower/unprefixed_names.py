@@ -1,4 +1,4 @@
-"""What a module's prefix does not reach: names that plugins read, in parameters or raw XML, and absolute topics."""
+"""Warn of names in a module that do not get its prefix: in parameters of plugins, raw XML, and absolute topics."""
 
 from __future__ import annotations
 
@@ -15,120 +15,124 @@ from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.xml_places import ATTRIBUTE, MARKUP
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
-_NAMED_FOR_ITSELF = ("visual", "collision", "material")
-"""Elements whose own name may well be that of their link."""
+_NAMED_ELEMENTS = ("visual", "collision", "material")
+"""Elements with a name of their own, which may be the same as that of their link."""
 
-_SAYS_TOPIC_OR_FRAME = re.compile(
+_TOPIC_OR_FRAME_KEY = re.compile(
     r"(?:topic|frame|namespace|remapping)(?:_?(?:name|id|prefix))?s?$|^collision$", re.IGNORECASE
 )
-"""The end of a key, a tag or an attribute that plugins give topics and frames by: `imageTopicName`, `frame_id`; and
-the tag by which a contact sensor names what it feels."""
+"""The end of a key, tag or attribute for a topic or frame: `imageTopicName`, `frame_id`; and the tag that names the
+collision of a contact sensor."""
 
 # In a force-torque sensor, `frame` is one of three words.
-_IS_NO_NAME = re.compile(r"[-+.\d\s]*|true|false|child|parent|sensor|__.*__", re.IGNORECASE)
+_NOT_A_NAME = re.compile(r"[-+.\d\s]*|true|false|child|parent|sensor|__.*__", re.IGNORECASE)
 _MOST_SHOWN = 5
 
-_AROUND_A_LIST = " \t\r\n[](){}'\""
-"""What stands around the names of a list, and around each."""
+_LIST_MARKS = " \t\r\n[](){}'\""
+"""Characters around a list of names, and around each name."""
 
-_WRITTEN_WHOLE = frozenset(("parameters", "properties"))
-"""Free parts: a list in one can only be written anew as a whole."""
+_FREE_PARTS = frozenset(("parameters", "properties"))
+"""Keys of free parts; an override can replace a list in one only as a whole."""
 
 
 Path: TypeAlias = tuple[str | int, ...]
 
 
-class Text(NamedTuple):
-    """A text that is passed on as it is, where it was written, and the key, tag or attribute that it is said by."""
+class PassthroughText(NamedTuple):
+    """A text that is written to the output unchanged, its place, and its key, tag or attribute."""
 
     text: str
     where: Span
     key: str = ""
 
 
-class PassedOn(NamedTuple):
-    """What a file itself says that takes no prefix: texts that plugins read, and absolute topics."""
+class PassthroughTexts(NamedTuple):
+    """The texts of a file, without its modules, that get no prefix: those that plugins read, and absolute topics."""
 
-    plugin_texts: tuple[Text, ...]
-    absolute_topics: tuple[Text, ...]
+    plugin_texts: tuple[PassthroughText, ...]
+    absolute_topics: tuple[PassthroughText, ...]
     tree: YamlNode
     prefix: str
-    """Of this use alone, without those of the files around it."""
+    """The prefix of this module, without those of the files that use it."""
 
     is_shared: bool
-    """Whether the robot has the file more than once."""
+    """Whether the robot uses the file more than once."""
 
 
-def passed_on(robot: Robot, tree: YamlNode, prefix: str, users: Collection[SourceFile], *, is_shared: bool) -> PassedOn:
-    """Find what no prefix reaches in the robot of one file and in its tree, before its modules join it.
+def passthrough_texts(
+    robot: Robot, tree: YamlNode, prefix: str, users: Collection[SourceFile], *, is_shared: bool
+) -> PassthroughTexts:
+    """Find the texts without prefix in the robot of one file and its tree, before its modules are merged.
 
-    What an override wrote in a file that uses this one (`users`) has the names of that file: final ones here.
+    Overrides in a file that uses this one (`users`) have names of that file, which are final already.
     """
     texts = [
-        Text(text, source.at(*path), _key_of(path))
+        PassthroughText(text, source.at(*path), _key_of(path))
         for source, field, parameters in _parameters(robot)
         for path, text in _texts(parameters, field)
         if source
     ]
     topics = (
-        Text(sensor.topic, sensor.source.at("topic"))
+        PassthroughText(sensor.topic, sensor.source.at("topic"))
         for sensor in robot.sensors
         if sensor.source and sensor.topic and sensor.topic.startswith("/")
     )
     own = (text for text in (*texts, *_raw_texts(tree)) if text.where.file not in users)
-    return PassedOn(tuple(own), tuple(topics), tree, prefix, is_shared)
+    return PassthroughTexts(tuple(own), tuple(topics), tree, prefix, is_shared)
 
 
-def warnings_under_a_prefix(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
-    """Yield what there is to tell once the file takes a prefix; the robot is the file with its modules."""
+def prefix_warnings(texts: PassthroughTexts, robot: Robot) -> Iterator[Diagnostic]:
+    """Yield the warnings that hold if the file gets a prefix; the robot has the file and its modules."""
     paths: dict[Span, Path] = {}
-    # A raw text may say one name often.
-    said = {(name, text.where): text.text for text in passed.plugin_texts for name in _named_in(text.text, robot)}
+    # A text may have a name several times.
+    names_in_texts = {
+        (name, text.where): text.text for text in texts.plugin_texts for name in _named_in(text.text, robot)
+    }
     for kind, names in (("link", robot.links), ("joint", robot.joints)):
-        for (name, where), whole in said.items():
+        for (name, where), whole in names_in_texts.items():
             if name not in names:
                 continue
             remedy = f"write '$({kind}('{name}'))'"
             if where.file.is_xml:
-                paths = paths or dict(_paths(passed.tree))
-                to_final = f" to '{passed.prefix}{name}'" if passed.prefix else ""
+                paths = paths or dict(_paths(texts.tree))
+                to_final = f" to '{texts.prefix}{name}'" if texts.prefix else ""
                 remedy = f"change it{to_final} by {_override(paths.get(where, ()), is_name=whole == name)}"
             yield UNPREFIXED_NAME.at(where, name=name, kind=kind, remedy=remedy)
-    for topic, where, _ in passed.absolute_topics:
+    for topic, where, _ in texts.absolute_topics:
         yield ABSOLUTE_TOPIC.at(where, topic=topic)
-    yield from _topics_and_frames(passed, robot)
+    yield from _topics_and_frames(texts, robot)
 
 
 def _named_in(text: str, robot: Robot) -> Sequence[str]:
-    """Return the links and joints that a text names: as a whole, or as a list with commas, brackets or spaces.
+    """Return the links and joints in a text: the whole text, or items of a list with commas, brackets or spaces.
 
-    Words with spaces between them may be prose, unless all of them are names; a list may have names of other files.
+    Words with spaces between them are prose unless all of them are names; other lists may have other names, too.
     """
     if text in robot.links or text in robot.joints:
         return (text,)
-    words = text.strip(_AROUND_A_LIST).split()
+    words = text.strip(_LIST_MARKS).split()
     if len(words) > 1 and all(word in robot.links or word in robot.joints for word in words):
         return words
     if "," not in text and not text.startswith("["):
         return ()
-    items = [item.strip(_AROUND_A_LIST) for item in text.split(",")]
+    items = [item.strip(_LIST_MARKS) for item in text.split(",")]
     is_list = not any(len(item.split()) > 1 for item in items)
     return [item for item in items if item in robot.links or item in robot.joints] if is_list else ()
 
 
 def _override(path: Path, *, is_name: bool) -> str:
-    """Say the override that reaches what stands under a path, and what takes the place of its value.
+    """Return the override that replaces the value under a path, for a message.
 
-    `is_name` is whether the name is all that stands there.
+    `is_name` is whether the value is the name alone.
     """
-    free = next((at for at, key in enumerate(path) if key in _WRITTEN_WHOLE), len(path))
+    free = next((at for at, key in enumerate(path) if key in _FREE_PARTS), len(path))
     reached = (*path[:free], *takewhile(lambda key: isinstance(key, str), path[free:]))
-    said = "..."
+    override = "..."
     for key in reversed(reached):
-        said = f"{{{key}: {said}}}"
+        override = f"{{{key}: {override}}}"
     whole = "element" if free == len(path) else "list" if reached != path else "" if is_name else "text"
     value = f", '...' being the whole {whole} with that name in it" if whole else ""
-    return f"'override: {said}' where this file is used{value}"
+    return f"'override: {override}' where this file is used{value}"
 
 
 def _paths(node: YamlNode, *path: str | int) -> Iterator[tuple[Span, Path]]:
@@ -143,15 +147,15 @@ def _paths(node: YamlNode, *path: str | int) -> Iterator[tuple[Span, Path]]:
             yield from _paths(item, *path, number)
 
 
-def _topics_and_frames(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
-    """Yield once for a file that was written elsewhere, or is used again, which topics and frames its plugins name."""
+def _topics_and_frames(texts: PassthroughTexts, robot: Robot) -> Iterator[Diagnostic]:
+    """Yield one warning for the topics and frames of a file that is a URDF or used more than once."""
     found: dict[str, Span] = {}
-    for text, where, key in passed.plugin_texts:
-        is_told = bool(_named_in(text, robot))
-        # An argument of a xacro may have put it there.
-        has_prefix = bool(passed.prefix) and passed.prefix in text
-        is_judged = passed.is_shared or where.file.is_xml
-        if is_judged and _names_topic_or_frame(key, text) and not (is_told or has_prefix):
+    for text, where, key in texts.plugin_texts:
+        is_reported = bool(_named_in(text, robot))
+        # An argument of a xacro file may have put the prefix there.
+        has_prefix = bool(texts.prefix) and texts.prefix in text
+        is_relevant = texts.is_shared or where.file.is_xml
+        if is_relevant and _names_topic_or_frame(key, text) and not (is_reported or has_prefix):
             found.setdefault(text, where)
     if found:
         shown = [f"'{name}'" for name in found][:_MOST_SHOWN]
@@ -160,11 +164,11 @@ def _topics_and_frames(passed: PassedOn, robot: Robot) -> Iterator[Diagnostic]:
 
 
 def _names_topic_or_frame(key: str, text: str) -> bool:
-    return bool(_SAYS_TOPIC_OR_FRAME.search(key)) and not _IS_NO_NAME.fullmatch(text)
+    return bool(_TOPIC_OR_FRAME_KEY.search(key)) and not _NOT_A_NAME.fullmatch(text)
 
 
 def _parameters(robot: Robot) -> Iterator[tuple[SourceRef | None, str, FreePart]]:
-    """Yield what plugins read: where its owner was written, and under which key of that it stands."""
+    """Yield what plugins read: the source of its owner, its key there, and the parameters."""
     yield from ((block.source, "properties", block.properties) for block in robot.gazebo_elements)
     plugins = [plugin for block in robot.gazebo_elements for plugin in block.plugins]
     plugins += [sensor.plugin for sensor in robot.sensors if sensor.plugin]
@@ -178,7 +182,7 @@ def _parameters(robot: Robot) -> Iterator[tuple[SourceRef | None, str, FreePart]
 
 
 def _key_of(path: tuple[str | int, ...]) -> str:
-    """Return the tag or attribute at the end of a path; that of the element for its text, or one of several."""
+    """Return the tag or attribute at the end of a path; for a text or an item of a list, that of its element."""
     return next((str(key) for key in reversed(path) if isinstance(key, str) and key != "_text"), "")
 
 
@@ -191,18 +195,17 @@ def _texts(part: FreePart, *path: str | int) -> Iterator[tuple[tuple[str | int, 
         yield from _texts(value, *path, key)
 
 
-def _raw_texts(tree: YamlNode) -> Iterator[Text]:
-    """Yield what the raw XML of a tree says in attributes and elements."""
+def _raw_texts(tree: YamlNode) -> Iterator[PassthroughText]:
+    """Yield the texts and attributes in the raw XML of a tree."""
     extras: list[YamlNode] = []
     _find_extras(tree, extras)
     for extra in extras:
         for item in extra.items if isinstance(extra, YamlList) else (extra,):
             if isinstance(item, YamlScalar):
-                yield from (Text(text, item.span, key) for key, text in _said_in(item.text))
+                yield from (PassthroughText(text, item.span, key) for key, text in _texts_in_xml(item.text))
 
 
 def _find_extras(node: YamlNode, found: list[YamlNode]) -> None:
-    # Each use of each file is walked through: a generator would hand what it yields up through all that are around it.
     if isinstance(node, YamlMap):
         for name, entry in node.entries.items():
             if name == "extra":
@@ -214,12 +217,12 @@ def _find_extras(node: YamlNode, found: list[YamlNode]) -> None:
             _find_extras(item, found)
 
 
-def _said_in(raw: str) -> Iterator[tuple[str, str]]:
+def _texts_in_xml(raw: str) -> Iterator[tuple[str, str]]:
     """Yield the texts and attributes of raw XML by their names, as they are written."""
     for piece in MARKUP.finditer(raw):
         if tag := piece["tag"]:
             following = MARKUP.match(raw, piece.end())
             yield tag, ((following and following["text"]) or "").strip()
             for found in ATTRIBUTE.finditer(piece[0]):
-                if found["name"] != "name" or tag not in _NAMED_FOR_ITSELF:
+                if found["name"] != "name" or tag not in _NAMED_ELEMENTS:
                     yield found["name"], found["double"] or found["single"] or ""

@@ -2,7 +2,7 @@
 
 from linkforge_compile.core import EndEffector, JointProperty, PassiveJoint, PlanningGroup, VirtualJoint
 from linkforge_compile.core.models.srdf import GroupState, SemanticRobotDescription
-from linkforge_compile.lower.left_out import without_virtual_joint
+from linkforge_compile.lower.without_virtual_joint import without_virtual_joint
 
 WHOLE = SemanticRobotDescription(
     virtual_joints=(VirtualJoint("ground", "fixed", "world", "base"),),
@@ -31,7 +31,7 @@ def test_all_that_names_a_virtual_joint_goes_with_it():
 
 def test_what_goes_and_what_says_less_is_named():
     left = without_virtual_joint(WHOLE, "ground")
-    assert left.gone == ("group 'stand'", "group 'nested'", "end effector 'floor'", "state 'here'")
+    assert left.removed == ("group 'stand'", "group 'nested'", "end effector 'floor'", "state 'here'")
     assert left.changed == (
         "group 'all'",
         "state 'home' of group 'all'",

@@ -1,4 +1,4 @@
-"""What the objects of one file need to know of the file that they stand in."""
+"""What lowering an element needs to know about its file: materials, meshes, and the base of relative paths."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from linkforge_compile.source.ref import Located
 
 @dataclass(frozen=True)
 class FileScope:
-    """`mesh_bases` are as in Instance, `materials` are those that the file declares, without those that are lost.
+    """`materials` are those that the file declares, `unresolved_materials` the faulty ones.
 
-    `meshes` reads those that an inertia is to be computed from.
+    `mesh_bases` are as in Instance. `meshes` reads the meshes that an inertia is computed from.
     """
 
     mesh_bases: Mapping[SourceFile, str] = field(default_factory=dict)
     materials: Mapping[str, Material] = field(default_factory=dict)
-    lost_materials: UnresolvedNames = field(default_factory=UnresolvedNames)
+    unresolved_materials: UnresolvedNames = field(default_factory=UnresolvedNames)
     meshes: MeshReader = field(default_factory=lambda: MeshReader(no_mesh, MeshSolids()))
 
     def resource(self, path: str, node: Located) -> str:
-        """Return a relative path, which stands at a node, as the compiled file would; any other path as written."""
+        """Return a path as the compiled file would write it, relative to the file that `node` was written in."""
         return from_base(path, self.mesh_bases.get(path_base(node).file, ""))
