@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
-    from linkforge_compile.compare import Difference, Vanished
+    from linkforge_compile.compare import Difference, RemovedName
 
 
 class Side(NamedTuple):
@@ -46,7 +46,7 @@ class Comparison(NamedTuple):
     semantic: bool
     not_read_back: str | None
     differences: Sequence[Difference]
-    gone: Sequence[Vanished]
+    gone: Sequence[RemovedName]
 
 
 def lines_of(comparison: Comparison) -> Iterator[str]:
@@ -66,7 +66,7 @@ def lines_of(comparison: Comparison) -> Iterator[str]:
             yield from _part_lines(part, list(group))
 
 
-def _gone(gone: Sequence[Vanished]) -> Iterator[tuple[str, str]]:
+def _gone(gone: Sequence[RemovedName]) -> Iterator[tuple[str, str]]:
     """Yield the kind and names of what is gone, the interfaces of a joint in one."""
     for (kind, owner, now), names in groupby(gone, key=_owner):
         inside = [name.name.rpartition("/")[2] for name in names]
@@ -79,7 +79,7 @@ def _gone(gone: Sequence[Vanished]) -> Iterator[tuple[str, str]]:
 _INTERFACE = " interface"
 
 
-def _owner(name: Vanished) -> tuple[str, str, str | None]:
+def _owner(name: RemovedName) -> tuple[str, str, str | None]:
     if not name.kind.endswith(_INTERFACE):
         return name.kind, name.name, name.now
     return name.kind, name.name.rpartition("/")[0], name.now.rpartition("/")[0] if name.now else None

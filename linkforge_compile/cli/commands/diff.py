@@ -88,12 +88,12 @@ def run(arguments: argparse.Namespace) -> int:
     (before, after), not_read_back = _beside_each_other(sides, (before, after), arguments)
     from linkforge_compile.cli.differences import json_of, lines_of
     from linkforge_compile.cli.output import write_to_stdout
-    from linkforge_compile.compare import TOLERANCE, compare, vanished
+    from linkforge_compile.compare import TOLERANCE, compare, removed_public_names
 
     tolerance = TOLERANCE if arguments.tolerance is None else arguments.tolerance
     semantic = not any(map(_has_no_semantic, sides))
     differences = compare(before, after, tolerance=tolerance, semantic=semantic)
-    gone = vanished(before, after, semantic=semantic)
+    gone = removed_public_names(before, after, semantic=semantic)
     comparison = Comparison(sides[0], sides[1], tolerance, semantic, not_read_back, differences, gone)
     if arguments.json:
         write_to_stdout(json_of(comparison))
