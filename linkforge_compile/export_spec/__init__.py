@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.computed_inertia import ComputedFrom
 from linkforge_compile.export_spec.explain import Explanation, UnknownPathError, explain
-from linkforge_compile.export_spec.pen import Pen
 from linkforge_compile.export_spec.place import Place
 from linkforge_compile.export_spec.provenance import compiled_folder, origin_of
 from linkforge_compile.export_spec.robot import spec_of
@@ -16,8 +16,8 @@ __all__ = [
     "ComputedFrom",
     "Explanation",
     "NameStory",
-    "Pen",
     "Place",
+    "SpecBuilder",
     "UnknownPathError",
     "explain",
     "spec_of",
@@ -35,9 +35,9 @@ def write_spec(robot: Robot, *, banner: str | None = None, origins: bool = False
         RobotGeneratorError: for two parts of one name where a spec can hold only one.
 
     """
-    pen = Pen()
-    tree = spec_of(robot, pen)
+    builder = SpecBuilder()
+    tree = spec_of(robot, builder)
     folder = compiled_folder(robot)
-    comments = {key: origin_of(source, folder) for key, source in pen.parts.items()} if origins else {}
+    comments = {key: origin_of(source, folder) for key, source in builder.parts.items()} if origins else {}
     heading = "".join(f"# {line}\n" for line in (banner or "").splitlines())
     return heading + write(tree, comments)

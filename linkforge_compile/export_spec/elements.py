@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from linkforge_compile.core.fields import Choice, Flag, Noise, Number, Spec, Text, field_specs
 from linkforge_compile.core.part import Element, Part
-from linkforge_compile.export_spec.pen import Pen
+from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import Dimension, FieldUnit, Motion
 
 
 def written_element(
-    pen: Pen,
+    builder: SpecBuilder,
     part: Element,
     motion: Motion = Motion.OTHER,
     unit: FieldUnit | None = None,
@@ -22,11 +22,11 @@ def written_element(
     `unit` is that of its numbers, where they are the noise on a value; None for the units that the class describes.
     """
     stated: tuple[str, ...] = getattr(part, "stated", ())
-    return pen.element(part, **entries, **written_fields(pen, part, motion, unit, stated=stated))
+    return builder.element(part, **entries, **written_fields(builder, part, motion, unit, stated=stated))
 
 
 def written_fields(
-    pen: Pen,
+    builder: SpecBuilder,
     part: Part,
     motion: Motion = Motion.OTHER,
     unit: FieldUnit | None = None,
@@ -39,20 +39,20 @@ def written_fields(
     for name, spec in field_specs(type(part)).items():
         value = getattr(part, name)
         is_implied = not isinstance(spec, Noise) and value == spec.implied and name not in stated
-        if value is not None and (pen.full or not is_implied):
+        if value is not None and (builder.full or not is_implied):
             dimension = (unit or spec.unit).dimension(motion) if isinstance(spec, Number) else None
-            written[name] = _written(pen, value, spec, dimension)
+            written[name] = _written(builder, value, spec, dimension)
     return written
 
 
-def _written(pen: Pen, value: object, spec: Spec, dimension: Dimension | None) -> YamlNode | None:
+def _written(builder: SpecBuilder, value: object, spec: Spec, dimension: Dimension | None) -> YamlNode | None:
     match spec, value:
         case Number(), int() | float():
-            return pen.quantity(value, dimension)
+            return builder.quantity(value, dimension)
         case ((Text() | Choice()), str()):
-            return pen.text(value)
+            return builder.text(value)
         case Flag(), _:
-            return pen.flag(bool(value))
+            return builder.flag(bool(value))
         case Noise(), Element():
-            return written_element(pen, value, Motion.UNKNOWN, spec.unit)
+            return written_element(builder, value, Motion.UNKNOWN, spec.unit)
     raise TypeError(f"{type(value).__name__} is not a value of {type(spec).__name__}")

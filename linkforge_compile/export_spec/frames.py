@@ -5,8 +5,8 @@ from __future__ import annotations
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.geometry import written_origin
-from linkforge_compile.export_spec.pen import Pen
 from linkforge_compile.syntax import YamlMap
 
 
@@ -25,10 +25,12 @@ def frames_of(robot: Robot) -> list[tuple[Link, Joint]]:
     return frames[::-1]
 
 
-def written_frame(pen: Pen, link: Link, joint: Joint) -> YamlMap:
-    name = pen.text(joint.name, default=f"{link.name}_joint")
-    node = pen.map_of({"parent": pen.text(joint.parent), "origin": written_origin(pen, joint.origin), "joint": name})
-    return pen.located(node, link.source or joint.source)
+def written_frame(builder: SpecBuilder, link: Link, joint: Joint) -> YamlMap:
+    name = builder.text(joint.name, default=f"{link.name}_joint")
+    node = builder.map_of(
+        {"parent": builder.text(joint.parent), "origin": written_origin(builder, joint.origin), "joint": name}
+    )
+    return builder.located(node, link.source or joint.source)
 
 
 def _is_frame(link: Link, joint: Joint) -> bool:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.link import PHYSICS_TAGS, LinkPhysics
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.export_spec.pen import Pen
+from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.syntax import YamlMap, YamlNode, scalar_value
 from linkforge_compile.units import is_in_full, number_text
 
@@ -50,50 +50,50 @@ def _repeats(physics: LinkPhysics, element: GazeboElement) -> bool:
     return any(tag in element.properties and physics.is_written(field) for field, tag in PHYSICS_TAGS.items())
 
 
-def written_blocks(pen: Pen, blocks: Iterable[GazeboElement], *, beside: bool = True) -> YamlNode | None:
+def written_blocks(builder: SpecBuilder, blocks: Iterable[GazeboElement], *, beside: bool = True) -> YamlNode | None:
     """Return one block or a list of them, None for none; those `beside` what they are about do not name it."""
-    nodes = [_block(pen, block, beside) for block in blocks]
+    nodes = [_block(builder, block, beside) for block in blocks]
     if not nodes:
         return None
-    return nodes[0] if len(nodes) == 1 and not pen.full else pen.list_of(nodes)
+    return nodes[0] if len(nodes) == 1 and not builder.full else builder.list_of(nodes)
 
 
-def written_plugin(pen: Pen, plugin: GazeboPlugin, *, named: bool) -> YamlMap:
+def written_plugin(builder: SpecBuilder, plugin: GazeboPlugin, *, named: bool) -> YamlMap:
     """Return a plugin, which says its name itself where it is `named`; content that was read as XML is its `extra`."""
     if plugin.raw_xml is not None:
         plugin = replace(plugin, parameters={}, extra_elements=(plugin.raw_xml, *plugin.extra_elements))
-    return pen.element(
+    return builder.element(
         plugin,
-        name=pen.text(plugin.name) if named else None,
-        filename=pen.text(plugin.filename),
-        parameters=pen.free_map(plugin.parameters),
+        name=builder.text(plugin.name) if named else None,
+        filename=builder.text(plugin.filename),
+        parameters=builder.free_map(plugin.parameters),
     )
 
 
-def _block(pen: Pen, block: GazeboElement, beside: bool) -> YamlMap:
+def _block(builder: SpecBuilder, block: GazeboElement, beside: bool) -> YamlMap:
     tags = _leading_tags(block.properties)
     rest = {tag: part for tag, part in block.properties.items() if tag not in tags}
-    return pen.element(
+    return builder.element(
         block,
-        reference=None if beside else pen.text(block.reference),
-        material=pen.text(block.material),
-        static=pen.flag(block.static),
-        stop_cfm=pen.number(block.stop_cfm),
-        stop_erp=pen.number(block.stop_erp),
-        provide_feedback=pen.flag(block.provide_feedback),
-        implicit_spring_damper=pen.flag(block.implicit_spring_damper),
-        **{tag: pen.free(part) for tag, part in tags.items()},
-        properties=pen.free_map(rest),
-        plugins=_plugins(pen, block),
+        reference=None if beside else builder.text(block.reference),
+        material=builder.text(block.material),
+        static=builder.flag(block.static),
+        stop_cfm=builder.number(block.stop_cfm),
+        stop_erp=builder.number(block.stop_erp),
+        provide_feedback=builder.flag(block.provide_feedback),
+        implicit_spring_damper=builder.flag(block.implicit_spring_damper),
+        **{tag: builder.free(part) for tag, part in tags.items()},
+        properties=builder.free_map(rest),
+        plugins=_plugins(builder, block),
     )
 
 
-def _plugins(pen: Pen, block: GazeboElement) -> YamlNode | None:
+def _plugins(builder: SpecBuilder, block: GazeboElement) -> YamlNode | None:
     """Return the plugins by their names, or as a list where a name repeats."""
     names = [plugin.name for plugin in block.plugins]
     if len(set(names)) < len(names):
-        return pen.list_of(written_plugin(pen, plugin, named=True) for plugin in block.plugins)
-    return pen.named("plugin", ((one.name, written_plugin(pen, one, named=False)) for one in block.plugins))
+        return builder.list_of(written_plugin(builder, plugin, named=True) for plugin in block.plugins)
+    return builder.named("plugin", ((one.name, written_plugin(builder, one, named=False)) for one in block.plugins))
 
 
 def _leading_tags(properties: Mapping[str, FreePart]) -> dict[str, FreePart]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.frames import frames_of, written_frame
 from linkforge_compile.export_spec.gazebo import GazeboPlaces, gazebo_places, written_blocks
 from linkforge_compile.export_spec.joint import written_joint
 from linkforge_compile.export_spec.link import written_link
 from linkforge_compile.export_spec.material import written_material
-from linkforge_compile.export_spec.pen import Pen
 from linkforge_compile.export_spec.ros2_control import written_ros2_control
 from linkforge_compile.export_spec.sensor import written_sensor
 from linkforge_compile.export_spec.srdf import written_semantic
@@ -18,7 +18,7 @@ from linkforge_compile.syntax import YamlMap, YamlScalar
 _LANGUAGE_VERSION = 1
 
 
-def spec_of(robot: Robot, pen: Pen) -> YamlMap:
+def spec_of(robot: Robot, builder: SpecBuilder) -> YamlMap:
     """Return a robot as the tree of a spec without modules, parameters and expressions.
 
     Compiled, it gives an equal robot and the same URDF and SRDF; only states of one group, collision pairs of one
@@ -29,47 +29,50 @@ def spec_of(robot: Robot, pen: Pen) -> YamlMap:
 
     """
     gazebo = gazebo_places(robot)
-    return pen.element(
+    return builder.element(
         robot,
-        linkforge=pen.number(_LANGUAGE_VERSION),
-        name=pen.text(robot.name),
-        version=pen.text(robot.version) if robot.version_stated else None,
-        description=_description(pen, robot),
-        metadata=pen.data(robot.metadata) if robot.metadata else None,
-        materials=pen.named("material", ((name, written_material(pen, one)) for name, one in robot.materials.items())),
-        **_tree_sections(pen, robot, gazebo),
-        sensors=pen.named("sensor", ((sensor.name, written_sensor(pen, sensor)) for sensor in robot.sensors)),
-        transmissions=pen.named(
-            "transmission", ((one.name, written_transmission(pen, one)) for one in robot.transmissions)
+        linkforge=builder.number(_LANGUAGE_VERSION),
+        name=builder.text(robot.name),
+        version=builder.text(robot.version) if robot.version_stated else None,
+        description=_description(builder, robot),
+        metadata=builder.data(robot.metadata) if robot.metadata else None,
+        materials=builder.named(
+            "material", ((name, written_material(builder, one)) for name, one in robot.materials.items())
         ),
-        ros2_control=pen.named(
-            "ros2_control", ((one.name, written_ros2_control(pen, one)) for one in robot.ros2_controls)
+        **_tree_sections(builder, robot, gazebo),
+        sensors=builder.named("sensor", ((sensor.name, written_sensor(builder, sensor)) for sensor in robot.sensors)),
+        transmissions=builder.named(
+            "transmission", ((one.name, written_transmission(builder, one)) for one in robot.transmissions)
         ),
-        gazebo=written_blocks(pen, gazebo.robot, beside=False),
-        semantic=written_semantic(pen, robot.semantic, robot.joints) if robot.says_semantic else None,
+        ros2_control=builder.named(
+            "ros2_control", ((one.name, written_ros2_control(builder, one)) for one in robot.ros2_controls)
+        ),
+        gazebo=written_blocks(builder, gazebo.robot, beside=False),
+        semantic=written_semantic(builder, robot.semantic, robot.joints) if robot.says_semantic else None,
     )
 
 
-def _description(pen: Pen, robot: Robot) -> YamlScalar | None:
+def _description(builder: SpecBuilder, robot: Robot) -> YamlScalar | None:
     """Return what a spec says of its robot to people; a Robot has no field for it, its source does."""
     said = robot.source.node.child("description") if robot.source else None
-    return pen.text(said.text) if isinstance(said, YamlScalar) and said.text else None
+    return builder.text(said.text) if isinstance(said, YamlScalar) and said.text else None
 
 
-def _tree_sections(pen: Pen, robot: Robot, gazebo: GazeboPlaces) -> dict[str, YamlMap | None]:
+def _tree_sections(builder: SpecBuilder, robot: Robot, gazebo: GazeboPlaces) -> dict[str, YamlMap | None]:
     """Return links, joints and frames, with what a simulator is told about each beside it."""
-    frames = [] if pen.full else frames_of(robot)
+    frames = [] if builder.full else frames_of(robot)
     links, joints = robot.links[: len(robot.links) - len(frames)], robot.joints[: len(robot.joints) - len(frames)]
     written_links = (
-        (one.name, written_link(pen, one, robot.materials, written_blocks(pen, gazebo.links.get(one.name, ()))))
+        (one.name, written_link(builder, one, robot.materials, written_blocks(builder, gazebo.links.get(one.name, ()))))
         for one in links
     )
     written_joints = (
-        (one.name, written_joint(pen, one, written_blocks(pen, gazebo.joints.get(one.name, ())))) for one in joints
+        (one.name, written_joint(builder, one, written_blocks(builder, gazebo.joints.get(one.name, ()))))
+        for one in joints
     )
-    written_frames = ((link.name, written_frame(pen, link, joint)) for link, joint in frames)
+    written_frames = ((link.name, written_frame(builder, link, joint)) for link, joint in frames)
     return {
-        "links": pen.named("link", written_links),
-        "joints": pen.named("joint", written_joints),
-        "frames": pen.named("frame", written_frames),
+        "links": builder.named("link", written_links),
+        "joints": builder.named("joint", written_joints),
+        "frames": builder.named("frame", written_frames),
     }

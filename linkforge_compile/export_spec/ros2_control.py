@@ -12,45 +12,45 @@ from linkforge_compile.core.models.ros2_control import (
     Ros2ControlJoint,
     Ros2ControlSensor,
 )
-from linkforge_compile.export_spec.pen import Pen
+from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.syntax import YamlMap, YamlNode
 
 
-def written_ros2_control(pen: Pen, control: Ros2Control) -> YamlMap:
-    return pen.element(
+def written_ros2_control(builder: SpecBuilder, control: Ros2Control) -> YamlMap:
+    return builder.element(
         control,
-        type=pen.text(control.type, CONTROL_TYPE_SYSTEM),
-        hardware_plugin=pen.text(control.hardware_plugin),
-        parameters=pen.free_map(control.parameters),
-        joints=pen.named("ros2_control joint", _components(pen, control.joints), told=False),
-        sensors=pen.named("ros2_control sensor", _components(pen, control.sensors), told=False),
-        gpios=pen.named("gpio", _components(pen, control.gpios), told=False),
+        type=builder.text(control.type, CONTROL_TYPE_SYSTEM),
+        hardware_plugin=builder.text(control.hardware_plugin),
+        parameters=builder.free_map(control.parameters),
+        joints=builder.named("ros2_control joint", _components(builder, control.joints), told=False),
+        sensors=builder.named("ros2_control sensor", _components(builder, control.sensors), told=False),
+        gpios=builder.named("gpio", _components(builder, control.gpios), told=False),
     )
 
 
 def _components(
-    pen: Pen, components: Sequence[Ros2ControlJoint | Ros2ControlSensor | Ros2ControlGpio]
+    builder: SpecBuilder, components: Sequence[Ros2ControlJoint | Ros2ControlSensor | Ros2ControlGpio]
 ) -> list[tuple[str, YamlNode]]:
-    return [(component.name, _component(pen, component)) for component in components]
+    return [(component.name, _component(builder, component)) for component in components]
 
 
-def _component(pen: Pen, component: Ros2ControlJoint | Ros2ControlSensor | Ros2ControlGpio) -> YamlMap:
+def _component(builder: SpecBuilder, component: Ros2ControlJoint | Ros2ControlSensor | Ros2ControlGpio) -> YamlMap:
     commands = () if isinstance(component, Ros2ControlSensor) else component.command_interfaces
-    return pen.element(
+    return builder.element(
         component,
-        command_interfaces=_interfaces(pen, commands),
-        state_interfaces=_interfaces(pen, component.state_interfaces),
-        parameters=pen.free_map(component.parameters),
+        command_interfaces=_interfaces(builder, commands),
+        state_interfaces=_interfaces(builder, component.state_interfaces),
+        parameters=builder.free_map(component.parameters),
     )
 
 
-def _interfaces(pen: Pen, names: Sequence[str]) -> YamlNode | None:
+def _interfaces(builder: SpecBuilder, names: Sequence[str]) -> YamlNode | None:
     """Return interfaces as a list of names, or as a map where one of them has more to say."""
     interfaces = [Interface.of(name) for name in names]
     if not any(one.parameters or one.extra_attributes or one.extra_elements or one.extra_inside for one in interfaces):
-        return pen.texts(interfaces)
-    return pen.named("interface", ((str(one), _interface(pen, one)) for one in interfaces), told=False)
+        return builder.texts(interfaces)
+    return builder.named("interface", ((str(one), _interface(builder, one)) for one in interfaces), told=False)
 
 
-def _interface(pen: Pen, interface: Interface) -> YamlMap:
-    return pen.element(interface, **{name: pen.free(text) for name, text in interface.parameters.items()})
+def _interface(builder: SpecBuilder, interface: Interface) -> YamlMap:
+    return builder.element(interface, **{name: builder.free(text) for name, text in interface.parameters.items()})

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.sensor import Sensor
 from linkforge_compile.core.part import Element
+from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.elements import written_element, written_fields
 from linkforge_compile.export_spec.gazebo import written_plugin
 from linkforge_compile.export_spec.geometry import written_origin
-from linkforge_compile.export_spec.pen import Pen
 from linkforge_compile.syntax import YamlMap
 
 if TYPE_CHECKING:
@@ -18,21 +18,21 @@ if TYPE_CHECKING:
 _INFOS = ("camera", "lidar", "imu", "gps", "contact", "force_torque")
 
 
-def written_sensor(pen: Pen, sensor: Sensor) -> YamlMap:
-    return pen.element(
+def written_sensor(builder: SpecBuilder, sensor: Sensor) -> YamlMap:
+    return builder.element(
         sensor,
-        type=pen.text(sensor.type),
-        link=pen.text(sensor.link_name),
-        origin=written_origin(pen, sensor.origin),
-        **written_fields(pen, sensor),
-        always_on=pen.flag(sensor.always_on, True),
-        visualize=pen.flag(sensor.visualize, False),
-        topic=pen.text(sensor.topic),
-        frame=pen.text(sensor.frame),
-        plugin=written_plugin(pen, sensor.plugin, named=True) if sensor.plugin else None,
-        **{key: _info(pen, getattr(sensor, f"{key}_info")) for key in _INFOS},
+        type=builder.text(sensor.type),
+        link=builder.text(sensor.link_name),
+        origin=written_origin(builder, sensor.origin),
+        **written_fields(builder, sensor),
+        always_on=builder.flag(sensor.always_on, True),
+        visualize=builder.flag(sensor.visualize, False),
+        topic=builder.text(sensor.topic),
+        frame=builder.text(sensor.frame),
+        plugin=written_plugin(builder, sensor.plugin, named=True) if sensor.plugin else None,
+        **{key: _info(builder, getattr(sensor, f"{key}_info")) for key in _INFOS},
     )
 
 
-def _info(pen: Pen, info: Element | None) -> YamlMap | None:
-    return written_element(pen, info) if info else None
+def _info(builder: SpecBuilder, info: Element | None) -> YamlMap | None:
+    return written_element(builder, info) if info else None

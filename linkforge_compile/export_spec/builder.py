@@ -1,4 +1,4 @@
-"""The pen: values of the IR as nodes of a spec, without what the language fills in by itself, or with all of it."""
+"""The builder: values of the IR as nodes of a spec, without what the language fills in by itself, or with all of it."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Written(NamedTuple):
     field: tuple[str, ...] = ()
 
 
-class Pen:
+class SpecBuilder:
     """Makes the nodes of one spec, and remembers of what they were made.
 
     In `full` it writes every value in its long form, defaults too: the robot as `explain` looks through it.
