@@ -186,7 +186,7 @@ def _spec_text(imported: Imported, sink: Diagnostics) -> str:
 
     What is too large is told at the robot, for nobody sees the text.
     """
-    from linkforge_compile.importers.losses import unread
+    from linkforge_compile.importers.losses import text_losses
     from linkforge_compile.syntax.writer import write
 
     budget = Budget()
@@ -196,7 +196,7 @@ def _spec_text(imported: Imported, sink: Diagnostics) -> str:
         again = read(SourceFile("<spec>", text), Diagnostics(), budget)
     except BeyondLimitError:
         raise budget.beyond(Limit.VALUES, imported.tree.span) from None
-    sink.report_all(unread(imported.tree, again))
+    sink.report_all(text_losses(imported.tree, again))
     return text
 
 

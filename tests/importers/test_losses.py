@@ -14,8 +14,8 @@ import linkforge_compile.importing
 from linkforge_compile import Severity, compile_text, import_urdf, render_urdf
 from linkforge_compile.cli.main import main
 from linkforge_compile.diagnostics import Diagnostics, sink
+from linkforge_compile.importers.element_reader import ElementReader
 from linkforge_compile.importers.losses import losses
-from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.xml_tree import XmlDocument
@@ -159,10 +159,10 @@ def test_one_of_two_alike_is_missed():
 def test_what_a_reader_forgets_is_a_loss_and_strict_fails(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ):
-    def forgetful(reading: Reading) -> dict[str, object]:
+    def forgetful(reader: ElementReader) -> dict[str, object]:
         return {}
 
-    monkeypatch.setattr(Reading, "rest", forgetful)
+    monkeypatch.setattr(ElementReader, "extras", forgetful)
     urdf = tmp_path / "r.urdf"
     urdf.write_text(ROBOT, "utf-8")
     assert [one.code.id for one in import_urdf(urdf).losses] == ["LF8190"]

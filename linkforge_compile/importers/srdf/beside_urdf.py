@@ -9,7 +9,7 @@ from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, SRDF_OF_ANOTHER, URDF_FOR_SRDF
 from linkforge_compile.importers.comments import Comments
 from linkforge_compile.importers.document import Imported, Move, read_document
-from linkforge_compile.importers.draft import DeclinedError
+from linkforge_compile.importers.spec_draft import CannotRepresentError
 from linkforge_compile.importers.srdf.known import Known, named_parts
 from linkforge_compile.importers.srdf.semantic import read_srdf
 from linkforge_compile.source import SourceFile, Span
@@ -51,7 +51,7 @@ def with_srdf(
     if part := next((child for child in document.root.children if child.tag in ("link", "joint")), None):
         sink.report(URDF_FOR_SRDF.at(part.span, tag=part.tag))
         return None
-    refused: dict[Span, DeclinedError] = {}
+    refused: dict[Span, CannotRepresentError] = {}
     sections = sum(len(entry.value) for entry in urdf.tree if isinstance(entry.value, YamlMap))
     elements = 1 + sections + sum(1 for _ in _inside(document.root))
     for _ in range(max(2, min(_MOST_ROUNDS, _MOST_JUDGED // elements))):
@@ -94,15 +94,15 @@ def _with_semantic(urdf: Imported, srdf: Imported) -> Imported:
     return Imported(tree, comments, (*urdf.documents, *srdf.documents))
 
 
-def _refusals(document: XmlDocument, faults: tuple[Diagnostic, ...]) -> dict[Span, DeclinedError]:
+def _refusals(document: XmlDocument, faults: tuple[Diagnostic, ...]) -> dict[Span, CannotRepresentError]:
     """Return the elements of an SRDF, by their spans, of which an error tells that the language refuses them."""
     if not faults:
         return {}
     owners = {span: element for element in _inside(document.root) for span in _spans(element)}
-    refused: dict[Span, DeclinedError] = {}
+    refused: dict[Span, CannotRepresentError] = {}
     for fault in faults:
         if fault.span is not None and (owner := owners.get(fault.span)):
-            refused.setdefault(owner.span, DeclinedError(fault.message, fault.span))
+            refused.setdefault(owner.span, CannotRepresentError(fault.message, fault.span))
     return refused
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from linkforge_compile.importers.draft import DeclinedError
-from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.element_reader import ElementReader
+from linkforge_compile.importers.spec_draft import CannotRepresentError
 from linkforge_compile.importers.srdf.known import Known
 from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode
@@ -34,14 +34,14 @@ def subgroups_first(groups: Iterable[XmlElement]) -> list[XmlElement]:
     return [group for name in order for group in named[name]]
 
 
-def read_group(group: Reading, known: Known) -> YamlMap:
+def read_group(group: ElementReader, known: Known) -> YamlMap:
     """Read a planning group, whose name is taken."""
-    chains = group.each("chain", lambda chain: _chain(chain, known))
+    chains = group.children("chain", lambda chain: _chain(chain, known))
     links = _members(group, "link", known.link)
     joints = _members(group, "joint", known.joint)
     subgroups = _members(group, "group", known.subgroup)
     if not (chains or links or joints or subgroups):
-        raise group.declined("nothing in it is a member that the robot has")
+        raise group.cannot_represent("nothing in it is a member that the robot has")
     return group.map(
         **{"chain" if len(chains) == 1 else "chains": group.draft.one_or_list(chains)},
         links=links,
@@ -50,53 +50,53 @@ def read_group(group: Reading, known: Known) -> YamlMap:
     )
 
 
-def _chain(chain: Reading, known: Known) -> YamlMap:
+def _chain(chain: ElementReader, known: Known) -> YamlMap:
     return chain.map(base_link=known.link(chain, "base_link"), tip_link=known.link(chain, "tip_link"))
 
 
-def _members(group: Reading, tag: str, name_of: Callable[[Reading, str], YamlNode]) -> YamlList | None:
-    def read(member: Reading) -> YamlNode:
+def _members(group: ElementReader, tag: str, name_of: Callable[[ElementReader, str], YamlNode]) -> YamlList | None:
+    def read(member: ElementReader) -> YamlNode:
         node = name_of(member, "name")
-        member.spent()
+        member.require_used_up()
         return node
 
-    members = group.each(tag, read)
+    members = group.children(tag, read)
     return group.draft.list_of(members, members[0].span) if members else None
 
 
-def read_state(state: Reading, known: Known) -> YamlMap:
+def read_state(state: ElementReader, known: Known) -> YamlMap:
     """Read a state of a group, both of whose names are taken: positions by joint."""
     positions: dict[str, YamlNode | None] = {}
 
-    def read(joint: Reading) -> YamlNode:
+    def read(joint: ElementReader) -> YamlNode:
         name = known.joint(joint, "name")
         if name.text in positions:
-            raise DeclinedError(f"joint '{name.text}' has a value already", name.span)
+            raise CannotRepresentError(f"joint '{name.text}' has a value already", name.span)
         if name.text in _NO_JOINTS:
-            raise DeclinedError(f"'{name.text}' is a key of the language", name.span)
+            raise CannotRepresentError(f"'{name.text}' is a key of the language", name.span)
         node = _position(joint, known, name.text)
-        joint.spent()
+        joint.require_used_up()
         positions[name.text] = node
         return node
 
-    state.each("joint", read)
+    state.children("joint", read)
     return state.map(**positions)
 
 
-def _position(joint: Reading, known: Known, name: str) -> YamlNode:
+def _position(joint: ElementReader, known: Known, name: str) -> YamlNode:
     """Read a position: one number, or a list of them for several degrees of freedom."""
     count = len((joint.element.get("value") or "").split())
     if count == 1:
         return joint.required_number("value", known.measure(name))
     numbers = joint.numbers("value", count)
     if numbers is None:
-        raise joint.declined("it has no 'value'")
+        raise joint.cannot_represent("it has no 'value'")
     if not len(numbers):
-        raise DeclinedError("value is empty", numbers.span)
+        raise CannotRepresentError("value is empty", numbers.span)
     return numbers
 
 
-def read_end_effector(effector: Reading, known: Known) -> YamlMap:
+def read_end_effector(effector: ElementReader, known: Known) -> YamlMap:
     """Read an end effector, whose name is taken."""
     has_parent = bool(effector.element.get("parent_group"))
     return effector.map(

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from linkforge_compile.importers.draft import DeclinedError
-from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.element_reader import ElementReader
+from linkforge_compile.importers.spec_draft import CannotRepresentError
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 from linkforge_compile.syntax import YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
@@ -39,30 +39,30 @@ class Known:
             known.joints.add(named.text if isinstance(named, YamlScalar) else f"{frame.name}_joint")
         return known
 
-    def link(self, owner: Reading, name: str) -> YamlScalar:
+    def link(self, owner: ElementReader, name: str) -> YamlScalar:
         return _known(owner, name, "link", self.links)
 
-    def joint(self, owner: Reading, name: str) -> YamlScalar:
+    def joint(self, owner: ElementReader, name: str) -> YamlScalar:
         return _known(owner, name, "joint", self.joints)
 
-    def group(self, owner: Reading, name: str) -> YamlScalar:
+    def group(self, owner: ElementReader, name: str) -> YamlScalar:
         return _known(owner, name, "planning group", self.groups)
 
-    def subgroup(self, owner: Reading, name: str) -> YamlScalar:
+    def subgroup(self, owner: ElementReader, name: str) -> YamlScalar:
         """Take the name of a group inside another: it has been read by now, unless the two are a circle."""
         if (said := owner.element.attributes.get(name)) and said.value in self.unread:
-            raise DeclinedError(f"planning group '{said.value}' contains the one that it stands in", said.span)
+            raise CannotRepresentError(f"planning group '{said.value}' contains the one that it stands in", said.span)
         return self.group(owner, name)
 
     def measure(self, joint: str) -> Dimension | None:
         return Dimension.ANGLE if joint in self.turning else None
 
 
-def _known(owner: Reading, attribute: str, kind: str, names: set[str]) -> YamlScalar:
+def _known(owner: ElementReader, attribute: str, kind: str, names: set[str]) -> YamlScalar:
     """Take an attribute that names one of these."""
-    name = owner.name(attribute)
+    name = owner.required_text(attribute)
     if name.text not in names:
-        raise DeclinedError(f"there is no {kind} named '{name.text}'", name.span)
+        raise CannotRepresentError(f"there is no {kind} named '{name.text}'", name.span)
     return name
 
 

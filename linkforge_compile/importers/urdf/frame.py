@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Collection
 
-from linkforge_compile.importers.draft import Draft, values_in
+from linkforge_compile.importers.spec_draft import SpecDraft, values_in
 from linkforge_compile.importers.urdf.material import Named
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
@@ -15,7 +15,7 @@ _NAME = re.compile(r"[\w./-]+")
 """What every reader takes for a name; what is wrong with another is told of the link that has it."""
 
 
-def frames_of(draft: Draft, links: Named, joints: Named) -> Named:
+def frames_of(draft: SpecDraft, links: Named, joints: Named) -> Named:
     """Take the frames from the ends of links and joints, where they stand in the same order.
 
     Frames come out behind all other links and joints, so an empty link among those stays a link. So do a link and a
@@ -34,7 +34,7 @@ def frames_of(draft: Draft, links: Named, joints: Named) -> Named:
         if joint != f"{link}_joint":
             named = draft.text(joint, joint_name.span)
             frame = draft.map_of({**{one.name: one.value for one in frame}, "joint": named}, frame.span)
-        draft.stands_for(frame, link_node, joint_node)
+        draft.note_same_source(frame, link_node, joint_node)
         frames[link] = link_name, frame
     return dict(reversed(frames.items()))
 
@@ -47,7 +47,7 @@ def _shared_children(joints: Named) -> frozenset[str]:
 
 
 def _frame(
-    draft: Draft, link: str, link_node: YamlNode, joint_node: YamlNode, shared: Collection[str]
+    draft: SpecDraft, link: str, link_node: YamlNode, joint_node: YamlNode, shared: Collection[str]
 ) -> YamlMap | None:
     if not isinstance(link_node, YamlMap) or not isinstance(joint_node, YamlMap) or len(link_node):
         return None

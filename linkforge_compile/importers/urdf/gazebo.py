@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 
-from linkforge_compile.importers.draft import DeclinedError, number_of
-from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.element_reader import ElementReader
+from linkforge_compile.importers.spec_draft import CannotRepresentError, number_of
 from linkforge_compile.importers.urdf.free_part import (
     exact_number,
     free_children,
@@ -22,15 +22,15 @@ from linkforge_compile.units import is_in_full, number_text
 class Blocks:
     """The Gazebo blocks of a robot, until the entries beside which they stand take them."""
 
-    def __init__(self, robot: Reading) -> None:
+    def __init__(self, robot: ElementReader) -> None:
         """Take the blocks of a robot; one that is about nothing in it is left."""
         self._robot = robot
         self._blocks: list[tuple[str | None, YamlNode]] = []
         names = {child.get("name") for child in robot.element.children if child.tag in ("link", "joint")}
-        for child in [child for child in robot.children() if child.tag == "gazebo"]:
-            taken = robot.take(child, lambda block: _block(block, names))
-            if taken is not None and taken[0] is not None:
-                self._blocks.append((child.get("reference"), taken[0]))
+        for child in [child for child in robot.remaining() if child.tag == "gazebo"]:
+            node = robot.try_read(child, lambda block: _block(block, names))
+            if node is not None:
+                self._blocks.append((child.get("reference"), node))
 
     def beside(self, name: str) -> YamlNode | None:
         """Return the blocks about a link or joint; nobody else gets them."""
@@ -46,17 +46,17 @@ class Blocks:
             if reference is not None and isinstance(node, YamlMap):
                 said = {entry.name: entry.value for entry in node}
                 whole = draft.map_of({"reference": draft.text(reference, node.span), **said}, node.span)
-                draft.stands_for(whole, block)
+                draft.note_same_source(whole, block)
                 node = whole
             nodes.append(node)
         return draft.one_or_list(nodes)
 
 
-def _block(block: Reading, names: Collection[str | None]) -> YamlMap:
+def _block(block: ElementReader, names: Collection[str | None]) -> YamlMap:
     if "reference" in block.element.values:
         reference = block.attribute("reference")
         if reference.value not in names:
-            raise DeclinedError(f"there is no link or joint named '{reference.value}'", reference.span)
+            raise CannotRepresentError(f"there is no link or joint named '{reference.value}'", reference.span)
     tags = _tags(block)
     plugins = _plugins(block)
     properties = take_free(block)
@@ -67,45 +67,45 @@ def _block(block: Reading, names: Collection[str | None]) -> YamlMap:
     )
 
 
-def _tags(block: Reading) -> dict[str, YamlNode | None]:
+def _tags(block: ElementReader) -> dict[str, YamlNode | None]:
     """Take the tags that are keys, where they come back as they are spelled."""
-    children = block.children()
+    children = block.remaining()
     times = Counter(child.tag for child in children)
     said: dict[str, YamlNode | None] = {}
     for child in children:
         key, spelled_so, read = _KEYS.get(child.tag, _NO_KEY)
         if times[child.tag] == 1 and spelled_so(child):
-            said[key] = block.within(child, read)
+            said[key] = block.read(child, read)
     return said
 
 
-def _plugins(block: Reading) -> YamlNode | None:
+def _plugins(block: ElementReader) -> YamlNode | None:
     """Take the plugins: by their names, or as a list where a name repeats."""
-    names = [child.get("name") for child in block.children() if child.tag == "plugin"]
+    names = [child.get("name") for child in block.remaining() if child.tag == "plugin"]
     are_listed = len(set(names)) < len(names)
     plugins: dict[str, YamlNode | None] = {}
     nodes: list[YamlNode] = []
-    for child in [child for child in block.children() if child.tag == "plugin"]:
-        taken = block.take(child, lambda plugin: _plugin(plugin, is_named=are_listed))
-        if taken is not None and taken[0] is not None:
-            nodes.append(taken[0])
-            plugins[child.get("name") or ""] = taken[0]
+    for child in [child for child in block.remaining() if child.tag == "plugin"]:
+        node = block.try_read(child, lambda plugin: _plugin(plugin, is_named=are_listed))
+        if node is not None:
+            nodes.append(node)
+            plugins[child.get("name") or ""] = node
     if not nodes:
         return None
     return block.draft.list_of(nodes, nodes[0].span) if are_listed else block.draft.map_of(plugins, block.span)
 
 
-def _plugin(plugin: Reading, *, is_named: bool) -> YamlMap:
-    name, filename = plugin.name(), plugin.name("filename")
+def _plugin(plugin: ElementReader, *, is_named: bool) -> YamlMap:
+    name, filename = plugin.required_text(), plugin.required_text("filename")
     for attribute in (name, filename):
         if not attribute.text.strip():
-            raise DeclinedError("its name and its filename cannot be empty", attribute.span)
+            raise CannotRepresentError("its name and its filename cannot be empty", attribute.span)
     return plugin.map(name=name if is_named else None, filename=filename, parameters=_parameters(plugin))
 
 
-def _parameters(plugin: Reading) -> YamlNode | None:
+def _parameters(plugin: ElementReader) -> YamlNode | None:
     """Take all that a plugin is told, or nothing, where keys would tell it otherwise."""
-    if not plugin.children() or not has_free_children(plugin.element):
+    if not plugin.remaining() or not has_free_children(plugin.element):
         return None
     return plugin.draft.map_of(free_children(plugin), plugin.span)
 
@@ -147,15 +147,15 @@ def _never(_child: XmlElement) -> bool:
     return False
 
 
-def _vector(child: Reading) -> YamlNode:
+def _vector(child: ElementReader) -> YamlNode:
     return child.text_numbers()
 
 
-def _number(child: Reading) -> YamlNode:
+def _number(child: ElementReader) -> YamlNode:
     return child.text_number()
 
 
-_Key = tuple[str, Callable[[XmlElement], bool], Callable[[Reading], YamlNode]]
+_Key = tuple[str, Callable[[XmlElement], bool], Callable[[ElementReader], YamlNode]]
 _NO_KEY: _Key = ("", _never, read_word)
 _KEYS: Mapping[str, _Key] = {
     "material": ("material", _is_text, read_word),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from linkforge_compile.importers.draft import DeclinedError, Draft, same
-from linkforge_compile.importers.orders import named_colors
-from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.canonical import named_colors
+from linkforge_compile.importers.element_reader import ElementReader
+from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft, is_same
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
@@ -23,11 +23,11 @@ class Palette:
         self._said: dict[str, YamlMap] = {}
         self._painted_before = _painted_before(robot)
 
-    def declare(self, material: Reading) -> YamlNode:
+    def declare(self, material: ElementReader) -> YamlNode:
         """Read a material of the robot itself."""
         name = material.attribute("name")
         if name.value in self.materials:
-            raise DeclinedError(f"there is a material '{name.value}' already", name.span)
+            raise CannotRepresentError(f"there is a material '{name.value}' already", name.span)
         said = node = _definition(material)
         if material.element in self._painted_before:
             true = YamlScalar("true", True, material.span)
@@ -36,55 +36,55 @@ class Palette:
         self.materials[name.value] = name, node
         return node
 
-    def find(self, draft: Draft, root: XmlElement) -> None:
+    def find(self, draft: SpecDraft, root: XmlElement) -> None:
         """Take in what visuals say, for the names that the robot does not declare."""
         for material in _materials_of_visuals(root):
             name = material.get("name")
             if name and name not in self.materials and material.children:
-                reading = Reading(draft, material)
+                reading = ElementReader(draft, material)
                 taken = reading.attribute("name")
                 try:
                     node = self._said[name] = _definition(reading)
-                except DeclinedError:
+                except CannotRepresentError:
                     continue  # told where the visual is read
                 self.materials[name] = taken, node
 
-    def used(self, material: Reading) -> YamlNode:
+    def used(self, material: ElementReader) -> YamlNode:
         """Read the material of a visual: a name, or the whole of one that is another than the robot's of this name."""
         name = material.attribute("name")
         known = self._said.get(name.value)
-        if material.is_spent():
+        if material.is_used_up():
             if known is None:
-                raise DeclinedError(f"no material named '{name.value}' has a color or a texture", name.span)
+                raise CannotRepresentError(f"no material named '{name.value}' has a color or a texture", name.span)
             return material.draft.text(name.value, name)
         node = _definition(material)
-        if known and same(known, node):
+        if known and is_same(known, node):
             return material.draft.text(name.value, name)
         said = material.draft.text(name.value, name) if name.value else None
         return material.draft.map_of({"name": said, **_entries(node)}, material.span)
 
 
-def _definition(material: Reading) -> YamlMap:
-    color, texture = material.maybe("color", _color), material.one("texture", _texture)
+def _definition(material: ElementReader) -> YamlMap:
+    color, texture = material.optional("color", _color), material.child("texture", _texture)
     if color is None and texture is None:
-        raise material.declined("it has neither a color nor a texture that the language can say")
+        raise material.cannot_represent("it has neither a color nor a texture that the language can say")
     return material.map(color=color, texture=texture)
 
 
-def _color(color: Reading) -> YamlNode:
+def _color(color: ElementReader) -> YamlNode:
     rgba = color.numbers("rgba", 4)
     if rgba is None:
-        raise color.declined("it has no 'rgba'")
+        raise color.cannot_represent("it has no 'rgba'")
     if any(not 0 <= float(part) <= 1 for part in (color.element.get("rgba") or "").split()):
-        raise color.declined(f"its components must be from 0 to 1, found '{color.element.get('rgba')}'")
-    color.leave_rest()
+        raise color.cannot_represent(f"its components must be from 0 to 1, found '{color.element.get('rgba')}'")
+    color.pass_rest_up()
     *rgb, opacity = rgba
-    return color.draft.list_of(rgb, rgba) if same(opacity, color.draft.number("1", rgba)) else rgba
+    return color.draft.list_of(rgb, rgba) if is_same(opacity, color.draft.number("1", rgba)) else rgba
 
 
-def _texture(texture: Reading) -> YamlNode:
-    file = texture.name("filename")
-    texture.leave_rest()
+def _texture(texture: ElementReader) -> YamlNode:
+    file = texture.required_text("filename")
+    texture.pass_rest_up()
     return file
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from linkforge_compile.importers.draft import number_of
-from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.element_reader import ElementReader
+from linkforge_compile.importers.spec_draft import number_of
 from linkforge_compile.syntax import YamlList
 from linkforge_compile.units import Dimension, number_text
 
@@ -17,7 +17,7 @@ _NOISE = 4e-16
 """So far may an angle be off that is meant as a round one in degrees [rad]."""
 
 
-def rpy_of_quaternion(origin: Reading) -> YamlList | None:
+def rpy_of_quaternion(origin: ElementReader) -> YamlList | None:
     """Return the turn of a pose that a quaternion says, in rpy; None for one without, or with one that is no turn."""
     said = origin.element.attributes.get(_QUATERNION)
     numbers = [number_of(part) for part in said.value.split()] if said else []

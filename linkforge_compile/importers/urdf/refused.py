@@ -29,7 +29,7 @@ from linkforge_compile.diagnostics.codes.importing import (
     NO_NUMBERS,
     NO_TYPE_OF_JOINT,
 )
-from linkforge_compile.importers.draft import number_of
+from linkforge_compile.importers.spec_draft import number_of
 from linkforge_compile.importers.urdf.joint import TYPES_OF_JOINTS
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 

@@ -8,11 +8,11 @@ from functools import partial
 from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import SRDF_FOR_URDF
-from linkforge_compile.importers.comments import placed_comments
+from linkforge_compile.importers.comments import place_comments
 from linkforge_compile.importers.document import Imported, Move, read_document
-from linkforge_compile.importers.draft import DeclinedError, Draft
-from linkforge_compile.importers.prefixed import Shapes
-from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.element_reader import ElementReader
+from linkforge_compile.importers.raw_xml import Shapes
+from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft
 from linkforge_compile.importers.urdf.frame import frames_of
 from linkforge_compile.importers.urdf.gazebo import Blocks
 from linkforge_compile.importers.urdf.joint import read_joint
@@ -54,8 +54,8 @@ def read_urdf(
     if draft.raw and not keeps_refused and (faults := tuple(refused_by_readers(root))):
         sink.report_all(fault.told for fault in faults)
         draft, tree = _drafted(root, frozenset(element for fault in faults for element in fault.path))
-    draft.tell(sink)
-    return Imported(tree, placed_comments(document, draft, tree), (document,))
+    draft.report(sink)
+    return Imported(tree, place_comments(document, draft, tree), (document,))
 
 
 def _require_few_parts(root: XmlElement) -> None:
@@ -66,9 +66,9 @@ def _require_few_parts(root: XmlElement) -> None:
         raise budget.beyond(Limit.ENTRIES, parts[most].span)
 
 
-def _drafted(root: XmlElement, at_fault: Collection[XmlElement] = ()) -> tuple[Draft, YamlMap]:
-    draft = Draft(has_quaternions=_has_quaternions(root), shapes=_shapes_of(root), at_fault=at_fault)
-    tree = _robot(Reading(draft, root))
+def _drafted(root: XmlElement, at_fault: Collection[XmlElement] = ()) -> tuple[SpecDraft, YamlMap]:
+    draft = SpecDraft(has_quaternions=_has_quaternions(root), shapes=_shapes_of(root), at_fault=at_fault)
+    tree = _robot(ElementReader(draft, root))
     draft.bodies[root] = tree
     return draft, tree
 
@@ -104,10 +104,10 @@ def _inside(root: XmlElement, *path: tuple[str, ...]) -> list[XmlElement]:
     return found
 
 
-def _robot(robot: Reading) -> YamlMap:
+def _robot(robot: ElementReader) -> YamlMap:
     draft, palette = robot.draft, Palette(robot.element)
-    name, version = robot.name(), robot.word("version")
-    robot.each("material", palette.declare)
+    name, version = robot.required_text(), robot.text("version")
+    robot.children("material", palette.declare)
     palette.find(draft, robot.element)
     blocks = Blocks(robot)
     links = _section(robot, "link", lambda link: read_link(link, palette, blocks))
@@ -130,18 +130,18 @@ def _robot(robot: Reading) -> YamlMap:
     )
 
 
-def _section(robot: Reading, tag: str, read: Callable[[Reading], YamlNode]) -> Named:
+def _section(robot: ElementReader, tag: str, read: Callable[[ElementReader], YamlNode]) -> Named:
     """Read the children of a tag by their names; a name that is taken stays raw."""
     section: Named = {}
-    for child in [child for child in robot.children() if child.tag == tag]:
-        robot.take(child, partial(_named, section, read))
+    for child in [child for child in robot.remaining() if child.tag == tag]:
+        robot.try_read(child, partial(_named, section, read))
     return section
 
 
-def _named(section: Named, read: Callable[[Reading], YamlNode], part: Reading) -> YamlNode:
+def _named(section: Named, read: Callable[[ElementReader], YamlNode], part: ElementReader) -> YamlNode:
     name = part.attribute("name")
     if name.value in section:
-        raise DeclinedError(f"there is a {part.element.tag} '{name.value}' already", name.span)
+        raise CannotRepresentError(f"there is a {part.element.tag} '{name.value}' already", name.span)
     node = read(part)
     section[name.value] = name, node
     return node

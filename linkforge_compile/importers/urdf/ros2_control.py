@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from linkforge_compile.importers.draft import DeclinedError
-from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.element_reader import ElementReader
+from linkforge_compile.importers.spec_draft import CannotRepresentError
 from linkforge_compile.importers.urdf.free_part import is_empty, read_word, text_of
 from linkforge_compile.syntax import YamlMap, YamlNode
 
@@ -16,20 +16,20 @@ _RESERVED = ("extra", "extra_attributes")
 Named = dict[str, YamlNode | None]
 
 
-def read_ros2_control(control: Reading) -> YamlMap:
+def read_ros2_control(control: ElementReader) -> YamlMap:
     """Read a block, whose name is taken."""
-    draft, kind = control.draft, control.name("type")
+    draft, kind = control.draft, control.required_text("type")
     if kind.text not in _TYPES:
-        raise DeclinedError(f"there is no type named '{kind.text}'", kind.span)
-    hardware = control.needed("hardware", _hardware)
+        raise CannotRepresentError(f"there is no type named '{kind.text}'", kind.span)
+    hardware = control.required("hardware", _hardware)
     joints = _named(control, "joint", _joint)
     sensors, gpios = _named(control, "sensor", _sensor), _named(control, "gpio", _commanded)
     if kind.text == "actuator" and len(joints) != 1:
-        raise control.declined(f"an actuator has one joint, found {len(joints)}")
+        raise control.cannot_represent(f"an actuator has one joint, found {len(joints)}")
     if kind.text == "sensor" and any(
         isinstance(one, YamlMap) and one.get("command_interfaces") for one in joints.values()
     ):
-        raise control.declined("a sensor commands nothing, found a <command_interface>")
+        raise control.cannot_represent("a sensor commands nothing, found a <command_interface>")
     return control.map(
         type=None if kind.text == "system" else kind,
         **{entry.name: entry.value for entry in hardware} if isinstance(hardware, YamlMap) else {},
@@ -39,31 +39,31 @@ def read_ros2_control(control: Reading) -> YamlMap:
     )
 
 
-def _hardware(hardware: Reading) -> YamlMap:
+def _hardware(hardware: ElementReader) -> YamlMap:
     node = hardware.draft.map_of(
-        {"hardware_plugin": hardware.needed("plugin", read_word), "parameters": _parameters(hardware)}, hardware.span
+        {"hardware_plugin": hardware.required("plugin", read_word), "parameters": _parameters(hardware)}, hardware.span
     )
-    hardware.spent()
+    hardware.require_used_up()
     return node
 
 
-def _joint(joint: Reading) -> YamlMap:
+def _joint(joint: ElementReader) -> YamlMap:
     node = _commanded(joint)
     if node.get("command_interfaces") is None and node.get("state_interfaces") is None:
-        raise joint.declined("it has neither a <command_interface> nor a <state_interface>")
+        raise joint.cannot_represent("it has neither a <command_interface> nor a <state_interface>")
     return node
 
 
-def _commanded(component: Reading) -> YamlMap:
+def _commanded(component: ElementReader) -> YamlMap:
     commands, states = _interfaces(component, "command_interface"), _interfaces(component, "state_interface")
     return component.map(command_interfaces=commands, state_interfaces=states, parameters=_parameters(component))
 
 
-def _sensor(sensor: Reading) -> YamlMap:
+def _sensor(sensor: ElementReader) -> YamlMap:
     return sensor.map(state_interfaces=_interfaces(sensor, "state_interface"), parameters=_parameters(sensor))
 
 
-def _interfaces(component: Reading, tag: str) -> YamlNode | None:
+def _interfaces(component: ElementReader, tag: str) -> YamlNode | None:
     """Read interfaces: a list of their names, or a map where one of them has more to say."""
     interfaces = _named(component, tag, _interface)
     if not interfaces:
@@ -75,44 +75,44 @@ def _interfaces(component: Reading, tag: str) -> YamlNode | None:
     for name, node in interfaces.items():
         if node is not None:
             names.append(draft.text(name, node.span))
-            draft.stands_for(names[-1], node)
+            draft.note_same_source(names[-1], node)
     return draft.list_of(names, span)
 
 
-def _interface(interface: Reading) -> YamlMap:
+def _interface(interface: ElementReader) -> YamlMap:
     parameters = _take_parameters(interface)
     if any(name in _RESERVED for name in parameters):
-        raise interface.declined("a parameter of it is named as a key of the language")
+        raise interface.cannot_represent("a parameter of it is named as a key of the language")
     return interface.map(**parameters)
 
 
-def _parameters(owner: Reading) -> YamlNode | None:
+def _parameters(owner: ElementReader) -> YamlNode | None:
     parameters = _take_parameters(owner)
     return owner.draft.map_of(parameters, owner.span) if parameters else None
 
 
-def _take_parameters(owner: Reading) -> Named:
+def _take_parameters(owner: ElementReader) -> Named:
     return _named(owner, "param", _parameter)
 
 
-def _parameter(parameter: Reading) -> YamlNode:
+def _parameter(parameter: ElementReader) -> YamlNode:
     node = parameter.draft.word(text_of(parameter.element), parameter.span)
-    parameter.taken_text()
-    parameter.spent()
+    parameter.take_text()
+    parameter.require_used_up()
     return node
 
 
-def _named(owner: Reading, tag: str, read: Callable[[Reading], YamlNode]) -> Named:
+def _named(owner: ElementReader, tag: str, read: Callable[[ElementReader], YamlNode]) -> Named:
     """Take the children of a tag by their names; one without a name, or whose name is taken, stays raw."""
     section: Named = {}
 
-    def read_named(child: Reading) -> YamlNode:
+    def read_named(child: ElementReader) -> YamlNode:
         name = child.attribute("name")
         if not name.value or name.value in section:
-            raise DeclinedError(f"there is a <{tag}> '{name.value}' already", name.span)
+            raise CannotRepresentError(f"there is a <{tag}> '{name.value}' already", name.span)
         section[name.value] = node = read(child)
         return node
 
-    for child in [child for child in owner.children() if child.tag == tag]:
-        owner.take(child, read_named)
+    for child in [child for child in owner.remaining() if child.tag == tag]:
+        owner.try_read(child, read_named)
     return section
