@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, is_dataclass, replace
+from functools import cache
 from operator import is_
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Self
 
-from linkforge_compile.core.fields import check_numbers
+from linkforge_compile.core.fields import Child, Name, Reference, Spec, check_numbers, field_specs
 from linkforge_compile.core.frozen_map import FrozenMap, frozen
+from linkforge_compile.core.naming import prefixed_topic
 from linkforge_compile.source import Sourced
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Part(Sourced):
     """A frozen value: nothing in it ever changes, so a copy of it, deep or not, is the part itself."""
-
-    PREFIXED: ClassVar[tuple[str, ...]] = ()
-    """The fields that hold names which a prefix goes before: of the part, of others it refers to, of parts in it."""
 
     def __init_subclass__(cls) -> None:
         # For its slots, dataclass makes a class twice, and knows its fields the second time. It puts inherited ones
@@ -44,14 +43,41 @@ class Part(Sourced):
             RobotModelError: What the constructor raises, where the prefix makes a name that it refuses.
 
         """
-        values: dict[str, Any] = {name: getattr(self, name) for name in self.PREFIXED}  # Any: names, parts, or mappings
-        changed = {name: _put_prefix(value, prefix) for name, value in values.items() if value and prefix}
-        if all(value is values[name] for name, value in changed.items()):
-            return self
-        return replace(self, **changed)
+        changed = prefixed_fields(self, prefix)
+        return replace(self, **changed) if changed else self
 
 
-def _put_prefix(value: Any, prefix: str) -> Any:
+def prefixed_fields(part: object, prefix: str) -> dict[str, Any]:  # Any: names, parts, sequences and mappings of them
+    """Return the fields of a part that a prefix changes, by name, with the prefix put before the names in them."""
+    changed: dict[str, Any] = {}
+    kind: type = type(part)
+    for name, put_prefix in _prefixers(kind).items():
+        value = getattr(part, name)
+        if value and prefix and (new := put_prefix(prefix, value)) is not value:
+            changed[name] = new
+    return changed
+
+
+@cache
+def _prefixers(kind: type) -> Mapping[str, Callable[[str, Any], Any]]:
+    """Return the fields of a class with names that take a prefix: its own, of others, and in the elements in it."""
+    prefixers: dict[str, Callable[[str, Any], Any]] = {}
+    for name, spec in field_specs(kind).items():
+        if isinstance(spec, Reference) and spec.to == "topic":
+            prefixers[name] = prefixed_topic
+        elif isinstance(spec, Name | Reference) or _holds_names(spec):
+            prefixers[name] = _put_prefix
+    if getattr(kind, "NAMES_INSIDE_TAKE_PREFIX", False):
+        prefixers["extra_inside"] = _put_prefix
+    return prefixers
+
+
+def _holds_names(spec: Spec) -> bool:
+    """Whether a field has elements with names that take a prefix."""
+    return isinstance(spec, Child) and any(is_dataclass(kind) and _prefixers(kind) for kind in spec.kinds)
+
+
+def _put_prefix(prefix: str, value: Any) -> Any:
     """Return a name, parts, or a mapping by names under a prefix; the value itself where nothing changes."""
     if isinstance(value, str):
         return prefix + value if value else value
@@ -59,8 +85,8 @@ def _put_prefix(value: Any, prefix: str) -> Any:
         return FrozenMap({prefix + name: each for name, each in value.items()})
     if isinstance(value, Iterable):
         values = tuple(value)
-        copies = tuple(_put_prefix(each, prefix) for each in values)
-        return value if all(map(is_, copies, values)) else copies
+        copies = tuple(_put_prefix(prefix, each) for each in values)
+        return values if all(map(is_, copies, values)) else copies
     return value.with_prefix(prefix)
 
 
@@ -97,6 +123,8 @@ class Element(Part):
     """The tag of the element; empty where it depends on what holds the part."""
     KEYS_ARE_TAGS: ClassVar[bool] = False
     """Whether the keys of a mapping in it become elements, and not attributes."""
+    NAMES_INSIDE_TAKE_PREFIX: ClassVar[bool] = False
+    """Whether the names in `extra_inside` are those of links, joints and groups, which take a prefix."""
 
     extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False)
     extra_elements: Sequence[str] = field(default=(), repr=False)
@@ -115,10 +143,8 @@ class Inside(Element):
     `<joint name>` of a group, a `<param name>`; None for the only one.
     """
 
-    PREFIXED = ("name",)
-
     tag: str
-    name: str | None = None
+    name: Annotated[str | None, Reference("part")] = None
 
 
 def attribute_pairs(attributes: Sequence[tuple[str, str]] | Mapping[str, str]) -> tuple[tuple[str, str], ...]:

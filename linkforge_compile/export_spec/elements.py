@@ -38,6 +38,8 @@ def written_fields(
     written: dict[str, YamlNode | None] = {}
     for name, spec in field_specs(type(part)).items():
         value = getattr(part, name)
+        if not isinstance(spec, _WRITTEN):
+            continue
         is_implied = not isinstance(spec, Noise) and value == spec.implied and name not in stated
         if value is not None and (builder.full or not is_implied):
             dimension = (unit or spec.unit).dimension(motion) if isinstance(spec, Number) else None
@@ -45,7 +47,14 @@ def written_fields(
     return written
 
 
+<<<<<<< HEAD
 def _written(builder: SpecBuilder, value: object, spec: Spec, dimension: Dimension | None) -> YamlNode | None:
+=======
+_WRITTEN = (Number, Noise, Text, Flag, Choice)
+
+
+def _written(pen: Pen, value: object, spec: Spec, dimension: Dimension | None) -> YamlNode | None:
+>>>>>>> model
     match spec, value:
         case Number(), int() | float():
             return builder.quantity(value, dimension)

@@ -37,7 +37,7 @@ def written_joint(builder: SpecBuilder, joint: Joint, gazebo: YamlNode | None) -
         axis=_axis(builder, joint),
         limits=_part(builder, joint.limits, motion),
         dynamics=_part(builder, joint.dynamics, motion),
-        mimic=_part(builder, joint.mimic, motion, joint=builder.text(joint.mimic.joint)) if joint.mimic else None,
+        mimic=_part(builder, joint.mimic, motion),
         safety_controller=_part(builder, joint.safety_controller, motion),
         calibration=_part(builder, joint.calibration, motion),
         gazebo=gazebo,

@@ -24,7 +24,7 @@ def written_sensor(builder: SpecBuilder, sensor: Sensor) -> YamlMap:
         type=builder.text(sensor.type),
         link=builder.text(sensor.link_name),
         origin=written_origin(builder, sensor.origin),
-        **written_fields(builder, sensor),
+        update_rate=written_fields(builder, sensor).get("update_rate"),
         always_on=builder.flag(sensor.always_on, True),
         visualize=builder.flag(sensor.visualize, False),
         topic=builder.text(sensor.topic),

@@ -28,7 +28,11 @@ def lower_element(kind: type[E], fields: Fields, motion: Motion = Motion.OTHER, 
 
 def lower_fields(kind: type[Part], fields: Fields, motion: Motion = Motion.OTHER) -> dict[str, Any]:
     """Read the fields that a model class describes, numbers in SI; what is faulty is reported, and replaced."""
-    return {name: _lower_field(name, spec, fields, motion) for name, spec in field_specs(kind).items()}
+    specs = field_specs(kind).items()
+    return {name: lower_field(name, spec, fields, motion) for name, spec in specs if isinstance(spec, _LOWERED)}
+
+
+_LOWERED = (Number, Noise, Text, Flag, Choice)
 
 
 def is_incomplete(kind: type[Part], values: dict[str, Any]) -> bool:
@@ -42,14 +46,15 @@ def stated_numbers(kind: type[Part], fields: Fields) -> Sequence[str]:
     return [name for name in number_fields(kind) if fields.node.get(name) is not None]
 
 
-def _lower_field(name: str, spec: Spec, fields: Fields, motion: Motion) -> Any:
+def lower_field(name: str, spec: Spec, fields: Fields, motion: Motion = Motion.OTHER) -> Any:
+    """Read one field of a model class as its spec says."""
     match spec:
         case Number():
             return _lower_number(name, spec, fields, measure_of(spec.unit, spec.bound, motion, spec.may_be_far), motion)
         case Noise():
             return _lower_noise(name, spec.unit, fields)
         case Text():
-            value: Any = fields.text(name, required=spec.example)
+            value: Any = fields.text(name, required=spec.example_for(motion))
         case Flag():
             value = fields.flag(name)
         case Choice():

@@ -233,12 +233,7 @@ def _mimic(fields: Fields, motion: Motion) -> JointMimic | None:
     mimic = fields.map("mimic")
     if mimic is None:
         return None
-    joint = mimic.text("joint", required="left_finger")
-    numbers = lower_fields(JointMimic, mimic, motion)
-    if joint is None:
-        return None
-    stated = stated_numbers(JointMimic, mimic)
-    return mimic.build(lambda: JointMimic(joint, **numbers, stated=stated, **besides(mimic)))
+    return lower_element(JointMimic, mimic, motion, stated=stated_numbers(JointMimic, mimic))
 
 
 def _refuse(fields: Fields, key: str, joint_type: JointType) -> None:

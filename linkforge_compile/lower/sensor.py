@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.models.sensor import (
     REQUIRED_INFO,
     CameraInfo,
@@ -17,7 +18,7 @@ from linkforge_compile.core.models.sensor import (
     SensorType,
 )
 from linkforge_compile.core.part import Element
-from linkforge_compile.lower.elements import lower_element, lower_fields
+from linkforge_compile.lower.elements import lower_element, lower_field
 from linkforge_compile.lower.extra import besides
 from linkforge_compile.lower.fields import Fields, or_default
 from linkforge_compile.lower.gazebo import lower_plugin
@@ -46,7 +47,7 @@ def lower_sensors(file: Fields) -> Iterator[Sensor]:
 
 def _sensor(fields: Fields, name: str) -> Sensor | None:
     sensor_type, link = fields.choice("type", SensorType, required="camera"), fields.text("link", required="head")
-    update_rate = lower_fields(Sensor, fields)["update_rate"]
+    update_rate = lower_field("update_rate", field_specs(Sensor)["update_rate"], fields)
     always_on, visualize = fields.flag("always_on"), fields.flag("visualize")
     origin, topic, frame = fields.origin(), fields.text("topic"), fields.text("frame")
     plugin = fields.map("plugin")

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 from linkforge_compile.core.exceptions import FieldPath, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import NOT_NEGATIVE, Children, Number, Reference, Text
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import is_finite, not_finite, require_not_blank
+from linkforge_compile.units import LENGTH
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,11 +25,9 @@ class CollisionPair(Element):
 
     """
 
-    PREFIXED = ("link1", "link2")
-
-    link1: str
-    link2: str
-    reason: str | None = None
+    link1: Annotated[str, Reference("link", key="")]
+    link2: Annotated[str, Reference("link", key="")]
+    reason: Annotated[str | None, Text()] = None
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -46,6 +47,9 @@ class CollisionPair(Element):
         return (self.link1, self.link2) if self.link1 < self.link2 else (self.link2, self.link1)
 
 
+_CENTER = Number(LENGTH, key="center", xml="@center", example="[0, 0, 0.1]")
+
+
 @dataclass(frozen=True, slots=True)
 class SrdfSphere(Element):
     """A sphere in the frame of its link: `<sphere center radius>`, all [m].
@@ -56,10 +60,12 @@ class SrdfSphere(Element):
 
     """
 
-    center_x: float
-    center_y: float
-    center_z: float
-    radius: float
+    TAG = "sphere"
+
+    center_x: Annotated[float, _CENTER]
+    center_y: Annotated[float, _CENTER]
+    center_z: Annotated[float, _CENTER]
+    radius: Annotated[float, Number(LENGTH, NOT_NEGATIVE, example="0.1")]
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -90,10 +96,10 @@ class LinkSphereApproximation(Element):
 
     """
 
-    PREFIXED = ("link",)
+    TAG = "link_sphere_approximation"
 
-    link: str
-    spheres: Sequence[SrdfSphere] = ()
+    link: Annotated[str, Reference("link", key="")]
+    spheres: Annotated[Sequence[SrdfSphere], Children()] = ()
 
     def __post_init__(self) -> None:
         freeze(self, "spheres")

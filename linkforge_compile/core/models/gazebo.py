@@ -4,8 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Annotated
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import (
+    NOT_NEGATIVE,
+    ZERO_TO_ONE,
+    Children,
+    Flag,
+    Name,
+    Number,
+    Parameters,
+    Reference,
+    Text,
+)
 from linkforge_compile.core.frozen_map import FreePart, FrozenMap
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import require_finite, require_not_blank
@@ -24,12 +36,12 @@ class GazeboPlugin(Element):
 
     """
 
-    PREFIXED = ("name",)
+    TAG = "plugin"
     KEYS_ARE_TAGS = True
 
-    name: str
-    filename: str
-    parameters: Mapping[str, FreePart] = FrozenMap()
+    name: Annotated[str, Name(example="controller")]
+    filename: Annotated[str, Text(example="libcontroller.so")]
+    parameters: Annotated[Mapping[str, FreePart], Parameters(xml="*")] = FrozenMap()
     raw_xml: str | None = field(default=None, compare=False)
 
     def with_prefix(self, prefix: str) -> GazeboPlugin:
@@ -78,18 +90,18 @@ class GazeboElement(Element):
 
     """
 
-    PREFIXED = ("reference", "plugins")
+    TAG = "gazebo"
     KEYS_ARE_TAGS = True
 
-    reference: str | None = None
-    properties: Mapping[str, FreePart] = FrozenMap()
-    plugins: Sequence[GazeboPlugin] = ()
-    material: str | None = None
-    static: bool | None = None
-    stop_cfm: float | None = None
-    stop_erp: float | None = None
-    provide_feedback: bool | None = None
-    implicit_spring_damper: bool | None = None
+    reference: Annotated[str | None, Reference("part")] = None
+    properties: Annotated[Mapping[str, FreePart], Parameters(xml="*")] = FrozenMap()
+    plugins: Annotated[Sequence[GazeboPlugin], Children()] = ()
+    material: Annotated[str | None, Text(xml="material/text()")] = None
+    static: Annotated[bool | None, Flag(xml="static/text()")] = None
+    stop_cfm: Annotated[float | None, Number(bound=NOT_NEGATIVE, xml="stopCfm/text()")] = None
+    stop_erp: Annotated[float | None, Number(bound=ZERO_TO_ONE, xml="stopErp/text()")] = None
+    provide_feedback: Annotated[bool | None, Flag(xml="provideFeedback/text()")] = None
+    implicit_spring_damper: Annotated[bool | None, Flag(xml="implicitSpringDamper/text()")] = None
 
     def __post_init__(self) -> None:
         freeze(self, "plugins", mappings=("properties",))

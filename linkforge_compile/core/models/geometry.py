@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import isfinite
-from typing import Annotated, TypeAlias
+from typing import Annotated, ClassVar, TypeAlias
 
 from linkforge_compile.core.constants import PI
 from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
-from linkforge_compile.core.fields import ABOVE_ZERO, Number
+from linkforge_compile.core.fields import ABOVE_ZERO, NOT_ZERO, Number, Text, Vector
 from linkforge_compile.core.part import Element, Part, freeze
 from linkforge_compile.core.rules import is_finite, not_finite, require_finite
-from linkforge_compile.units import LENGTH
+from linkforge_compile.units import ANGLE, LENGTH
 
 
 class GeometryType(StrEnum):
@@ -71,8 +71,10 @@ class Transform(Element):
     is written although it moves nothing; it is no other pose for that.
     """
 
-    xyz: Vector3 = _ZERO
-    rpy: Vector3 = _ZERO
+    TAG: ClassVar[str] = "origin"
+
+    xyz: Annotated[Vector3, Vector(LENGTH)] = _ZERO
+    rpy: Annotated[Vector3, Vector(ANGLE)] = _ZERO
     is_stated: bool = field(default=False, kw_only=True, compare=False, repr=False)
 
     @property
@@ -102,7 +104,9 @@ class Box(Element):
 
     """
 
-    size: Vector3
+    TAG: ClassVar[str] = "box"
+
+    size: Annotated[Vector3, Vector(LENGTH, ABOVE_ZERO, example="[0.1, 0.1, 0.1]")]
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -140,6 +144,8 @@ class Cylinder(Element):
 
     """
 
+    TAG: ClassVar[str] = "cylinder"
+
     radius: Annotated[float, _RADIUS]
     length: Annotated[float, _LENGTH]
 
@@ -166,6 +172,8 @@ class Sphere(Element):
         RobotMathError: INVALID_VALUE for NaN or infinity.
 
     """
+
+    TAG: ClassVar[str] = "sphere"
 
     radius: Annotated[float, _RADIUS]
 
@@ -194,6 +202,8 @@ class Capsule(Element):
         RobotMathError: INVALID_VALUE for NaN or infinity.
 
     """
+
+    TAG: ClassVar[str] = "capsule"
 
     radius: Annotated[float, _RADIUS]
     length: Annotated[float, _LENGTH]
@@ -225,8 +235,10 @@ class Mesh(Element):
 
     """
 
-    resource: str
-    scale: Vector3 = _ONE
+    TAG: ClassVar[str] = "mesh"
+
+    resource: Annotated[str, Text(key="file", xml="@filename", example="meshes/part.stl")]
+    scale: Annotated[Vector3, Vector(bound=NOT_ZERO)] = _ONE
     is_scale_stated: bool = field(default=False, kw_only=True, compare=False, repr=False)
 
     @property

@@ -17,7 +17,17 @@ from linkforge_compile.core.constants import (
     UNKNOWN,
 )
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.fields import NOT_NEGATIVE, Number, check_numbers
+from linkforge_compile.core.fields import (
+    NOT_NEGATIVE,
+    Axis,
+    Child,
+    Choice,
+    Name,
+    Number,
+    Pose,
+    Reference,
+    check_numbers,
+)
 from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import require_name, require_valid_characters
@@ -139,11 +149,9 @@ class JointMimic(Element):
 
     """
 
-    PREFIXED = ("joint",)
-
     TAG: ClassVar[str] = "mimic"
 
-    joint: str
+    joint: Annotated[str, Reference("joint", example="left_finger")]
     multiplier: Annotated[float, Number(stand_in=UNKNOWN)] = 1.0
     offset: Annotated[float, Number(POSITION, stand_in=UNKNOWN)] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, compare=False, repr=False)
@@ -205,19 +213,19 @@ class Joint(Element):
 
     """
 
-    PREFIXED = ("name", "parent", "child", "mimic")
+    TAG: ClassVar[str] = "joint"
 
-    name: str
-    type: JointType
-    parent: str
-    child: str
-    origin: Transform = IDENTITY
-    axis: Vector3 | None = None
-    limits: JointLimits | None = None
-    dynamics: JointDynamics | None = None
-    mimic: JointMimic | None = None
-    safety_controller: JointSafetyController | None = None
-    calibration: JointCalibration | None = None
+    name: Annotated[str, Name()]
+    type: Annotated[JointType, Choice(JointType, example="revolute")]
+    parent: Annotated[str, Reference("link", xml="parent/@link", example="base")]
+    child: Annotated[str, Reference("link", xml="child/@link", example="arm")]
+    origin: Annotated[Transform, Pose()] = IDENTITY
+    axis: Annotated[Vector3 | None, Axis(xml="axis/@xyz")] = None
+    limits: Annotated[JointLimits | None, Child()] = None
+    dynamics: Annotated[JointDynamics | None, Child()] = None
+    mimic: Annotated[JointMimic | None, Child()] = None
+    safety_controller: Annotated[JointSafetyController | None, Child()] = None
+    calibration: Annotated[JointCalibration | None, Child()] = None
     axis_as_written: Vector3 | None = field(default=None, kw_only=True, compare=False, repr=False)
 
     def __post_init__(self) -> None:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Annotated
 
 from linkforge_compile.core.constants import DEFAULT_MATERIAL_RGBA
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import Colour, Flag, Name, Text
 from linkforge_compile.core.part import Element, freeze
 
 
@@ -17,6 +19,8 @@ class Color(Element):
         RobotValidationError: OUT_OF_RANGE for a component outside of [0, 1]; the field is its position, 0 to 3.
 
     """
+
+    TAG = "color"
 
     r: float
     g: float
@@ -71,12 +75,12 @@ class Material(Element):
 
     """
 
-    PREFIXED = ("name",)
+    TAG = "material"
 
-    name: str
-    color: Color | None = None
-    texture: str | None = None
-    after_links: bool = field(default=False, compare=False, repr=False, kw_only=True)
+    name: Annotated[str, Name()]
+    color: Annotated[Color | None, Colour()] = None
+    texture: Annotated[str | None, Text(xml="texture/@filename")] = None
+    after_links: Annotated[bool, Flag(xml="")] = field(default=False, compare=False, repr=False, kw_only=True)
 
     def __post_init__(self) -> None:
         freeze(self)

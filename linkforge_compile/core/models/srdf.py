@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter, itemgetter
-from typing import Any
+from typing import Annotated, Any
 
+from linkforge_compile.core.fields import Children, Name, Reference
 from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.named_table import Additions, KeySpec, OnDuplicate, PartList, extend_all, itself
 from linkforge_compile.core.models.planning import (
@@ -60,19 +61,20 @@ class SemanticRobotDescription(Element):
     Collections keep the order in which they were given. `no_default_collision_links` are names of links.
     """
 
-    PREFIXED = ("robot_name", *_MEMBERS, "extra_inside")
+    TAG = "robot"
+    NAMES_INSIDE_TAKE_PREFIX = True
 
-    robot_name: str = ""
-    virtual_joints: Sequence[VirtualJoint] = ()
-    groups: Sequence[PlanningGroup] = ()
-    group_states: Sequence[GroupState] = ()
-    end_effectors: Sequence[EndEffector] = ()
-    passive_joints: Sequence[PassiveJoint] = ()
-    disabled_collisions: Sequence[CollisionPair] = ()
-    enabled_collisions: Sequence[CollisionPair] = ()
-    no_default_collision_links: Sequence[str] = ()
-    link_sphere_approximations: Sequence[LinkSphereApproximation] = ()
-    joint_properties: Sequence[JointProperty] = ()
+    robot_name: Annotated[str, Name(xml="@name")] = ""
+    virtual_joints: Annotated[Sequence[VirtualJoint], Children()] = ()
+    groups: Annotated[Sequence[PlanningGroup], Children()] = ()
+    group_states: Annotated[Sequence[GroupState], Children()] = ()
+    end_effectors: Annotated[Sequence[EndEffector], Children()] = ()
+    passive_joints: Annotated[Sequence[PassiveJoint], Children()] = ()
+    disabled_collisions: Annotated[Sequence[CollisionPair], Children(xml="disable_collisions")] = ()
+    enabled_collisions: Annotated[Sequence[CollisionPair], Children(xml="enable_collisions")] = ()
+    no_default_collision_links: Annotated[Sequence[str], Reference("link", xml="disable_default_collisions/@link")] = ()
+    link_sphere_approximations: Annotated[Sequence[LinkSphereApproximation], Children()] = ()
+    joint_properties: Annotated[Sequence[JointProperty], Children()] = ()
 
     def __post_init__(self) -> None:
         freeze(self, *_MEMBERS)
