@@ -1,4 +1,4 @@
-"""A robot written back as a spec, and how each of its values came to be."""
+"""Write a robot as a spec, and explain where its values come from."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ __all__ = [
 def write_spec(robot: Robot, *, banner: str | None = None, origins: bool = False) -> str:
     """Return a robot as a flat spec; compiled, it gives an equal robot and the same URDF and SRDF (see `spec_of`).
 
-    `banner` becomes a comment at the top, None for none. With `origins`, each part of a robot that was compiled is
-    preceded by a comment that says where it was written.
+    `banner` becomes a comment at the top. With `origins`, a comment above each part of a compiled robot shows where
+    it was written.
 
     Raises:
-        RobotGeneratorError: for two parts of one name where a spec can hold only one.
+        RobotGeneratorError: for two parts with the same name where a spec can hold only one.
 
     """
     builder = SpecBuilder()

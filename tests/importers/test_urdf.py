@@ -671,7 +671,9 @@ def _leaving(left: int, limit: Limit) -> type[Budget]:
     return Spent
 
 
-@pytest.mark.parametrize(("limit", "room", "line"), [(Limit.VALUES, "spec_draft", 12), (Limit.ENTRIES, "urdf.robot", 12)])
+@pytest.mark.parametrize(
+    ("limit", "room", "line"), [(Limit.VALUES, "spec_draft", 12), (Limit.ENTRIES, "urdf.robot", 12)]
+)
 def test_what_cannot_but_be_too_much_is_told_where_it_gets_there(
     limit: Limit, room: str, line: int, monkeypatch: pytest.MonkeyPatch
 ):
