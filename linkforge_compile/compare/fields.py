@@ -6,20 +6,20 @@ from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, S
 from dataclasses import dataclass, field, fields, is_dataclass
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.fields import Spec, field_specs
 from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.part import Part
 from linkforge_compile.formats.node import Node, inline, is_text
 from linkforge_compile.formats.raw import nodes_of
 
 _KEYS = {
-    "visuals": "visual",
     "chains": "chain",
-    "collisions": "collision",
-    "link_name": "link",
-    "resource": "file",
     "ros2_controls": "ros2_control",
     "gazebo_elements": "gazebo",
     "extra_elements": "extra",
 }
+"""Keys in paths where the spec of a field has none, or another."""
 _STATED_FIELDS = frozenset({"stated", "interfaces_stated", "version_stated"})
 """Fields that name the fields written with their default; `stated_differences` compares them."""
 
@@ -75,9 +75,15 @@ def _texts(node: Node) -> tuple[str, ...]:
     return tuple(texts)
 
 
-def key_of_field(name: str) -> str:
-    """Return the key of the language for a field of a model class."""
-    return _KEYS.get(name, name.removesuffix("_info"))
+def specs_of(kind: type) -> Mapping[str, Spec]:
+    """Return the specs of the class of an element or link; none for other classes."""
+    return field_specs(kind) if issubclass(kind, Part | Link) else {}
+
+
+def key_of_field(kind: type, name: str) -> str:
+    """Return the key of the language for a field of a class."""
+    spec = specs_of(kind).get(name)
+    return _KEYS.get(name) or (spec.key if spec else "") or name
 
 
 def is_part(value: object) -> bool:

@@ -8,11 +8,8 @@ from collections.abc import Mapping
 from decimal import Decimal
 from typing import NamedTuple
 
-from linkforge_compile.core.fields import number_fields
-from linkforge_compile.core.models.collision_rules import SrdfSphere
-from linkforge_compile.core.models.geometry import Box
-from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
-from linkforge_compile.core.part import Part
+from linkforge_compile.compare.fields import specs_of
+from linkforge_compile.core.fields import Number, Vector
 from linkforge_compile.units import POSITION, Dimension, FieldUnit, Motion
 
 _FLOOR = 1e-6
@@ -35,17 +32,14 @@ LENGTH = Measure("m", as_share=False)
 ANGLE = Measure("deg", 180 / math.pi, as_share=False)
 
 _BY_DIMENSION: Mapping[Dimension | None, Measure] = {Dimension.LENGTH: LENGTH, Dimension.ANGLE: ANGLE}
-_LENGTHS = ((Box, "size"), *((SrdfSphere, name) for name in ("center_x", "center_y", "center_z", "radius")))
-_POSITIONS = ((TransmissionJoint, "offset"), (TransmissionActuator, "offset"))
 
 
 def measure_of(kind: type, field: str, *, slides: bool) -> Measure:
     """Return the measure of a field of a class; `slides` is whether it is about a prismatic joint."""
-    if issubclass(kind, Part) and (spec := number_fields(kind).get(field)):
-        return _measure_in(spec.unit, slides=slides)
-    if (kind, field) in _POSITIONS:
-        return position_measure(slides=slides)
-    return LENGTH if (kind, field) in _LENGTHS else BARE
+    match specs_of(kind).get(field):
+        case Number(unit=unit) | Vector(unit=unit):
+            return _measure_in(unit, slides=slides)
+    return BARE
 
 
 def position_measure(*, slides: bool) -> Measure:

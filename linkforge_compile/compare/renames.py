@@ -4,30 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
-from enum import Enum, auto
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.compare.fields import match_key
-from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
-from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.compare.fields import match_key, specs_of
+from linkforge_compile.core.fields import Name, Reference, Spec
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import Joint, JointMimic
 from linkforge_compile.core.models.link import Collision, Link, Visual
-from linkforge_compile.core.models.planning import (
-    Chain,
-    EndEffector,
-    GroupState,
-    JointProperty,
-    PassiveJoint,
-    PlanningGroup,
-    VirtualJoint,
-)
+from linkforge_compile.core.models.planning import GroupState
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
-from linkforge_compile.core.models.sensor import Sensor
-from linkforge_compile.core.models.srdf import SemanticRobotDescription
-from linkforge_compile.core.models.transmission import TransmissionJoint
-from linkforge_compile.core.part import Inside
 
 
 class Renames(NamedTuple):
@@ -187,39 +172,6 @@ _NAMES: Mapping[type, Collection[str]] = {
 """Fields of links, joints and states to ignore when looking for the same part under another name."""
 
 
-class _Names(Enum):
-    """What a field names."""
-
-    LINKS = auto()
-    JOINTS = auto()
-    BOTH = auto()
-
-
-_LINKS, _JOINTS, _BOTH = _Names
-
-REFERENCES: Mapping[type, Mapping[str, _Names]] = {
-    Link: {"name": _LINKS},
-    Joint: {"name": _JOINTS, "parent": _LINKS, "child": _LINKS},
-    JointMimic: {"joint": _JOINTS},
-    GazeboElement: {"reference": _BOTH},
-    Sensor: {"link_name": _LINKS, "frame": _LINKS},
-    TransmissionJoint: {"name": _JOINTS},
-    Ros2ControlJoint: {"name": _JOINTS},
-    VirtualJoint: {"child_link": _LINKS},
-    PlanningGroup: {"links": _LINKS, "joints": _JOINTS},
-    Chain: {"base_link": _LINKS, "tip_link": _LINKS},
-    GroupState: {"joint_values": _JOINTS},
-    EndEffector: {"parent_link": _LINKS},
-    PassiveJoint: {"name": _JOINTS},
-    CollisionPair: {"link1": _LINKS, "link2": _LINKS},
-    LinkSphereApproximation: {"link": _LINKS},
-    JointProperty: {"joint_name": _JOINTS},
-    SemanticRobotDescription: {"no_default_collision_links": _LINKS},
-    Inside: {"name": _BOTH},
-}
-"""Fields that hold names of links and joints."""
-
-
 def apply_renames(value: object, renames: Renames) -> object:
     """Return a value in which every renamed link, joint and state has its new name."""
     if not any(renames):
@@ -228,12 +180,12 @@ def apply_renames(value: object, renames: Renames) -> object:
         return tuple(apply_renames(item, renames) for item in value)
     if not is_dataclass(value) or isinstance(value, type):
         return value
-    references = REFERENCES.get(type(value), {})
+    specs = specs_of(type(value))
     changes: dict[str, object] = {}
     for field in fields(value):
         old: object = getattr(value, field.name)
-        names = references.get(field.name)
-        new = apply_renames(old, renames) if names is None else _rename(old, _new_names(names, renames))
+        new_names = _new_names(type(value), specs.get(field.name), renames)
+        new = apply_renames(old, renames) if new_names is None else _rename(old, new_names)
         if new is not old and new != old:
             changes[field.name] = new
     if isinstance(value, GroupState) and (name := renames.states.get((value.group, value.name))):
@@ -241,10 +193,20 @@ def apply_renames(value: object, renames: Renames) -> object:
     return replace(value, **changes) if changes else value
 
 
-def _new_names(names: _Names, renames: Renames) -> Mapping[str, str]:
-    if names is _BOTH:
-        return {**renames.joints, **renames.links}
-    return renames.links if names is _LINKS else renames.joints
+def _new_names(kind: type, spec: Spec | None, renames: Renames) -> Mapping[str, str] | None:
+    """Return the new names for a field of a class; None for a field without names of links or joints."""
+    match spec:
+        case Reference(to="link" | "frame"):
+            return renames.links
+        case Reference(to="joint"):
+            return renames.joints
+        case Reference(to="part"):
+            return {**renames.joints, **renames.links}
+        case Name() if kind is Link:
+            return renames.links
+        case Name() if kind is Joint:
+            return renames.joints
+    return None
 
 
 def _rename(value: object, new_names: Mapping[str, str]) -> object:

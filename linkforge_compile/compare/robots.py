@@ -45,7 +45,7 @@ def _compare_sections(
                 path = ("semantic", "group_states", f"{group}/{now}")
                 yield Difference(Kind.RENAMED, path, was, now, f"was '{was}'")
         old, new = _section(before, field, renames), _section(after, field, Renames({}, {}))
-        yield from walk((key_of_field(field),), old, new, context.for_section(field))
+        yield from walk((key_of_field(Robot, field),), old, new, context.for_section(field))
         if field == "version":
             yield from stated_differences((), before, after, context)
 

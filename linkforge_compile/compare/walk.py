@@ -255,7 +255,7 @@ def _compare_fields(
         old, new = compared_value(before, name), compared_value(after, name)
         # A shape stands under its own tag, unless that has changed.
         is_same_shape = name == "geometry" and type(old) is type(new)
-        key = str(getattr(old, "type", name)) if is_same_shape else key_of_field(name)
+        key = str(getattr(old, "type", name)) if is_same_shape else key_of_field(type(before), name)
         yield from walk((*path, key), old, new, context.for_field(before, name))
     yield from stated_differences(path, before, after, context)
 
@@ -266,7 +266,7 @@ def stated_differences(path: Path, before: object, after: object, context: Compa
     for name in dict.fromkeys((*are, *were)):
         old, new = getattr(before, name, None), getattr(after, name, None)
         if (name in were) != (name in are) and old == new:
-            here, about_field = (*path, key_of_field(name)), context.for_field(before, name)
+            here, about_field = (*path, key_of_field(type(before), name)), context.for_field(before, name)
             yield from walk(here, old if name in were else None, new if name in are else None, about_field)
 
 

@@ -133,7 +133,7 @@ def _describe_fields(part: object, *, slides: bool) -> Iterator[str]:
             continue
         if _is_default(field, value):
             continue
-        key = key_of_field(field.name)
+        key = key_of_field(type(part), field.name)
         if isinstance(value, tuple) and value and is_part(value[0]):
             yield _describe_members(key, value)
         elif key == "geometry" or isinstance(value, Transform):
@@ -189,5 +189,5 @@ def to_plain(value: object) -> Plain:
 
 
 def _plain_fields(part: object) -> dict[str, Plain]:
-    values = {key_of_field(name): to_plain(compared_value(part, name)) for name in compared_fields(part)}
+    values = {key_of_field(type(part), name): to_plain(compared_value(part, name)) for name in compared_fields(part)}
     return {key: value for key, value in values.items() if value is not None and value not in ([], {})}
