@@ -111,7 +111,7 @@ class _Canonicalizer:
         self._cache = cache
         self._materials: dict[str, XmlElement] = {}
         declared = [child for child in robot.children if child.tag == "material"]
-        for material in (*declared, *_visual_materials(robot)):
+        for material in (*declared, *visual_materials(robot)):
             if (name := material.get("name")) and material.children:
                 self._materials.setdefault(name, material)
         self._declared = set(self._materials.values())
@@ -171,6 +171,8 @@ def _is_default(child: CanonicalElement, path: str, parent: XmlElement) -> bool:
     return path != _AXIS or parent.get("type") not in _WITHOUT_AXIS
 
 
-def _visual_materials(robot: XmlElement) -> Iterable[XmlElement]:
-    visuals = (part for link in robot.children if link.tag == "link" for part in link.children if part.tag == "visual")
-    return (part for visual in visuals for part in visual.children if part.tag == "material")
+def visual_materials(robot: XmlElement) -> Iterator[XmlElement]:
+    """Yield the materials in the visuals of a robot, in the order of the document."""
+    for link in robot.children:
+        for visual in link.children if link.tag == "link" else ():
+            yield from (part for part in visual.children if visual.tag == "visual" and part.tag == "material")

@@ -22,6 +22,9 @@ from linkforge_compile.units import Dimension
 Read = Callable[["ElementReader"], YamlNode | None]
 """A function that reads an element; it returns None for one that says only what its absence means too."""
 
+Named = dict[str, tuple[XmlAttribute, YamlNode]]
+"""Nodes by name, each with the attribute that names it."""
+
 _MAX_TEXT = 40
 """Characters shown of a text that is left out."""
 
@@ -270,6 +273,23 @@ class ElementReader:
         self.draft.raw.add(child)
         self.draft.note_source(node, child)
         return node
+
+
+def read_named(owner: ElementReader, tag: str, read: Callable[[ElementReader], YamlNode], key: str = "name") -> Named:
+    """Take the children of a tag by the attribute that names them; one with a name that is taken stays raw."""
+    section: Named = {}
+
+    def read_one(reader: ElementReader) -> YamlNode:
+        name = reader.attribute(key)
+        if name.value in section:
+            raise CannotRepresentError(f"there is a {tag} '{name.value}' already", name.span)
+        node = read(reader)
+        section[name.value] = name, node
+        return node
+
+    for child in owner.remaining(tag):
+        owner.try_read(child, read_one)
+    return section
 
 
 def _names_in(element: XmlElement) -> Iterator[str]:
