@@ -1,4 +1,4 @@
-"""Run recursive work in a thread of its own, so that what it can do does not depend on its caller's stack."""
+"""Run recursive code in a thread of its own, with the whole recursion limit available."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ T = TypeVar("T")
 
 
 def on_fresh_stack(work: Callable[[], T]) -> T:
-    """Return what the work returns, or raise what it raises, with all of Python's recursion limit to itself.
+    """Run `work` in a new thread; return its result or raise its error.
 
-    A spec that nests as deep as the language allows would otherwise compile from one caller and not from another.
+    Otherwise a deeply nested spec would compile or not depending on the depth of the caller's stack.
     """
     results: list[T] = []
     errors: list[BaseException] = []
@@ -20,10 +20,10 @@ def on_fresh_stack(work: Callable[[], T]) -> T:
     def run() -> None:
         try:
             results.append(work())
-        except BaseException as error:  # the caller's, who waits
+        except BaseException as error:  # raised again in the caller's thread
             errors.append(error)
 
-    # A daemon: an interrupted process does not wait for it.
+    # A daemon thread, so that an interrupted process does not wait for it.
     thread = Thread(target=run, daemon=True)
     thread.start()
     thread.join()

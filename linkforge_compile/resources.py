@@ -1,4 +1,4 @@
-"""Finds schemas/, templates/ and the manual: inside the package in a wheel, in the repository in a checkout."""
+"""Paths of the data files: inside the package in an installed wheel, in the repository in a checkout."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def schemas_folder() -> Path:
 
 
 def linked_schema_file() -> Path:
-    """Return the file of all schemas as one, which is made when a wheel is built; a checkout has none."""
+    """Return the file with all schemas in one, which building a wheel creates; a checkout has none."""
     return _packed() / "linked_schema.json"
 
 
@@ -26,23 +26,23 @@ def templates_folder() -> Path:
 
 
 def compiled_templates_folder() -> Path:
-    """Return the folder of the templates that were compiled when the wheel was built; a checkout has none."""
+    """Return the folder of compiled templates, which building a wheel creates; a checkout has none."""
     return _packed() / "compiled_templates"
 
 
 def compiler_files() -> tuple[Path, ...]:
-    """Return what of linkforge itself its output depends on: the templates, and the version, which an update renews."""
+    """Return the files of linkforge on which its output depends: the templates and the version."""
     templates = (path for format_ in ("srdf", "urdf") for path in sorted((templates_folder() / format_).rglob("*.j2")))
     return (*templates, Path(__file__).with_name("_version.py"))
 
 
 def manual_folder() -> Path:
-    """Return the folder with one page a diagnostic, LF4102.md; in a checkout it is among the docs."""
+    """Return the folder with a page for each diagnostic code, such as LF4102.md."""
     return _packed() / "diagnostics" if _packed().is_dir() else data_folder() / "docs" / "diagnostics"
 
 
 def matcher_file() -> Path:
-    """Return the problem matcher, which GitHub's own tools expect under `.github` in a repository."""
+    """Return the problem matcher of GitHub Actions."""
     name = "linkforge-matcher.json"
     return _packed() / name if _packed().is_dir() else data_folder() / ".github" / name
 

@@ -8,8 +8,9 @@ from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.graph import find_cycles
-from linkforge_compile.diagnostics import Code, Diagnostic, Note, UnresolvedNames
+from linkforge_compile.diagnostics import Code, Diagnostic, Note, UnresolvedNames, notes_of
 from linkforge_compile.source import Key, SourceRef, Span
+from linkforge_compile.source.provenance import uses_in
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import GroupState
@@ -63,7 +64,7 @@ class Reference(NamedTuple):
     def notes(self, message: str) -> list[Note]:
         """Return the note and where its file was imported, as two imports of a file share one place."""
         imports = self.source.trail if self.source else ()
-        return [self.note(message), *(Note("used here", span) for span in imports)]
+        return [self.note(message), *notes_of(uses_in(imports))]
 
 
 def notes_at(source: SourceRef | None, message: str) -> list[Note]:

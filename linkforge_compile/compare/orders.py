@@ -10,8 +10,8 @@ from linkforge_compile.compare.pairing import find_partners
 from linkforge_compile.compare.words import describe, shorten, to_plain
 from linkforge_compile.core.models.link import Link, Visual
 from linkforge_compile.core.models.material import Color, Material
+from linkforge_compile.core.models.shape_order import COLLISION, VISUAL, shown_colors
 from linkforge_compile.core.models.transmission import Transmission
-from linkforge_compile.shape_order import COLLISION, VISUAL, shown_colors
 
 _MAX_ORDER = 200
 """Characters shown of each of two orders."""

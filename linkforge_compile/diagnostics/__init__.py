@@ -1,14 +1,12 @@
 """What went wrong, as values: a code, a sentence, a place, and the way out."""
 
 from linkforge_compile.diagnostics.diagnostic import (
-    Blame,
     Code,
     Diagnostic,
     Note,
     Severity,
     Where,
-    brought_in_at,
-    notes_of_changes,
+    notes_of,
 )
 from linkforge_compile.diagnostics.sink import MAX_TOLD, BeyondLimitError, Diagnostics, too_many_errors
 from linkforge_compile.diagnostics.unresolved import DeletedNames, UnresolvedNames
@@ -16,7 +14,6 @@ from linkforge_compile.diagnostics.unresolved import DeletedNames, UnresolvedNam
 __all__ = [
     "MAX_TOLD",
     "BeyondLimitError",
-    "Blame",
     "Code",
     "DeletedNames",
     "Diagnostic",
@@ -25,7 +22,6 @@ __all__ = [
     "Severity",
     "UnresolvedNames",
     "Where",
-    "brought_in_at",
-    "notes_of_changes",
+    "notes_of",
     "too_many_errors",
 ]

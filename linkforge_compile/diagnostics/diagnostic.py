@@ -5,12 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
-from enum import Enum, StrEnum
+from enum import StrEnum
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics.suggest import did_you_mean
-from linkforge_compile.source import Change, SourceRef, Span
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.characters import on_one_line
+from linkforge_compile.source.provenance import Location, Provenance, provenance_of
 
 Where: TypeAlias = Span | SourceRef | None
 """A place: a span of text, an object's reference, or None for a value that was never written (built in Python)."""
@@ -25,17 +26,6 @@ class Severity(StrEnum):
     ERROR = "error"
     WARNING = "warning"
     NOTE = "note"
-
-
-class Blame(Enum):
-    """Who is to mend what is wrong with a value that an expression hands on from where it was written."""
-
-    USER = "user"
-    """The place that uses it."""
-    KIND = "kind"
-    """A value of another kind than its place takes: that place too, unless it is read from a file of data."""
-    WRITER = "writer"
-    """Whoever wrote the value."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +83,7 @@ class Code:
     id: str
     severity: Severity
     message: str
-    blame: Blame = Blame.USER
+    location: Location = Location.USE
     is_of_a_name: bool = False
     """Whether it tells of a name that is declared nowhere: all who use the name have one cause."""
     in_xml: str = ""
@@ -125,42 +115,17 @@ class Code:
 
         `near` lists the names that would have been right: the one like the fact `name`, if any, is offered.
         """
-        span = where.at(*path) if isinstance(where, SourceRef) else where
-        trail = where.trail_to(span) if isinstance(where, SourceRef) and span else ()
-        changed = notes_of_changes(where.changes(*path), span) if isinstance(where, SourceRef) else ()
-        brought = brought_in_at(where.brought_in(*path)) if isinstance(where, SourceRef) else ()
-        span, moved = self._blamed(span) if span else (None, ())
+        chain = provenance_of(where, *path, location=self.location) if where else None
+        span = chain.span if chain else None
         sentence = self.in_xml if self.in_xml and span and span.file.is_xml else self.message
         whole = sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
         left_out = hash(whole) if len(whole) > _LONGEST else 0
-        includes = [Note("included here", include) for include in (span.file.includes if span else ())]
-        uses = [Note("used here", use) for use in trail]
-        all_notes = (*notes, *brought, *moved, *changed, *includes, *uses)
-        return Diagnostic(self, _quotable(whole), span, all_notes, left_out=left_out)
-
-    def _blamed(self, used: Span) -> tuple[Span, tuple[Note, ...]]:
-        """Return the place to blame for a value that stands at one, and the other of its two places as a note."""
-        origin = used.origin
-        if origin is None:
-            return used, ()
-        if self.blame is Blame.WRITER or (self.blame is Blame.KIND and origin.is_data):
-            return origin.span, (Note("the value is used here", used),)
-        meant = used.meant if self.blame is Blame.KIND else None
-        way_out = f"; write '{meant}'" if meant else ""
-        return used, (Note(f"the value is written here{way_out}", origin.span),)
+        return Diagnostic(self, _quotable(whole), span, (*notes, *notes_of(chain)), left_out=left_out)
 
 
-def brought_in_at(places: Iterable[Span]) -> tuple[Note, ...]:
-    """Return where aliases and `<<` bring in what is told."""
-    return tuple(Note("brought in here", place) for place in places)
-
-
-def notes_of_changes(changes: Iterable[Change], told: Span | None) -> tuple[Note, ...]:
-    """Return what overrides changed in an object of which something is told, () where that is what they say."""
-    known = tuple(changes)
-    if told is not None and any(told.lies_in(change.span) for change in known):
-        return ()
-    return tuple(Note(f"'{change.key}' is changed by this override", change.span) for change in known)
+def notes_of(chain: Iterable[Provenance] | None) -> tuple[Note, ...]:
+    """Return a note for each link that diagnostics show."""
+    return tuple(Note(link.note, link.span) for link in chain or () if link.note)
 
 
 def _quotable(text: str) -> str:

@@ -6,17 +6,13 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.computed_inertia import ComputedFrom
 from linkforge_compile.export_spec.explain import Explanation, UnknownPathError, explain
-from linkforge_compile.export_spec.place import Place
 from linkforge_compile.export_spec.provenance import compiled_folder, origin_of
 from linkforge_compile.export_spec.robot import spec_of
-from linkforge_compile.export_spec.stories import NameStory
 from linkforge_compile.syntax.writer import write
 
 __all__ = [
     "ComputedFrom",
     "Explanation",
-    "NameStory",
-    "Place",
     "SpecBuilder",
     "UnknownPathError",
     "explain",

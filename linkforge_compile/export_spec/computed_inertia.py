@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.link import Collision, Visual
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.export_spec.place import Place, place_of
+from linkforge_compile.export_spec.provenance import place_of
 from linkforge_compile.source import Span
+from linkforge_compile.source.provenance import Provenance
 from linkforge_compile.syntax import YamlMap
 
 _COMPUTED = ("origin", "inertia")
@@ -26,7 +27,7 @@ class ComputedFrom(NamedTuple):
     """The quantity, `mass` or `density`, where it was written, and the shapes that it is distributed over."""
 
     quantity: str
-    place: Place
+    place: Provenance
     shapes: tuple[Shape, ...]
 
 

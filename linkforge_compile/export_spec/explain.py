@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.expand.defaults import is_default
+from linkforge_compile.expand.origins import NameOrigin, names_behind
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.computed_inertia import ComputedFrom, computed_from
-from linkforge_compile.export_spec.place import Place, place_of
+from linkforge_compile.export_spec.provenance import place_of
 from linkforge_compile.export_spec.robot import spec_of
-from linkforge_compile.export_spec.stories import NameStory, stories
-from linkforge_compile.source import Change, Span
+from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source.provenance import Kind, Link, Provenance, join_links, outward, uses_of
 from linkforge_compile.source.ref import Located
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.writer import write
@@ -40,26 +42,16 @@ class UnknownPathError(LookupError):
 class Explanation:
     """A value of a finished robot.
 
-    `text` is what a spec writes for it, after its path, with the unit of a number. `place` is where it was written;
-    where `is_written` is False, nothing was for the value itself, and `place` is the nearest thing around it that
-    was; None for a robot that was built in Python. `expression` is what was computed there, None if nothing, `names`
-    how the names in it got their values, and `origin` where the value was written that it hands on as it is, None for
-    one that it makes itself, or where `names` say so.
-    `trail` lists the `use` that brought the file in, and so on outwards. `replaced` is where that was written which
-    this value took the place of, as an override or as an entry's own word before a default; the last one first.
-    `overridden` is what overrides changed in it, by the path from it.
-    `computed_from` is what a link's inertial was computed from, None for all else.
+    `text` is what a spec writes for it, after its path, with the unit of a number. `provenance` starts where the value
+    was written; if `is_written` is False, at the nearest thing around it that was; None for a robot that was built in
+    Python. `names` lists how the names in its expression got their values. `computed_from` is what a link's inertial
+    was computed from, None for all else.
     """
 
     text: str
     is_written: bool = False
-    place: Place | None = None
-    expression: str | None = None
-    origin: Span | None = None
-    names: tuple[NameStory, ...] = ()
-    trail: tuple[Span, ...] = ()
-    replaced: tuple[Place, ...] = ()
-    overridden: tuple[Change, ...] = ()
+    provenance: Provenance | None = None
+    names: tuple[NameOrigin, ...] = ()
     computed_from: ComputedFrom | None = None
 
 
@@ -91,15 +83,39 @@ def explain(robot: Robot, path: str) -> Explanation:
     source, field = builder.written[steps[last].node]
     keys = (*field, *(step.key for step in steps[last + 1 :]))
     node, is_written = _deepest(source.node, steps[last].key, keys)
-    place = source.span if node is source.node else node.span
-    trail, computed = source.trail_to(place), computed_from(robot, [step.key for step in steps[1:]])
+    computed = computed_from(robot, [step.key for step in steps[1:]])
     if not is_written:
-        return Explanation(text, False, place_of(place), trail=trail, computed_from=computed)
-    expression = _expression(place)
-    names, origin = ((), None) if expression is None or not isinstance(node, YamlNode) else stories(node)
-    replaced = _replaced(source.node, steps[last].key, keys)
-    overridden = tuple(_overridden(node, ""))
-    return Explanation(text, True, place_of(place), expression, origin, names, trail, replaced, overridden, computed)
+        place = source.span if node is source.node else node.span
+        return Explanation(text, False, _chain(place, source), (), computed)
+    return _written(source, node, text, _replaced(source.node, steps[last].key, keys), computed)
+
+
+def _written(
+    source: SourceRef, node: Located, text: str, replaced: Sequence[Link], computed: ComputedFrom | None
+) -> Explanation:
+    """Explain a value that a node of an object writes."""
+    place = source.span if node is source.node else node.span
+    links: list[Link] = []
+    names: tuple[NameOrigin, ...] = ()
+    if (expression := _expression(place)) is not None:
+        links.append((Kind.EXPRESSION, place, expression))
+        names = names_behind(node) if isinstance(node, YamlNode) else ()
+        origin = node.span.origin
+        if origin and isinstance(node, YamlNode) and origin.span not in _places(names):
+            links.append((Kind.VALUE, origin.span, ""))
+    links += replaced
+    links += _overridden(node, "")
+    return Explanation(text, True, _chain(place, source, links), names, computed)
+
+
+def _chain(place: Span, source: SourceRef, links: Iterable[Link] = ()) -> Provenance:
+    return replace(place_of(place), outer=join_links(links, outward(place, uses_of(source, place))))
+
+
+def _places(names: Iterable[NameOrigin]) -> Iterator[Span]:
+    for name in names:
+        yield name.setting.node.span
+        yield from _places(name.names)
 
 
 def _steps(node: YamlNode, path: str, before: str) -> tuple[_Step, ...]:
@@ -162,8 +178,8 @@ def _deepest(node: Located, name: str, keys: Sequence[str]) -> tuple[Located, bo
     return node, True
 
 
-def _replaced(node: Located, name: str, keys: Sequence[str]) -> tuple[Place, ...]:
-    """Return where what the value took the place of was written: at the deepest key of its way that replaced any."""
+def _replaced(node: Located, name: str, keys: Sequence[str]) -> Sequence[Link]:
+    """Return the values that were replaced at the deepest key on the way to a value that replaced any."""
     entry: YamlEntry | None = None
     for key in keys:
         if isinstance(node, YamlMap) and key in node.entries and node.entries[key].replaced:
@@ -172,17 +188,18 @@ def _replaced(node: Located, name: str, keys: Sequence[str]) -> tuple[Place, ...
         if inner is None:
             break
         node, name = inner, key
-    places = []
+    links: list[Link] = []
     while entry:
-        places.append(place_of(entry.value.span))
+        place = entry.value.span
+        links.append((Kind.REPLACED_DEFAULT if is_default(place) else Kind.REPLACED, place, ""))
         entry = entry.replaced
-    return tuple(places)
+    return links
 
 
-def _overridden(node: Located, path: str) -> Iterator[Change]:
+def _overridden(node: Located, path: str) -> Iterator[Link]:
     """Yield what overrides changed in what is written at a node, and deeper in it, each with its path."""
     for change in node.span.changes:
-        yield Change(f"{path}{change.key}", change.span)
+        yield Kind.OVERRIDE, change.span, f"{path}{change.key}"
     for entry in node if isinstance(node, YamlMap) else ():
         yield from _overridden(entry.value, f"{path}{entry.name}/")
     for position, item in enumerate(node) if isinstance(node, YamlList) else ():

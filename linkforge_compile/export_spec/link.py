@@ -8,10 +8,10 @@ from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.link import Collision, Link, LinkPhysics, Visual
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.shape_order import COLLISION, VISUAL, shortest_setting
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.elements import export_element, export_fields
 from linkforge_compile.export_spec.geometry import export_geometry
-from linkforge_compile.shape_order import COLLISION, VISUAL, as_said
 from linkforge_compile.syntax import YamlMap, YamlNode
 
 
@@ -21,7 +21,7 @@ def export_link(
     """Return a link with the Gazebo blocks about it; `materials` are the robot's, which visuals name."""
     shapes = {VISUAL: _visuals(builder, link, materials), COLLISION: _collisions(builder, link)}
     kinds = [VISUAL if isinstance(shape, Visual) else COLLISION for shape in link.shapes]
-    order = as_said(kinds)
+    order = shortest_setting(kinds)
     return builder.element(
         link,
         # The order of these keys is the order of the output.

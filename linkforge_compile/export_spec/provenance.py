@@ -6,7 +6,9 @@ import os
 from pathlib import Path
 
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.expand.defaults import is_default
 from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source.provenance import Kind, Provenance, outward
 
 
 def compiled_folder(robot: Robot) -> Path | None:
@@ -15,13 +17,15 @@ def compiled_folder(robot: Robot) -> Path | None:
     return path.parent if path else None
 
 
+def place_of(span: Span) -> Provenance:
+    """Return the link of a value that is written at a place, in the `defaults` of its file or elsewhere."""
+    return Provenance(Kind.DEFAULT if is_default(span) else Kind.WRITTEN, span)
+
+
 def origin_of(source: SourceRef, folder: Path | None) -> str:
     """Return `arm.robot.yaml:12, used at robot.robot.yaml:30`; paths are those from the compiled file's folder."""
-    included = [("included", span) for span in source.span.file.includes]
-    used = [("used", span) for span in source.trail]
-    return ", ".join(
-        (_place(source.span, folder), *(f"{how} at {_place(span, folder)}" for how, span in included + used))
-    )
+    links = outward(source.span, source.trail) or ()
+    return ", ".join((_place(source.span, folder), *(f"{link.key} at {_place(link.span, folder)}" for link in links)))
 
 
 def _place(span: Span, folder: Path | None) -> str:

@@ -44,7 +44,7 @@ def spec_of(robot: Robot, builder: SpecBuilder) -> YamlMap:
             "ros2_control", ((one.name, export_element(builder, one)) for one in robot.ros2_controls)
         ),
         gazebo=export_blocks(builder, gazebo.robot, with_reference=True),
-        semantic=export_semantic(builder, robot.semantic, robot.joints) if robot.says_semantic else None,
+        semantic=export_semantic(builder, robot.semantic, robot.joints) if robot.has_semantic else None,
     )
 
 

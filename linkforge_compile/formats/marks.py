@@ -13,33 +13,28 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
+
+from linkforge_compile.source.provenance import Provenance, written_at
 
 if TYPE_CHECKING:
-    from linkforge_compile.source import SourceRef, Span
+    from linkforge_compile.source import SourceRef
 
 MARK = re.compile("\x1c([0-9]+)\x1d")
-
-
-class Place(NamedTuple):
-    """Where something was written: `trail` lists the `use` that brought its file in, and so on outwards."""
-
-    span: Span
-    trail: tuple[Span, ...] = ()
 
 
 class Marks:
     """The places that the marks of one document stand for."""
 
     def __init__(self) -> None:
-        self._numbers: dict[Place, int] = {}
+        self._numbers: dict[Provenance, int] = {}
 
-    def mark(self, place: Place) -> str:
+    def mark(self, place: Provenance) -> str:
         number = self._numbers.setdefault(place, len(self._numbers))
         return f"\x1c{number}\x1d"
 
     @property
-    def places(self) -> tuple[Place, ...]:
+    def places(self) -> tuple[Provenance, ...]:
         """The places in the order of their numbers."""
         return tuple(self._numbers)
 
@@ -68,7 +63,7 @@ def mark(source: SourceRef | None, *path: str | int) -> str:
     if marks is None or source is None:
         return ""
     span = source.at(*path)
-    return marks.mark(Place(span, source.trail_to(span)))
+    return marks.mark(written_at(span, source))
 
 
 def mark_of_attribute(source: SourceRef | None, name: str) -> str:
@@ -95,6 +90,6 @@ def marks_of_lines(text: str, source: SourceRef | None, path: tuple[str | int, .
 
     def mark_of_line(number: int) -> str:
         span = place.line(number) or place.span
-        return marks.mark(Place(span, source.trail_to(span)))
+        return marks.mark(written_at(span, source))
 
     return cache(mark_of_line)

@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.formats.element import RawXmlError
 from linkforge_compile.formats.marks import marks_of_lines, recorded
 from linkforge_compile.formats.markup import Xml, require_writable, verbatim_comment
 from linkforge_compile.formats.node import Content, Node, is_text, lines_of
+from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, SourceRef
 from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
 from linkforge_compile.source.xml_places import Places

@@ -10,13 +10,12 @@ from pathlib import Path
 from jinja2 import Environment, FileSystemLoader
 from jinja2.loaders import split_template_path
 
-from linkforge_compile.bounds import MAX_FILE_BYTES
 from linkforge_compile.formats.environment import is_xml
 from linkforge_compile.formats.markup import is_writable
+from linkforge_compile.limits import MAX_FILE_BYTES
 from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import Roots, exists, is_file
-from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.source.encoding import place_of_byte
+from linkforge_compile.source import SourceFile, Span, place_of_byte
 
 _MOST_NAMES = 1000
 """Templates of a folder that a suggestion may name."""

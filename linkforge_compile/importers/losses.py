@@ -6,6 +6,7 @@ from collections import Counter, defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TypeAlias
 
+from linkforge_compile.core.models.shape_order import KINDS, VISUAL, shown_colors
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.importing import (
     BECOMES_OTHER,
@@ -17,7 +18,6 @@ from linkforge_compile.diagnostics.codes.importing import (
 )
 from linkforge_compile.importers.canonical import CanonicalElement, Rgba, canonicalize, color_of, named_colors
 from linkforge_compile.importers.spec_draft import is_same
-from linkforge_compile.shape_order import KINDS, VISUAL, shown_colors
 from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlFault, YamlMap, YamlNode, YamlScalar

@@ -9,10 +9,10 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import TypeAlias
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW
 from linkforge_compile.importers.raw_xml import NO_SHAPES, Shapes
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import Bounds, XmlAttribute, XmlElement
 from linkforge_compile.syntax import (

@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator
 from sys import maxsize
 
-from linkforge_compile.bounds import MAX_NESTED_ELEMENTS
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import (
     DOCUMENT_TYPE,
@@ -17,6 +16,7 @@ from linkforge_compile.diagnostics.codes.importing import (
     TOO_MANY_ELEMENTS,
     TOO_MUCH_INSIDE,
 )
+from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of

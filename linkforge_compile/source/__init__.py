@@ -1,21 +1,30 @@
-"""Where things were written: files, spans in them, and the references by which every later value finds back."""
+"""Files that were read, places in them, and references from later values back to these places."""
 
-from linkforge_compile.source.file import SourceFile, span_of
 from linkforge_compile.source.ref import Key, Located, Sourced, SourceRef
-from linkforge_compile.source.span import Change, ComputedSpan, Origin, PatchedSpan, Position, Span, Trace
+from linkforge_compile.source.span import (
+    Change,
+    Origin,
+    Position,
+    SourceFile,
+    Span,
+    Trace,
+    TracedSpan,
+    place_of_byte,
+    span_of,
+)
 
 __all__ = [
     "Change",
-    "ComputedSpan",
     "Key",
     "Located",
     "Origin",
-    "PatchedSpan",
     "Position",
     "SourceFile",
     "SourceRef",
     "Sourced",
     "Span",
     "Trace",
+    "TracedSpan",
+    "place_of_byte",
     "span_of",
 ]

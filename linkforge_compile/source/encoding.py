@@ -1,22 +1,19 @@
-"""The bytes of an XML file as text, in the encoding that the file says."""
+"""Decode XML files in the encoding that they declare."""
 
 from __future__ import annotations
 
 import codecs
 import re
 
-from linkforge_compile.source.file import SourceFile
-from linkforge_compile.source.span import Span
-
 _MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be"))
 _DECLARED = re.compile(rb"""<\?xml\s(?:(?!\?>).)*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""", re.DOTALL)
 _SEARCHED = 4096
-"""A declaration is looked for in so many bytes: some generators write a comment before it."""
+"""How many bytes are searched for a declaration: some generators write a comment before it."""
 
 _BEGINS = re.compile(rb"(?:\xef\xbb\xbf|\xff\xfe|\xfe\xff)?[\s\x00]*<\x00?[?!A-Za-z_]")
-"""XML behind a byte order mark and blanks; the merge key of YAML, which begins with `<` too, is none."""
+"""Matches XML after a byte order mark and blanks, but not the merge key of YAML, which begins with `<` too."""
 
-# Names as Python has them. Not every codec: there are those that are no encodings of text, and those that unpack.
+# Names as Python has them. Not every codec: some are no encodings of text, and some decompress.
 _KNOWN = frozenset(
     (
         *("utf-8", "utf-16", "utf-16-le", "utf-16-be", "ascii", "iso8859-1", "iso8859-2", "iso8859-15"),
@@ -32,30 +29,27 @@ _WAY_OUT = (
 
 
 class EncodingError(Exception):
-    """The bytes are no text in the encoding that they are said to be; says why, and of which byte if of one."""
+    """The bytes are not in the encoding that they declare; `undecoded` is the error at the first wrong byte."""
 
     def __init__(self, reason: str, undecoded: UnicodeDecodeError | None = None) -> None:
         self.undecoded = undecoded
         super().__init__(reason)
 
 
-def place_of_byte(error: UnicodeDecodeError, name: str) -> Span:
-    """Return where the byte stands that a decoder refused, in a file of that name that shows what can be read of it."""
-    before, text = (data.decode(error.encoding, "replace") for data in (error.object[: error.start], error.object))
-    lines = before.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    line, column = len(lines), len(lines[-1]) + 1
-    return Span(SourceFile(name, text), line, column, line, column + 1)
-
-
 def begins_xml(data: bytes | str) -> bool:
-    """Whether a file is XML, whatever its name, by how it begins."""
+    """Whether a file begins as XML, whatever its name."""
     if isinstance(data, str):
         data = data[:_SEARCHED].encode("utf-8", errors="replace")
     return _BEGINS.match(data) is not None
 
 
 def xml_text(data: bytes) -> str:
-    """Return the bytes of an XML file as text, without byte order mark; UTF-8 where the file says nothing."""
+    """Return the text of an XML file without byte order mark; UTF-8 if the file declares no encoding.
+
+    Raises:
+        EncodingError: if the bytes are not in the encoding.
+
+    """
     for mark, encoding in _MARKS:
         if data.startswith(mark):
             return _decoded(data.removeprefix(mark), encoding)

@@ -1,6 +1,6 @@
-"""What is wrong with a text that is no XML, in the words of whoever wrote it.
+"""Explain what is wrong with malformed XML in the words of its author.
 
-The words are about what expat finds, which refuses all that lxml does but for its limits.
+The faults are those of expat, which refuses all that lxml refuses except for its limits.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ _BEFORE_VALUE = re.compile(r"<[^\s<>!?/][^<>]*=\s*")
 
 
 class MalformedXmlError(Exception):
-    """What is wrong with a text, and the offset at which it is.
+    """What is wrong with a text, and at which offset.
 
-    `begun` is where `<tag` stands of an element that has no end, None where the fault is another.
+    `begun` is the place of `<tag` of an element that is not closed, None for other faults.
     """
 
     def __init__(self, problem: str, at: int, begun: tuple[int, int] | None = None) -> None:
@@ -29,13 +29,13 @@ class MalformedXmlError(Exception):
 
 
 class _DocumentTypeError(Exception):
-    """What follows is not read: it could expand entities."""
+    """Stops the parser at a document type, whose entities could expand."""
 
 
 def fault_of(text: str, around: str = "", *, is_whole: bool = True) -> MalformedXmlError | None:
-    """Return what is wrong with a text that follows the tags `around`; None for nothing, or behind a document type.
+    """Return what is wrong with a text inside the tags `around`; None if nothing is, or after a document type.
 
-    One that is not whole lacks nothing at its end.
+    With `is_whole` False the text may end anywhere.
     """
     opened: list[tuple[str, int]] = []
     parser = expat.ParserCreate("utf-8")
@@ -53,7 +53,7 @@ def fault_of(text: str, around: str = "", *, is_whole: bool = True) -> Malformed
     else:
         return None
     finally:
-        parser.StartElementHandler = None  # breaks the cycle of the two: the collector may be paused
+        parser.StartElementHandler = None  # breaks a reference cycle: the garbage collector may be paused
     data = text.encode()
 
     def offset(byte: int) -> int:
@@ -61,17 +61,17 @@ def fault_of(text: str, around: str = "", *, is_whole: bool = True) -> Malformed
 
     tag, byte = opened[-1] if len(opened) > outside else ("", len(around))
     begin = offset(byte)
-    return _explained(known, text, offset(parser.ErrorByteIndex), tag, (begin, begin + len(tag) + 1))
+    return _explain(known, text, offset(parser.ErrorByteIndex), tag, (begin, begin + len(tag) + 1))
 
 
 def _stop(*_: object) -> None:
     raise _DocumentTypeError
 
 
-def _explained(known: str, text: str, at: int, tag: str, begun: tuple[int, int]) -> MalformedXmlError:
-    """Return what is wrong where expat gave up in an element; what is not certain stays as expat says it.
+def _explain(known: str, text: str, at: int, tag: str, begun: tuple[int, int]) -> MalformedXmlError:
+    """Return the fault at which expat stopped, in its own words if the cause is not certain.
 
-    Outside of all, the tag is empty.
+    `tag` is the element around the fault, empty outside of all.
     """
     if not text.strip():
         return MalformedXmlError("the file is empty", 0)
@@ -83,7 +83,7 @@ def _explained(known: str, text: str, at: int, tag: str, begun: tuple[int, int])
         what = "comment" if text.startswith("<!--", at) else "tag"
         return MalformedXmlError(f"this {what} is not closed", at)
     if known == errors.XML_ERROR_UNCLOSED_CDATA_SECTION:
-        # What looks like the begin of another in it is its text.
+        # A further `<![CDATA[` inside is text.
         begin = text.find("<![CDATA[", text.rfind("]]>", 0, at) + 1)
         return MalformedXmlError("this CDATA is not closed; it ends with ']]>'", begin)
     closing = _NAME.match(text, at) if known == errors.XML_ERROR_TAG_MISMATCH else None

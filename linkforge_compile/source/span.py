@@ -1,24 +1,111 @@
-"""A stretch of text in a file, as a person counts: lines and columns from 1, columns in characters."""
+"""Text that was read, and stretches of it; lines and columns count from 1, columns in characters."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import accumulate
+from pathlib import Path
+from typing import NamedTuple, Protocol
 
-if TYPE_CHECKING:
-    from linkforge_compile.source.file import SourceFile
+from linkforge_compile.source.characters import on_one_line
+from linkforge_compile.source.encoding import begins_xml
+
+
+@dataclass(frozen=True, eq=False)
+class SourceFile:
+    """A text and its name in messages; two are the same only if they are one object.
+
+    `path` is None for text from standard input, a string or the command line. `order` counts the files that one
+    compilation read before this one, so that messages keep reading order. `included` is the `include` that inserted
+    this file into another one, None for a file of its own.
+    """
+
+    name: str
+    text: str = field(repr=False)
+    path: Path | None = None
+    order: int = 0
+    included: Span | None = None
+
+    @property
+    def shown(self) -> str:
+        """The name as messages show it, without control characters that would reach a terminal or a build log."""
+        return on_one_line(self.name)
+
+    @cached_property
+    def counted(self) -> str:
+        """The text as places count it: without byte order mark, which editors do not count as a column either."""
+        return self.text.removeprefix("\ufeff")
+
+    @cached_property
+    def lines(self) -> tuple[str, ...]:
+        """The lines without their ends, split only where YAML and XML split: LF, CR LF, CR."""
+        return tuple(self.counted.replace("\r\n", "\n").replace("\r", "\n").split("\n"))
+
+    def line(self, number: int) -> str:
+        """Return a line by its number; empty beyond the end of the file."""
+        return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
+
+    def between(self, begin: int, end: int) -> Span:
+        """Return the span between two indexes into `counted`; an index beyond the text is its end."""
+        known = self._spans.get((begin, end))
+        if known is None:
+            known = self._spans[begin, end] = Span(self, *self._place(begin), *self._place(end))
+        return known
+
+    @cached_property
+    def _spans(self) -> dict[tuple[int, int], Span]:
+        """The spans by their indexes: each copy of a repeated part asks for the same ones."""
+        return {}
+
+    def _place(self, index: int) -> tuple[int, int]:
+        starts = self._line_starts
+        index = min(index, starts[-1] - 1)
+        line = bisect_right(starts, index)
+        return line, index - starts[line - 1] + 1
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        """The index of the first character of each line, and of one more line after the last."""
+        text = self.counted.replace("\r\n", " \n").replace("\r", "\n")
+        return [0, *accumulate(len(line) + 1 for line in text.split("\n"))]
+
+    @cached_property
+    def is_xml(self) -> bool:
+        """Whether it is a URDF, an SRDF or a xacro, whatever its name: messages then speak of elements, not of keys."""
+        return begins_xml(self.text)
+
+    @property
+    def includes(self) -> tuple[Span, ...]:
+        """Every `include` that led to this file, the last one first."""
+        return (self.included, *self.included.file.includes) if self.included else ()
+
+    @property
+    def outermost(self) -> SourceFile:
+        """The file that includes this one and is included by no other; itself if it is not included."""
+        return self.includes[-1].file if self.included else self
+
+    @property
+    def whole(self) -> Span:
+        """The span of a fault of the file as a whole: its first character."""
+        return Span(self, 1, 1, 1, 1)
+
+    def __deepcopy__(self, memo: object) -> SourceFile:
+        return self
 
 
 class Position(NamedTuple):
-    """A place between two characters; line and column count from 1."""
+    """A place between two characters."""
 
     line: int
     column: int
 
 
 class Span(NamedTuple):
-    """Half-open: from the first character to just behind the last one.
+    """A stretch of a file, from its first character to just after its last one.
 
-    Flat and a tuple because there is one for every scalar of a spec: a 10,000-link robot makes half a million.
+    A flat tuple because there is one for every scalar of a spec: a 10,000-link robot makes half a million.
     """
 
     file: SourceFile
@@ -42,13 +129,13 @@ class Span(NamedTuple):
 
     @property
     def text(self) -> str | None:
-        """What stands there; None for a span over several lines."""
+        """The text of the span; None for a span over several lines."""
         if self.line != self.end_line:
             return None
         return self.file.line(self.line)[self.column - 1 : self.end_column - 1]
 
     def lies_in(self, other: Span) -> bool:
-        """Whether the whole of it stands in another stretch of its file."""
+        """Whether all of it is inside another span."""
         return self.file is other.file and other.start <= self.start and self.end <= other.end
 
     def within(self, offset: int, length: int) -> Span:
@@ -57,22 +144,22 @@ class Span(NamedTuple):
         return Span(self.file, self.line, start, self.line, start + length)
 
     def inside(self, key: str | int) -> Span:
-        """Return the place of a part of the value that stands here."""
+        """Return the place of a part of the value that is written here."""
         return self
 
     @property
     def origin(self) -> Origin | None:
-        """Where the value was written that an expression here hands on; None where it was written or made here."""
+        """Where an expression here takes its value from; None for a value that is written or made here."""
         return None
 
     @property
-    def meant(self) -> str | None:
-        """The expression that the text seems meant for which an expression here hands on; None for anything else."""
+    def forgotten_expression(self) -> str | None:
+        """The expression that a text taken from elsewhere looks like but for its `$(`; None for anything else."""
         return None
 
     @property
     def changes(self) -> tuple[Change, ...]:
-        """What overrides changed right in the object or list that stands here, in their order."""
+        """What overrides changed directly in the object or list that is written here, in their order."""
         return ()
 
     def __str__(self) -> str:
@@ -80,14 +167,14 @@ class Span(NamedTuple):
 
 
 class Change(NamedTuple):
-    """What an override says of one key of an object, or of one item of a list, and where."""
+    """A key of an object, or the position of an item in a list, that an override sets, and where."""
 
     key: str
     span: Span
 
 
 class Origin(NamedTuple):
-    """Where a value was written that is used elsewhere; `is_data` in a file that says values only."""
+    """Where a value was written that an expression uses; `is_data` if that is a file of data."""
 
     span: Span
     is_data: bool
@@ -97,66 +184,55 @@ class Trace(Protocol):
     """Follows the value of one expression back to where it was written."""
 
     def origin(self, path: tuple[str | int, ...]) -> Origin | None:
-        """Return where the part at a path of the value was written; None where the expression itself made it."""
+        """Return where the part at a path of the value was written; None if the expression itself made it."""
         ...
 
-    def meant(self, path: tuple[str | int, ...]) -> str | None:
-        """Return the expression that the part at a path seems meant for, which is text; None for anything else."""
+    def forgotten_expression(self, path: tuple[str | int, ...]) -> str | None:
+        """Return the expression that the text at a path looks like but for its `$(`; None for anything else."""
         ...
 
 
-class ComputedSpan(Span):
-    """The place of an expression, for one part of its value: `path` leads to that from the whole."""
+class TracedSpan(Span):
+    """The place of a value that an expression computes, or in which overrides changed something.
 
-    trace: Trace
+    `trace` follows the value of the expression, and `path` leads from its whole value to the part that stands here.
+    """
+
+    trace: Trace | None
     path: tuple[str | int, ...]
-
-    @classmethod
-    def of(cls, place: Span, trace: Trace, path: tuple[str | int, ...] = ()) -> ComputedSpan:
-        made = cls(*place)
-        made.trace, made.path = trace, path
-        return made
-
-    def inside(self, key: str | int) -> ComputedSpan:
-        return ComputedSpan.of(self, self.trace, (*self.path, key))
-
-    @property
-    def origin(self) -> Origin | None:
-        return self.trace.origin(self.path)
-
-    @property
-    def meant(self) -> str | None:
-        return self.trace.meant(self.path)
-
-    def __reduce__(self) -> tuple[type[Span], tuple[object, ...]]:
-        return Span, tuple(self)
-
-
-class PatchedSpan(Span):
-    """The place of an object or a list whose file wrote it here, and in which overrides changed something."""
-
-    _written: Span
     _changes: tuple[Change, ...]
 
     @classmethod
-    def of(cls, place: Span, changes: tuple[Change, ...]) -> Span:
-        """Return a place with what was changed there behind what it knows already; the place itself for nothing."""
+    def computed(cls, place: Span, trace: Trace, path: tuple[str | int, ...] = ()) -> TracedSpan:
+        """Return the place of a part of the value of an expression."""
+        return cls._of(place, trace, path, ())
+
+    @classmethod
+    def overridden(cls, place: Span, changes: tuple[Change, ...]) -> Span:
+        """Return a place with further changes by overrides; the place itself if there are none."""
         if not changes:
             return place
+        trace, path = (place.trace, place.path) if isinstance(place, TracedSpan) else (None, ())
+        return cls._of(place, trace, path, (*place.changes, *changes))
+
+    @classmethod
+    def _of(
+        cls, place: Span, trace: Trace | None, path: tuple[str | int, ...], changes: tuple[Change, ...]
+    ) -> TracedSpan:
         made = cls(*place)
-        made._written, made._changes = place, (*place.changes, *changes)
+        made.trace, made.path, made._changes = trace, path, changes
         return made
 
     def inside(self, key: str | int) -> Span:
-        return self._written.inside(key)
+        return TracedSpan.computed(self, self.trace, (*self.path, key)) if self.trace else Span(*self)
 
     @property
     def origin(self) -> Origin | None:
-        return self._written.origin
+        return self.trace.origin(self.path) if self.trace else None
 
     @property
-    def meant(self) -> str | None:
-        return self._written.meant
+    def forgotten_expression(self) -> str | None:
+        return self.trace.forgotten_expression(self.path) if self.trace else None
 
     @property
     def changes(self) -> tuple[Change, ...]:
@@ -164,3 +240,16 @@ class PatchedSpan(Span):
 
     def __reduce__(self) -> tuple[type[Span], tuple[object, ...]]:
         return Span, tuple(self)
+
+
+def span_of(place: Span | SourceFile, begin: int, end: int) -> Span:
+    """Return the place itself if it is a span, else the span between two indexes of the file."""
+    return place if isinstance(place, Span) else place.between(begin, end)
+
+
+def place_of_byte(error: UnicodeDecodeError, name: str) -> Span:
+    """Return the place of the byte that a decoder refused, in a file of that name with the text that can be read."""
+    before, text = (data.decode(error.encoding, "replace") for data in (error.object[: error.start], error.object))
+    lines = before.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    line, column = len(lines), len(lines[-1]) + 1
+    return Span(SourceFile(name, text), line, column, line, column + 1)

@@ -1,4 +1,4 @@
-"""Where a part of a scalar's text stands in the file."""
+"""Places of parts of a scalar's text in the file."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _LINE = re.compile(r"^.*$", re.MULTILINE)
 
 @dataclass(frozen=True, eq=False)
 class TextPlace:
-    """The span of a scalar, its text, and where in it that begins.
+    """The span of a scalar, its text, and the offset in the span at which the text begins.
 
-    `start` is None where the text does not stand on one line of the file as it is: of a text behind `|` each line still
-    does; where escapes or folding changed it, the whole scalar is the best place there is.
+    `start` is None if the file does not hold the text as it is on one line. The lines of a block (`|`) still have
+    places of their own; text that was changed by escapes or folding only has that of the whole scalar.
     """
 
     span: Span
@@ -41,9 +41,9 @@ class TextPlace:
         return self._block.part(offset, length) if self._block else self.span
 
     def line(self, number: int) -> Span | None:
-        """Return where line `number`, counted from 1, of a text behind `|` stands, without the blanks around it.
+        """Return the place of a line of a block (`|`), counted from 1, without the blanks around it.
 
-        None where no line of the text surely stands in the file, and for one that says nothing.
+        None for a blank line, and for other texts, whose lines are not those of the file.
         """
         return self._block.line(number) if self._block else None
 
@@ -54,10 +54,10 @@ class TextPlace:
 
 @dataclass(frozen=True)
 class _Block:
-    """A text behind `|`, each line of which is one of the file, indented by as much as all others.
+    """A block (`|`): each line of its text is one of the file, all with the same indentation.
 
-    `starts` are the indexes at which the lines begin in the text, and one line more behind the last; `changed` are the
-    numbers of those into which values of expressions were laid.
+    `starts` are the indexes at which the lines begin in the text, and of one more line after the last; `changed` are
+    the numbers of the lines that hold values of expressions.
     """
 
     span: Span
@@ -67,18 +67,18 @@ class _Block:
 
     @classmethod
     def of(cls, text: str, span: Span) -> _Block | None:
-        """Return None for another text, and where an expression has more lines than its value."""
+        """Return None for text that is no block, or if an expression has more lines than its value."""
         file = span.file
         if not file.line(span.line).startswith("|", span.column - 1):
             return None
         written = file.lines[span.line : span.end_line]
         indentation = _blanks(next(filter(str.strip, written), "")) - _blanks(text.lstrip("\n"))
-        # A block may have millions of lines: no list holds those of the text.
+        # A block may have millions of lines, so no list of them is built.
         starts, changed, end = array("L"), set[int](), 0
-        for line, said in zip(written, _LINE.finditer(text), strict=False):
-            starts.append(said.start())
-            end = said.end()
-            if line[indentation:] != said[0]:
+        for line, found in zip(written, _LINE.finditer(text), strict=False):
+            starts.append(found.start())
+            end = found.end()
+            if line[indentation:] != found[0]:
                 changed.add(len(starts))
                 if "$(" not in line:
                     return None
@@ -104,5 +104,5 @@ class _Block:
 
 
 def _blanks(line: str) -> int:
-    """Return how many a line begins with."""
+    """Return the number of blanks that a line begins with."""
     return len(line) - len(line.lstrip())

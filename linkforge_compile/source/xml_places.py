@@ -1,6 +1,6 @@
-"""Where the tags, comments and sections of characters of an XML text stand.
+"""Find the places of tags, attributes, comments and CDATA sections in XML text.
 
-lxml knows the line of an element, but no column, nor the places of attributes and comments.
+lxml knows the line of an element, but no columns, nor the places of attributes and comments.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ MARKUP = re.compile(
     | (?P<rest><.*)""",
     re.DOTALL | re.VERBOSE,
 )
-"""Matches each piece of a document; its group is its kind, `rest` for all from where something is not closed."""
+"""Matches each piece of a document; the group is its kind, `rest` for all after something that is not closed."""
 
 ATTRIBUTE = re.compile(r"""(?<=[\s"'])(?P<name>[^\s=/<>"']+)\s*=\s*(?:"(?P<double>[^"]*)"|'(?P<single>[^']*)')""")
 
-# lxml takes these in names, the fourth edition of XML 1.0 does not, so that no name of a document has them.
+# lxml accepts these in names, the fourth edition of XML 1.0 does not, so no name of a document has them.
 _COLON, _NOTHING = "\ua789", "\ua78a"
 
 _QUOTED = re.compile(r""""[^"]*"|'[^']*'""")
@@ -31,7 +31,7 @@ _SHOWN = str.maketrans({_COLON: ":", _NOTHING: None})
 
 
 class Places:
-    """Where the elements and comments of a text stand, in its order, once it was walked over."""
+    """The places of the elements and comments of a text, in its order, after `walk`."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -40,16 +40,16 @@ class Places:
         self.open: list[int] = []
         """The numbers of the elements that have no end yet, the innermost last."""
         self.trailing: set[int] = set()
-        """Where the comments begin that stand on the line on which a tag ends, behind it."""
+        """Where the comments begin that follow a tag on the line on which it ends."""
         self.has_foreign_names = False
-        """Whether a name is not of ASCII."""
+        """Whether a name has characters outside of ASCII."""
         self._line_from: int | None = None
-        """What lies behind the tag, or the comment behind one, that ends on the line that is read."""
+        """The index after the tag, or the comment after one, that ends on the current line."""
         self._hidden: list[str] = []
         self._hidden_to = 0
 
     def walk(self) -> Iterator[re.Match[str]]:
-        """Yield each piece before it counts, to where something is not closed, or closes what is not open."""
+        """Yield each piece before it is counted, up to one that is not closed or closes nothing."""
         is_ascii = self.text.isascii()
         for piece in MARKUP.finditer(self.text):
             yield piece
@@ -90,15 +90,15 @@ class Places:
 
     @property
     def without_namespaces(self) -> str:
-        """The text with a letter for each ':' of its names, and behind `xmlns`.
+        """The text with a letter in place of each ':' in its names, and one after `xmlns`.
 
-        lxml would resolve prefixes, and refuse those that nothing declares; a name is to be what is written.
+        lxml would resolve prefixes and refuse undeclared ones; names are kept as written instead.
         """
         return "".join((*self._hidden, self.text[self._hidden_to :]))
 
 
 def walked_over(text: str) -> Places:
-    """Return the places of a text."""
+    """Return the places in a text."""
     places = Places(text)
     for _ in places.walk():
         pass
@@ -106,5 +106,5 @@ def walked_over(text: str) -> Places:
 
 
 def as_written(name: str) -> str:
-    """Return a name in a text without namespaces as it was."""
+    """Return a name of a text without namespaces as it was written."""
     return name if name.isascii() else name.translate(_SHOWN)

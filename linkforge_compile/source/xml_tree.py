@@ -1,4 +1,4 @@
-"""XML as a tree that knows its places: lxml reads it, and where things stand is found beside."""
+"""Read XML with lxml into a tree whose elements and attributes know their places."""
 
 from __future__ import annotations
 
@@ -8,9 +8,8 @@ from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.source.file import SourceFile, span_of
 from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
-from linkforge_compile.source.span import Span
+from linkforge_compile.source.span import SourceFile, Span, span_of
 from linkforge_compile.source.xml_places import ATTRIBUTE, Places, as_written, walked_over
 
 if TYPE_CHECKING:
@@ -19,11 +18,11 @@ if TYPE_CHECKING:
 _NO_VALUES: Mapping[str, str] = MappingProxyType({})
 
 Bounds: TypeAlias = tuple[Span | SourceFile, int, int]
-"""Where something stands, as nodes of a spec know it: its span, or its file and the indexes between which it stands."""
+"""A place as nodes of a spec hold it: a span, or a file and two indexes, of which the span is made on demand."""
 
 
 class XmlAttribute(NamedTuple):
-    """An attribute, its value as XML means it; its place is that of what stands between the quotes."""
+    """An attribute with its value as XML reads it; its place is that of the text between the quotes."""
 
     name: str
     value: str
@@ -36,7 +35,7 @@ class XmlAttribute(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class XmlComment:
-    """A comment, without its marks; `follows` where it stands behind a tag on the line on which that ends."""
+    """A comment without its `<!--`; `follows` if it is after a tag on the line on which that ends."""
 
     text: str
     span: Span
@@ -46,25 +45,25 @@ class XmlComment:
 class XmlElement(NamedTuple):
     """An element. Names keep their prefixes: namespaces are not resolved.
 
-    lxml makes an element anew for whoever asks for it, so that its own could not keep a place. A tuple, and its spans
-    are computed as they are asked for: a robot of 2,000 links has 40,000. It stands in its file from `begin` to `end`.
+    lxml makes its elements anew at each access, so that they cannot keep a place. Spans are computed on demand: a robot
+    of 2,000 links has 40,000. The element is the text of its file from `begin` to `end`.
     """
 
     tag: str
     values: Mapping[str, str]
-    """What its attributes say, by their names."""
+    """The values of its attributes by name."""
     content: tuple[XmlContent, ...]
     children: tuple[XmlElement, ...]
     """The elements of the content."""
     text: str
-    """The text that stands directly in the element, in one."""
+    """The text directly in the element, joined."""
     file: SourceFile
     begin: int
     end: int
 
     @property
     def attributes(self) -> dict[str, XmlAttribute]:
-        """The attributes with their places, looked for anew each time."""
+        """The attributes with their places, searched at each call."""
         written = ATTRIBUTE.finditer(self.file.counted, self.begin)
         attributes: dict[str, XmlAttribute] = {}
         for (name, value), found in zip(self.values.items(), written, strict=False):
@@ -74,7 +73,7 @@ class XmlElement(NamedTuple):
 
     @property
     def bounds(self) -> Bounds:
-        """Where `<tag` stands."""
+        """The place of `<tag`."""
         return self.file, self.begin, self.begin + len(self.tag) + 1
 
     @property
@@ -83,13 +82,13 @@ class XmlElement(NamedTuple):
 
     @property
     def raw(self) -> str:
-        """The whole element as it stands in the file."""
+        """The whole element as written."""
         return self.file.counted[self.begin : self.end]
 
     def get(self, name: str) -> str | None:
         return self.values.get(name)
 
-    # Equal to itself alone: elements that say the same stand at several places.
+    # Equal to itself only: equal elements at two places are two.
 
     def __eq__(self, other: object) -> bool:
         return self is other
@@ -106,7 +105,7 @@ XmlContent: TypeAlias = "XmlElement | XmlComment | str"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class XmlDocument:
-    """A document: its one element, and the comments before and behind it."""
+    """A document: its one element, and the comments before and after it."""
 
     root: XmlElement
     content: tuple[XmlContent, ...]
@@ -116,10 +115,10 @@ _TOO_LONG = "a text or a value in it has more than 10 MB, or a name more than 50
 
 
 def document_of(file: SourceFile, walked: Places | None = None) -> XmlDocument:
-    """Return the document that a file holds; `walked` are the places of its text if that was walked over already.
+    """Parse a file; `walked` are the places of its text if they are known already.
 
     Raises:
-        MalformedXmlError: for what is no XML, holds names that other readers refuse, or has a document type.
+        MalformedXmlError: for text that is not XML, has names that other readers refuse, or a document type.
 
     """
     from lxml import etree
@@ -129,25 +128,25 @@ def document_of(file: SourceFile, walked: Places | None = None) -> XmlDocument:
     try:
         root = etree.fromstring(places.without_namespaces.encode(), safe_parser("utf-8"))
     except etree.XMLSyntaxError as error:
-        # Of what lxml alone refuses, the line is enough.
+        # For faults that only lxml finds, the line is enough.
         at = sum(len(line) + 1 for line in text.split("\n")[: max(error.position[0] - 1, 0)])
         reason = _TOO_LONG if "too long" in error.msg else f"it cannot be read: {error.msg.partition(',')[0]}"
         raise fault_of(text) or MalformedXmlError(reason, at) from None
-    # lxml takes names of the fifth edition of XML 1.0; expat, and with it xacro, those of the fourth.
+    # lxml accepts names of the fifth edition of XML 1.0; expat, and with it xacro, those of the fourth.
     if places.has_foreign_names and (fault := fault_of(text)):
         raise fault
     if root.getroottree().docinfo.internalDTD is not None:
         raise MalformedXmlError("it has a document type", 0)
-    making = _Making(file, places)
+    builder = _TreeBuilder(file, places)
     before = tuple(reversed([*root.itersiblings(preceding=True)]))
-    content = making.content(None, (*before, root, *root.itersiblings()))
-    [made] = (item for item in content if isinstance(item, XmlElement))
-    return XmlDocument(made, content)
+    content = builder.content(None, (*before, root, *root.itersiblings()))
+    [root_element] = (item for item in content if isinstance(item, XmlElement))
+    return XmlDocument(root_element, content)
 
 
 @cache
 def safe_parser(encoding: str | None = None, *, remove_comments: bool = False) -> etree.XMLParser:
-    """Return a parser for what strangers wrote, in the encoding that it says itself if none is given."""
+    """Return a parser for untrusted XML; `encoding` is that of the bytes, None for the declared one."""
     from lxml import etree
 
     return etree.XMLParser(
@@ -161,8 +160,8 @@ def safe_parser(encoding: str | None = None, *, remove_comments: bool = False) -
     )
 
 
-class _Making:
-    """Makes a tree of lxml's, whose nodes have the order of their places."""
+class _TreeBuilder:
+    """Builds elements from those of lxml, whose order is that of the places."""
 
     def __init__(self, file: SourceFile, places: Places) -> None:
         from lxml import etree
@@ -172,7 +171,7 @@ class _Making:
         self._places = zip(places.begins, places.ends, strict=True)
 
     def content(self, text: str | None, nodes: Iterable[etree._Element]) -> tuple[XmlContent, ...]:
-        """Return a text, then the nodes and the text behind each."""
+        """Return a text, then the nodes, each with the text after it."""
         content: list[XmlContent] = [text] if text else []
         for node in nodes:
             begin, end = next(self._places)
@@ -186,7 +185,7 @@ class _Making:
         return tuple(content)
 
     def _element(self, node: etree._Element, begin: int, end: int) -> XmlElement:
-        # Taken out: lxml looks for each from the first on, which takes quadratic time where 100,000 stay.
+        # Popped, because lxml searches each from the first one: 100,000 attributes would take quadratic time.
         left = node.attrib
         values = {as_written(str(name)): str(left.pop(name)) for name in list(left)}
         content = self.content(node.text, node)

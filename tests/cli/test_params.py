@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile.bounds import Limit
+from linkforge_compile.limits import Limit
 from tests.cli.in_process import linkforge
 from tests.cli.test_compile import box_height
 

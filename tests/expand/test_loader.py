@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file
-from linkforge_compile.bounds import MAX_FILE_BYTES
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand import Instance, Loader, arguments_from_text, expand
 from linkforge_compile.expand.paths import follow
+from linkforge_compile.limits import MAX_FILE_BYTES
 from tests.expand.assembling import write
 
 

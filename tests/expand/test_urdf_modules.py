@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from linkforge_compile import Compilation, compile_file, compile_text, import_urdf, render_srdf, render_urdf
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Where
+from linkforge_compile.limits import Budget, Limit
 from tests.consumers import check_urdf, mujoco_model, pinocchio_model
 from tests.importers.robots import CORPUS
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file, compile_text
-from linkforge_compile.bounds import Limit
+from linkforge_compile.limits import Limit
 from linkforge_compile.pipeline import check_variants
 from tests.expand.assembling import write
 

@@ -8,6 +8,8 @@ from linkforge_compile import compile_file, compile_text
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.export_spec import Explanation, UnknownPathError, explain
+from linkforge_compile.source import Span
+from linkforge_compile.source.provenance import Kind
 
 ARM = """\
 linkforge: 1
@@ -55,22 +57,32 @@ def arm() -> Robot:
 
 
 def line(explanation: Explanation) -> int:
-    assert explanation.place is not None
-    return explanation.place.span.line
+    assert explanation.provenance is not None
+    return explanation.provenance.span.line
+
+
+def uses(explanation: Explanation) -> tuple[Span, ...]:
+    assert explanation.provenance is not None
+    return explanation.provenance.spans(Kind.USE)
+
+
+def expression(explanation: Explanation) -> str:
+    [link] = [link for link in explanation.provenance or () if link.kind is Kind.EXPRESSION]
+    return link.name
 
 
 def test_a_value_is_told_with_its_unit_and_its_place(arm: Robot):
     mass = explain(arm, "links/upper/inertial/mass")
-    assert (mass.text, mass.is_written, mass.expression) == ("links/upper/inertial/mass: 2 kg", True, None)
-    assert mass.place is not None
-    assert (mass.place.span.line, mass.place.span.text) == (6, "2 kg")
+    assert (mass.text, mass.is_written) == ("links/upper/inertial/mass: 2 kg", True)
+    assert mass.provenance is not None
+    assert (mass.provenance.span.line, mass.provenance.span.text) == (6, "2 kg")
 
 
 def test_a_computed_value_is_told_with_its_expression_and_the_uses_that_led_there(cell: Robot):
     effort = explain(cell, "joints/left_elbow/limits/effort")
-    assert (effort.text, effort.expression) == ("joints/left_elbow/limits/effort: 30 N*m", "$(strength)")
+    assert (effort.text, expression(effort)) == ("joints/left_elbow/limits/effort: 30 N*m", "$(strength)")
     assert line(effort) == 13
-    assert [Path(use.file.name).name for use in effort.trail] == ["cell.robot.yaml"]
+    assert [Path(use.file.name).name for use in uses(effort)] == ["cell.robot.yaml"]
 
 
 @pytest.mark.parametrize(
@@ -117,9 +129,9 @@ def test_a_position_that_a_state_takes_over_is_told_where_it_is_written(tmp_path
     (tmp_path / "cell.robot.yaml").write_text(CELL + semantic)
     position = explain(compile_file(tmp_path / "cell.robot.yaml").result(), "semantic/group_states/all/rest/left_elbow")
     assert position.is_written
-    assert position.place is not None
-    assert (Path(position.place.span.file.name).name, position.place.span.text) == ("arm.robot.yaml", "0.5")
-    assert [(Path(use.file.name).name, use.line) for use in position.trail] == [("cell.robot.yaml", 6)]
+    assert position.provenance is not None
+    assert (Path(position.provenance.span.file.name).name, position.provenance.span.text) == ("arm.robot.yaml", "0.5")
+    assert [(Path(use.file.name).name, use.line) for use in uses(position)] == [("cell.robot.yaml", 6)]
 
 
 def test_positions_of_joints_of_which_one_has_the_other_one_s_name_under_the_prefix_are_told_apart(tmp_path: Path):
@@ -132,8 +144,8 @@ def test_positions_of_joints_of_which_one_has_the_other_one_s_name_under_the_pre
     for joint, written in (("left_elbow", "1"), ("left_left_elbow", "2")):
         position = explain(robot, f"semantic/group_states/left_arm/left_home/{joint}")
         assert position.text.endswith(f"/{joint}: {written} rad")
-        assert position.place is not None
-        assert position.place.span.text == written
+        assert position.provenance is not None
+        assert position.provenance.span.text == written
 
 
 def test_an_object_is_told_with_all_that_it_says_and_leaves_unsaid(arm: Robot):
@@ -169,7 +181,7 @@ def test_what_a_using_file_overrides_is_told_at_that_file(tmp_path: Path):
     robot = compile_file(tmp_path / "cell.robot.yaml").result()
     for path in ("joints/left_elbow/limits/velocity", "links/left_upper/visual/sphere/radius"):
         found = explain(robot, path)
-        assert (found.is_written, line(found), found.trail) == (True, 9, ())
+        assert (found.is_written, line(found), uses(found)) == (True, 9, ())
 
 
 def test_a_long_chain_of_states_is_explained_in_bounded_steps():

@@ -14,9 +14,11 @@ from lxml import etree
 
 from linkforge_compile import Robot, compile_file, compile_text, render_srdf, render_urdf
 from linkforge_compile.export_spec import explain
+from linkforge_compile.formats import render_srdf_with_map, render_urdf_with_map
 from linkforge_compile.formats.map_file import NoMapError, map_text, read_map
-from linkforge_compile.formats.source_map import Mapped, SourceMap, render_srdf_with_map, render_urdf_with_map
+from linkforge_compile.formats.source_map import Mapped, SourceMap
 from linkforge_compile.source import Span
+from linkforge_compile.source.provenance import Kind
 from tests.conftest import ROOT
 from tests.formats.everything import everything
 from tests.formats.test_laws import unhurried
@@ -93,8 +95,11 @@ def test_the_parts_of_a_joint_lead_to_where_explain_finds_them(robot: Robot):
         for part in joint.iterchildren(*KEYS):
             explanation = explain(robot, f"joints/{joint.get('name')}/{KEYS[part.tag]}")
             if explanation.is_written:
-                assert explanation.place
-                assert written(mapped.map, part.sourceline) == explanation.place.span, (joint.get("name"), part.tag)
+                assert explanation.provenance
+                assert written(mapped.map, part.sourceline) == explanation.provenance.span, (
+                    joint.get("name"),
+                    part.tag,
+                )
                 told += 1
     assert told or len(robot.joints) == 0
 
@@ -107,9 +112,9 @@ def test_an_attribute_leads_to_its_own_value(robot: Robot):
             column = lines[limit.sourceline - 1].index(f"{attribute}=") + 1
             joint = limit.getparent().get("name")
             explanation = explain(robot, f"joints/{joint}/limits/{attribute}")
-            assert explanation.place
-            assert written(mapped.map, limit.sourceline, column) == explanation.place.span
-            assert mapped.map.at(limit.sourceline, column + 3).trail == explanation.trail
+            assert explanation.provenance
+            assert written(mapped.map, limit.sourceline, column) == explanation.provenance.span
+            assert mapped.map.at(limit.sourceline, column + 3).spans(Kind.USE) == explanation.provenance.spans(Kind.USE)
 
 
 SPEC = """\
@@ -265,11 +270,11 @@ def test_an_override_an_include_and_a_use_are_on_the_trail(tmp_path: Path):
     lines = mapped.text.split("\n")
     number = next(number for number, line in enumerate(lines, start=1) if "<limit " in line)
     effort, velocity = (mapped.map.at(number, lines[number - 1].index(name) + 1) for name in ("effort", "velocity"))
-    assert (effort.span.file.name, effort.span.text, effort.trail) == (str(cell), "8", ())
+    assert (effort.span.file.name, effort.span.text, effort.spans(Kind.USE)) == (str(cell), "8", ())
     assert velocity.span.text == "2"
-    assert [use.text for use in velocity.trail] == ["arm.robot.yaml"]
+    assert [use.text for use in velocity.spans(Kind.USE)] == ["arm.robot.yaml"]
 
-    whole = json.loads(map_text(mapped, "cell.urdf", tmp_path / "build"))
+    whole = json.loads(map_text(*mapped, "cell.urdf", tmp_path / "build"))
     paths = {source["path"] for source in whole["sources"]}
     assert paths == {"../cell.robot.yaml", "../arm.robot.yaml", "../parts/joints.yaml"}
     [*_, trail] = whole["mappings"][str(number)][-1]
@@ -278,9 +283,9 @@ def test_an_override_an_include_and_a_use_are_on_the_trail(tmp_path: Path):
 
 def test_the_file_of_a_map_is_what_its_schema_says_and_reads_back(robot: Robot):
     mapped = render_urdf_with_map(robot)
-    text = map_text(mapped, "robot.urdf", ROOT / "examples")
+    text = map_text(*mapped, "robot.urdf", ROOT / "examples")
     SCHEMA.validate(json.loads(text))
-    assert text == map_text(render_urdf_with_map(robot), "robot.urdf", ROOT / "examples")
+    assert text == map_text(*render_urdf_with_map(robot), "robot.urdf", ROOT / "examples")
     assert str(ROOT) not in text
     read = read_map(text)
     lines = mapped.text.split("\n")

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import Robot, TemplateError, compile_text, render_srdf, render_templates, render_urdf
-from linkforge_compile.bounds import FACTOR_VARIABLE
 from linkforge_compile.core import Joint, JointLimits, JointType, Link, Vector3
 from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.limits import FACTOR_VARIABLE
 from linkforge_compile.resources import templates_folder
 from tests.formats.everything import everything
 
@@ -370,7 +370,7 @@ def test_what_a_view_says_of_other_elements_is_told_where_there_are_none(text: s
         "{{ robot.add_link(robot.links[0]) }}",
         "{{ robot.export_urdf() }}",
         "{{ robot.clone() }}",
-        "{{ robot._links }}",
+        "{{ robot._tree }}",
         "{{ urdf._replace }}",
         "{{ [].append(1) }}",
     ],

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.parsers import expat
 
-from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics
 from linkforge_compile.expressions import RESERVED_NAMES, Scope, evaluate, parse_template
+from linkforge_compile.limits import Budget
 from linkforge_compile.schema.json_types import mapping
 from linkforge_compile.schema.registry import definitions
 from linkforge_compile.source import SourceFile

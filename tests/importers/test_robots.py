@@ -11,8 +11,8 @@ from typing import NamedTuple
 import pytest
 
 from linkforge_compile import Diagnostic, Severity, compile_text, import_urdf, render_srdf, render_urdf
-from linkforge_compile.bounds import Budget
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.limits import Budget
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar, read
 from tests.importers.robots import OF_CORPUS, OF_EXAMPLES, PAIRS
@@ -53,7 +53,7 @@ def compiled(text: str, folder: Path) -> Documents:
     assert not errors
     robot = compilation.result()
     folder.mkdir()
-    documents = Documents(folder / "robot.urdf", folder / "robot.srdf" if robot.says_semantic else None)
+    documents = Documents(folder / "robot.urdf", folder / "robot.srdf" if robot.has_semantic else None)
     documents.urdf.write_text(render_urdf(robot), "utf-8")
     if documents.srdf:
         documents.srdf.write_text(render_srdf(robot), "utf-8")

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from linkforge_compile import Compilation, check_file, compile_file, compile_text
-from linkforge_compile.bounds import Limit
 from linkforge_compile.core import Vector3
 from linkforge_compile.core.meshes import solid_in
+from linkforge_compile.limits import Limit
 from linkforge_compile.lower import mesh_solids
 from tests.meshes import block, save, together, turned_inside_out
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlList, YamlMap, YamlScalar, read_data
 

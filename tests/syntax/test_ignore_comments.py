@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file, compile_text
-from linkforge_compile.bounds import Limit
 from linkforge_compile.diagnostics.runs import told_once
+from linkforge_compile.limits import Limit
 from linkforge_compile.pipeline import check_variants
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax.ignore_comments import ignore_comments

@@ -1,25 +1,26 @@
-"""`linkforge explain`: where a value of the finished robot comes from, and what a diagnostic's code means."""
+"""`linkforge explain`: explains where a value of the robot comes from, or what a diagnostic means."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.one_spec import compile_spec, one_spec
+from linkforge_compile.cli.inputs import compile_spec, require_one_spec
 from linkforge_compile.cli.options import add_spec_options, split_assignments
-from linkforge_compile.cli.places import told
-from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.cli.reports import add_report_options, place_lines, report
+from linkforge_compile.source.provenance import Kind, Provenance
 
 if TYPE_CHECKING:
     import argparse
 
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.export_spec import ComputedFrom, Explanation, NameStory, Place, UnknownPathError
+    from linkforge_compile.expand.origins import NameOrigin, Setting
+    from linkforge_compile.export_spec import ComputedFrom, Explanation, UnknownPathError
 
 _EXAMPLES = """\
-PATH is that of the value in the finished robot: the language's keys in their long form, and final names.
+PATH is the path of the value in the finished robot, with the language's keys in their long form and final names.
 
 examples:
   linkforge explain cell.robot.yaml joints/left_elbow/limits/effort
@@ -28,6 +29,9 @@ examples:
   linkforge explain LF4102                  what a diagnostic means, with a wrong and a right spec
   linkforge explain --codes                 all of them
 """
+
+
+_LONGEST_TEXT = 60
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--codes", action="store_true", help="list the code of every diagnostic")
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -54,14 +58,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _print_manual(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.colour import is_coloured
     from linkforge_compile.cli.manual import UnknownCodeError, page, register_table
     from linkforge_compile.cli.output import write_to_stdout
+    from linkforge_compile.cli.reports import is_colored
 
     words: list[str] = arguments.words
     if arguments.codes and words:
         raise UsageError(f"--codes lists all codes and takes no words, found '{words[0]}'")
-    is_styled = is_coloured(sys.stdout, arguments.color)
+    is_styled = is_colored(sys.stdout, arguments.color)
     try:
         write_to_stdout(register_table() if arguments.codes else page(words[0], styled=is_styled))
     except UnknownCodeError as error:
@@ -74,10 +78,10 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     if len(words) < 2:
         raise UsageError("takes a spec and a path, such as joints/elbow/limits/effort, or a code, such as LF4102")
     *specs, path = words
-    compilation = compile_spec(one_spec(specs), assignments, arguments)
-    # Whoever asks of one value is not told of the rest of the spec, unless that leaves no robot to ask of.
+    compilation = compile_spec(require_one_spec(specs), assignments, arguments)
+    # Warnings about the rest of the spec are not of interest here.
     arguments.quiet = True
-    if tell(compilation.diagnostics, arguments) or compilation.robot is None:
+    if report(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.export_spec import UnknownPathError, explain
@@ -90,21 +94,21 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     return OK
 
 
-_NOT_OF_A_ROBOT = {
+_ONLY_IN_SPECS = {
     "parameters": "`linkforge params` lists those of a spec",
     "variables": "a value that uses one tells of it",
     "modules": "what a module brings is among the links and joints, with its prefix",
     "mount": "the joint is among the `joints`",
     "defaults": "an entry that took one over tells of it",
 }
-"""Sections of a spec that the finished robot has no more, and where to look instead."""
+"""Sections of a spec that the finished robot does not have, with a hint where to look instead."""
 
 
 def _hint(error: UnknownPathError, robot: Robot, path: str) -> str:
     from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
 
-    if not error.owner and error.name in _NOT_OF_A_ROBOT:
-        return f", which is finished; {_NOT_OF_A_ROBOT[error.name]}"
+    if not error.owner and error.name in _ONLY_IN_SPECS:
+        return f", which is finished; {_ONLY_IN_SPECS[error.name]}"
     if not error.owner and error.name == "frames":
         return f", where a frame is a link and a fixed joint{_frame_hint(robot, path.strip('/').partition('/')[2])}"
     if hint := did_you_mean(error.name, error.names):
@@ -114,7 +118,7 @@ def _hint(error: UnknownPathError, robot: Robot, path: str) -> str:
 
 
 def _frame_hint(robot: Robot, path: str) -> str:
-    """Return where what is asked of a frame stands in the robot: its pose and all else is that of the joint."""
+    """Return a hint to the joint of a frame, which has its pose and other values."""
     found = [joint for joint in robot.joints if f"{path}/".startswith(f"{joint.child}/")]
     if not found:
         return ""
@@ -124,52 +128,57 @@ def _frame_hint(robot: Robot, path: str) -> str:
 
 def _lines(explanation: Explanation) -> Iterator[str]:
     yield explanation.text
-    if explanation.place is None:
+    chain = explanation.provenance
+    if chain is None:
         yield "written in no file"
         return
-    yield from _said(explanation, explanation.place)
-    for replaced in explanation.replaced:
-        yield from told(
-            "instead of the default" if replaced.is_default else "instead of what is written", replaced.span
-        )
-    for change in explanation.overridden:
-        yield from told(f"'{change.key}' is overridden", change.span)
-    for included in explanation.place.span.file.includes:
-        yield from told("included", included)
-    for use in explanation.trail:
-        yield from told("used", use)
-
-
-def _said(explanation: Explanation, place: Place) -> Iterator[str]:
-    """Yield what made the value, which or around which something was written at the place."""
     if explanation.is_written:
-        yield from told(_written(place), place.span)
-        if explanation.expression:
-            yield f"computed: {explanation.expression}"
-            for name in explanation.names:
-                yield from _name(name, "  ")
-        if explanation.origin:
-            yield from told("the value itself is written", explanation.origin)
+        yield from place_lines(chain.sentence, chain.span)
     elif explanation.computed_from is None:
         yield "nothing is written for it"
-        yield from told(f"what it belongs to is {_written(place)}", place.span)
+        yield from place_lines(f"what it belongs to is {chain.sentence}", chain.span)
+    links = [link for link in chain.outer or () if link.sentence]
+    of_value = [link for link in links if link.kind in {Kind.EXPRESSION, Kind.VALUE}]
+    for link in of_value:
+        yield from _link(link, explanation.names)
     if explanation.computed_from:
         yield from _computed(explanation.computed_from)
+    for link in links:
+        if link not in of_value:
+            yield from _link(link)
+
+
+def _link(link: Provenance, names: Sequence[NameOrigin] = ()) -> Iterator[str]:
+    if link.kind is not Kind.EXPRESSION:
+        yield from place_lines(link.sentence, link.span)
+        return
+    yield link.sentence
+    for name in names:
+        yield from _name(name, "  ")
 
 
 def _computed(inertial: ComputedFrom) -> Iterator[str]:
     yield f"computed from the {inertial.quantity}, even over the shapes of the link"
-    yield from told(f"the {inertial.quantity} is {_written(inertial.place)}", inertial.place.span)
+    yield from place_lines(f"the {inertial.quantity} is {inertial.place.sentence}", inertial.place.span)
     for shape in inertial.shapes:
         yield f"{shape.path}, a {shape.geometry}" + (f", is written at {shape.place}" if shape.place else "")
 
 
-def _written(place: Place) -> str:
-    return "written as a default" if place.is_default else "written"
-
-
-def _name(name: NameStory, indent: str) -> Iterator[str]:
-    yield f"{indent}{name.name} is {name.value}, {name.setting}"
-    yield from (f"{indent}  instead of {beaten}" for beaten in name.instead_of)
+def _name(name: NameOrigin, indent: str) -> Iterator[str]:
+    yield f"{indent}{name.name} is {name.value}, {_setting(name.setting)}"
+    yield from (f"{indent}  instead of {_setting(other)}" for other in name.setting.instead_of)
     for inner in name.names:
         yield from _name(inner, f"{indent}  ")
+
+
+def _setting(setting: Setting) -> str:
+    """Return what set a name: "the default 0.8 m at arm.robot.yaml:6:11"."""
+    from linkforge_compile.expand.listing import as_written
+
+    place = setting.node.span
+    if setting.named_by is not None:
+        return f"the content of {place.file.name}, named at {setting.named_by.span}"
+    if setting.by == "the command line":
+        return f"from {setting.by}: {place.file.text}"
+    text = as_written(setting.node)
+    return f"{setting.by} {text} at {place}" if text and len(text) <= _LONGEST_TEXT else f"{setting.by} at {place}"

@@ -1,6 +1,7 @@
 """LF31xx: `$(...)` and the quantities in it."""
 
-from linkforge_compile.diagnostics.diagnostic import Blame, Code, Severity
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.source.provenance import Location
 
 UNREADABLE_EXPRESSION = Code("LF3101", Severity.ERROR, "cannot read this expression: {problem}")
 UNCLOSED_EXPRESSION = Code("LF3102", Severity.ERROR, "'$(' has no closing ')'; text that means it is written '$$('")
@@ -15,7 +16,7 @@ UNKNOWN_FUNCTION = Code("LF3108", Severity.ERROR, "no function named '{name}'")
 FUNCTION_NOT_CALLED = Code("LF3110", Severity.ERROR, "'{function}' is a function; write {signature}")
 WRONG_ARGUMENT_COUNT = Code("LF3111", Severity.ERROR, "expected {signature}, found {count} arguments")
 
-WRONG_KIND = Code("LF3121", Severity.ERROR, "{taker} takes {expected}, found {found}", Blame.KIND)
+WRONG_KIND = Code("LF3121", Severity.ERROR, "{taker} takes {expected}, found {found}", Location.DATA)
 DIMENSIONS_DIFFER = Code("LF3122", Severity.ERROR, "{taker} takes values of one dimension, found {left} and {right}")
 WRONG_DIMENSION = Code("LF3123", Severity.ERROR, "{taker} takes {expected}, found {found}")
 KINDS_DIFFER = Code("LF3124", Severity.ERROR, "{taker} compares values of one kind, found {left} and {right}")
@@ -30,7 +31,7 @@ NOT_TEXT = Code("LF3131", Severity.ERROR, "{found} cannot stand inside text")
 CIRCULAR_NAMES = Code("LF3141", Severity.ERROR, "'{first}' is computed from itself: {path}")
 CHAIN_TOO_LONG = Code("LF3142", Severity.ERROR, "'{first}' is computed through {count} other names")
 TRUTH_AS_TEXT = Code(
-    "LF3143", Severity.ERROR, "'{name}' is text in YAML 1.2, not true or false; write {meant}", Blame.WRITER
+    "LF3143", Severity.ERROR, "'{name}' is text in YAML 1.2, not true or false; write {meant}", Location.VALUE
 )
 WIDE_LITERAL = Code(
     "LF3144",

@@ -1,36 +1,37 @@
 """LF5xxx: values that the model refuses."""
 
-from linkforge_compile.diagnostics.diagnostic import Blame, Code, Severity
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.source.provenance import Location
 
 _E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
-_KIND, _WRITER = Blame.KIND, Blame.WRITER
+_DATA, _VALUE = Location.DATA, Location.VALUE
 
 # LF50xx: fields of any object
-WRONG_KIND = Code("LF5001", _E, "{field} takes {expected}, found {found}", _KIND)
-WRONG_DIMENSION = Code("LF5002", _E, "{field} takes {expected}, found {found}, which is {other}", _KIND)
-UNKNOWN_UNIT = Code("LF5003", _E, "{field} takes {expected}; there is no unit '{name}'{hint}", _KIND)
-NOT_FINITE = Code("LF5004", _E, "{field} must be a finite number, found {found}", _WRITER)
+WRONG_KIND = Code("LF5001", _E, "{field} takes {expected}, found {found}", _DATA)
+WRONG_DIMENSION = Code("LF5002", _E, "{field} takes {expected}, found {found}, which is {other}", _DATA)
+UNKNOWN_UNIT = Code("LF5003", _E, "{field} takes {expected}; there is no unit '{name}'{hint}", _DATA)
+NOT_FINITE = Code("LF5004", _E, "{field} must be a finite number, found {found}", _VALUE)
 MISSING_FIELD = Code(
-    "LF5005", _E, "{owner} has no '{field}'; write '{key}: {example}'", _KIND, in_xml="{owner} needs {element}"
+    "LF5005", _E, "{owner} has no '{field}'; write '{key}: {example}'", _DATA, in_xml="{owner} needs {element}"
 )
-OUT_OF_RANGE = Code("LF5006", _E, "{field} must be {bound}, found {found}", _WRITER)
-UNKNOWN_CHOICE = Code("LF5007", _E, "{field} is one of {choices}, found '{name}'", _WRITER)
-WRONG_COUNT = Code("LF5008", _E, "{field} takes {expected}, found {count}", _KIND)
+OUT_OF_RANGE = Code("LF5006", _E, "{field} must be {bound}, found {found}", _VALUE)
+UNKNOWN_CHOICE = Code("LF5007", _E, "{field} is one of {choices}, found '{name}'", _VALUE)
+WRONG_COUNT = Code("LF5008", _E, "{field} takes {expected}, found {count}", _DATA)
 WIDE_ANGLE = Code(
     "LF5009",
     _W,
     "{field} is {found} radians, more than a whole turn; write '{found} deg' if degrees are meant",
-    _WRITER,
+    _VALUE,
     in_xml="{field} is {found} radians, {turns} turns; write '{of_degrees}' if degrees are meant",
 )
 LONG_LENGTH = Code(
     "LF5010",
     _W,
     "{field} is {found} metres; write '{found} mm' if millimetres are meant",
-    _WRITER,
+    _VALUE,
     in_xml="{field} is {found} metres; write '{thousandth}' if millimetres are meant",
 )
-REFUSED = Code("LF5011", _E, "{owner}: {reason}", _WRITER)
+REFUSED = Code("LF5011", _E, "{owner}: {reason}", _VALUE)
 
 # LF51xx: shapes, materials and inertials
 NO_GEOMETRY = Code("LF5101", _E, "{owner} has no shape; write one of box, cylinder, sphere, capsule or mesh")
@@ -53,9 +54,9 @@ INERTIA_OF_NOTHING = Code("LF5111", _E, "{owner} cannot be computed without a co
 
 # LF52xx: joints
 NOT_OF_THIS_TYPE = Code("LF5201", _E, "{owner} is {type} and may not have '{field}'")
-UNKNOWN_AXIS = Code("LF5202", _E, "axis is one of x, y, z, -x, -y, -z, or three numbers, found {found}", _WRITER)
-ZERO_AXIS = Code("LF5203", _E, "axis has no direction: all three numbers are 0", _WRITER)
-LIMITS_CROSSED = Code("LF5204", _E, "lower must not be above upper, found {lower} and {upper}", _WRITER)
+UNKNOWN_AXIS = Code("LF5202", _E, "axis is one of x, y, z, -x, -y, -z, or three numbers, found {found}", _VALUE)
+ZERO_AXIS = Code("LF5203", _E, "axis has no direction: all three numbers are 0", _VALUE)
+LIMITS_CROSSED = Code("LF5204", _E, "lower must not be above upper, found {lower} and {upper}", _VALUE)
 JOINT_TO_ITSELF = Code("LF5205", _E, "{owner} joins link '{link}' to itself")
 
 # LF53xx: modules and the semantic part

@@ -1,22 +1,23 @@
 """LF30xx: files, parameters and modules."""
 
-from linkforge_compile.diagnostics.diagnostic import Blame, Code, Severity
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.source.provenance import Location
 
 _E, _N = Severity.ERROR, Severity.NOTE
-_KIND, _WRITER = Blame.KIND, Blame.WRITER
+_DATA, _VALUE = Location.DATA, Location.VALUE
 
 # LF300x: finding and reading files
-NO_SUCH_FILE = Code("LF3001", _E, "there is no file '{path}'", _WRITER)
+NO_SUCH_FILE = Code("LF3001", _E, "there is no file '{path}'", _VALUE)
 UNREADABLE_FILE = Code("LF3002", _E, "'{path}' cannot be read: {reason}")
-NOT_A_SPEC = Code("LF3003", _E, "a module is a .robot.yaml, .urdf or .xacro file, found '{path}'{hint}", _WRITER)
+NOT_A_SPEC = Code("LF3003", _E, "a module is a .robot.yaml, .urdf or .xacro file, found '{path}'{hint}", _VALUE)
 UNKNOWN_PACKAGE = Code(
     "LF3005",
     _E,
     "no package named '{name}'; say where it is with {way}",
-    _WRITER,
+    _VALUE,
     in_xml="no package named '{name}'; say where it is with --package {name}=FOLDER",
 )
-USE_OF_NOWHERE = Code("LF3006", _E, "'{path}' leads nowhere: {reason}", _WRITER)
+USE_OF_NOWHERE = Code("LF3006", _E, "'{path}' leads nowhere: {reason}", _VALUE)
 NO_SPEC_BELOW = Code("LF3067", _E, "there is no spec, NAME.robot.yaml, in the folder '{path}' or below it")
 PACKAGE_NOWHERE = Code(
     "LF3055",
@@ -37,11 +38,11 @@ USE_TOO_DEEP = Code("LF3013", _E, "modules are used inside modules more than {li
 UNKNOWN_PARAMETER = Code("LF3020", _E, "no parameter named '{name}'")
 PARAMETER_NOT_SET = Code("LF3021", _E, "{what} no default and must be set; write {remedy}")
 NOT_JUDGED = Code("LF3022", _N, "nothing sets {names} here, so what depends on {pronoun} is not judged")
-PARAMETER_KIND = Code("LF3023", _E, "parameter '{parameter}' takes {expected}, found {found}", _KIND)
-PARAMETER_TOO_SMALL = Code("LF3024", _E, "parameter '{parameter}' must be at least {bound}, found {found}", _WRITER)
-PARAMETER_TOO_LARGE = Code("LF3025", _E, "parameter '{parameter}' must be at most {bound}, found {found}", _WRITER)
-PARAMETER_CHOICE = Code("LF3026", _E, "parameter '{parameter}' is one of {choices}, found '{name}'", _WRITER)
-PARAMETER_PATTERN = Code("LF3027", _E, "parameter '{parameter}' must match '{pattern}', found {found}", _WRITER)
+PARAMETER_KIND = Code("LF3023", _E, "parameter '{parameter}' takes {expected}, found {found}", _DATA)
+PARAMETER_TOO_SMALL = Code("LF3024", _E, "parameter '{parameter}' must be at least {bound}, found {found}", _VALUE)
+PARAMETER_TOO_LARGE = Code("LF3025", _E, "parameter '{parameter}' must be at most {bound}, found {found}", _VALUE)
+PARAMETER_CHOICE = Code("LF3026", _E, "parameter '{parameter}' is one of {choices}, found '{name}'", _VALUE)
+PARAMETER_PATTERN = Code("LF3027", _E, "parameter '{parameter}' must match '{pattern}', found {found}", _VALUE)
 NOT_AN_ASSIGNMENT = Code("LF3028", _E, "a parameter is set by NAME=VALUE, found '{text}'")
 SET_TWICE = Code("LF3029", _E, "parameter '{name}' is set twice")
 

@@ -1,20 +1,21 @@
 """LF6xxx: masses and inertias that no body has, and interfaces that no hardware can serve."""
 
-from linkforge_compile.diagnostics.diagnostic import Blame, Code, Severity
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.source.provenance import Location
 
 _E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
-_WRITER = Blame.WRITER
+_VALUE = Location.VALUE
 
 # LF60xx: mass and inertia
-ZERO_INERTIA = Code("LF6001", _W, "link '{link}' has a mass of {mass} kg and an inertia of zero", _WRITER)
+ZERO_INERTIA = Code("LF6001", _W, "link '{link}' has a mass of {mass} kg and an inertia of zero", _VALUE)
 INDEFINITE_INERTIA = Code(
-    "LF6002", _W, "principal moments of inertia of link '{link}' must be above 0, found {moments}", _WRITER
+    "LF6002", _W, "principal moments of inertia of link '{link}' must be above 0, found {moments}", _VALUE
 )
 IMPOSSIBLE_INERTIA = Code(
     "LF6003",
     _W,
     "no principal moment of inertia of link '{link}' may be above the sum of the others, found {moments}",
-    _WRITER,
+    _VALUE,
 )
 MASSLESS_BODY = Code(
     "LF6004", _N, "joint '{joint}' moves link '{link}', which has no mass: Gazebo leaves it out with all below it{also}"
@@ -31,7 +32,7 @@ NO_MESH_LIBRARY = Code(
     "the inertia of mesh '{path}' takes the Python package {library}; "
     "run \"pip install 'linkforge-compile[mesh]'\", or give 'inertia'",
 )
-NO_SUCH_MESH = Code("LF6011", _E, "there is no mesh '{path}', so no inertia can be computed from it", _WRITER)
+NO_SUCH_MESH = Code("LF6011", _E, "there is no mesh '{path}', so no inertia can be computed from it", _VALUE)
 UNREADABLE_MESH = Code("LF6012", _E, "mesh '{path}' cannot be read, so no inertia can be computed from it: {reason}")
 MESH_OF_OTHER_FORMAT = Code("LF6013", _E, "no inertia can be computed from '{path}': {reason}")
 MESH_TOO_LARGE = Code(

@@ -1,13 +1,14 @@
 """LF32xx: `for`, `when`, `defaults` and `override`."""
 
-from linkforge_compile.diagnostics.diagnostic import Blame, Code, Severity
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.source.provenance import Location
 
 _E, _W = Severity.ERROR, Severity.WARNING
-_KIND = Blame.KIND
+_DATA = Location.DATA
 
 # LF320x: `when` and `for`
-CONDITION_KIND = Code("LF3201", _E, "'when' takes true or false, found {found}", _KIND)
-FOR_KIND = Code("LF3202", _E, "'{name}' in 'for' takes a list or a whole number, found {found}", _KIND)
+CONDITION_KIND = Code("LF3201", _E, "'when' takes true or false, found {found}", _DATA)
+FOR_KIND = Code("LF3202", _E, "'{name}' in 'for' takes a list or a whole number, found {found}", _DATA)
 FOR_NAME_TAKEN = Code("LF3203", _E, "'{name}' means something here already, so 'for' cannot give it a value")
 KEY_WITHOUT_NAME = Code(
     "LF3204", _E, "the key must mention '{name}' of its 'for', such as '{example}', to be another each time"

@@ -1,13 +1,14 @@
 """LF34xx: what a spec may make the compiler read."""
 
-from linkforge_compile.diagnostics.diagnostic import Blame, Code, Severity
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.source.provenance import Location
 
 OUTSIDE_ROOTS = Code(
     "LF3401",
     Severity.ERROR,
     "'{path}' leads out of the folders that may be read; add its folder to them with --package {name}=FOLDER, or allow "
     "all with --allow-outside",
-    Blame.WRITER,
+    Location.VALUE,
 )
 UNSEEN_MESHES = Code(
     "LF3402",

@@ -1,8 +1,9 @@
 """LF2xxx: the tree is not shaped as the language."""
 
-from linkforge_compile.diagnostics.diagnostic import Blame, Code, Severity
+from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.source.provenance import Location
 
-_KIND, _WRITER = Blame.KIND, Blame.WRITER
+_DATA, _VALUE = Location.DATA, Location.VALUE
 
 MISSING_VERSION = Code(
     "LF2001", Severity.ERROR, "write 'linkforge: 1' first: it says which version of the language the file is in"
@@ -13,7 +14,7 @@ MISSING_NAME = Code(
     Severity.ERROR,
     "a robot needs a 'name'; a file for 'include' is checked with the one that includes it",
 )
-UNKNOWN_KEY = Code("LF2101", Severity.ERROR, "'{name}' is not a key of {owner}{hint}", _WRITER)
+UNKNOWN_KEY = Code("LF2101", Severity.ERROR, "'{name}' is not a key of {owner}{hint}", _VALUE)
 SECTION_LINE_LOST = Code(
     "LF2155",
     Severity.ERROR,
@@ -24,6 +25,6 @@ SECTION_LINE_INDENTED = Code(
     Severity.ERROR,
     "'{name}' stands in '{around}', with all below it; write it as far to the left as '{around}'",
 )
-WRONG_KIND = Code("LF2201", Severity.ERROR, "{field} takes {expected}, found {found}", _KIND)
-UNKNOWN_WORD = Code("LF2202", Severity.ERROR, "{field} takes {expected}, found '{name}'{hint}", _WRITER)
-WRONG_LENGTH = Code("LF2203", Severity.ERROR, "{field} takes {expected}, found {found}", _KIND)
+WRONG_KIND = Code("LF2201", Severity.ERROR, "{field} takes {expected}, found {found}", _DATA)
+UNKNOWN_WORD = Code("LF2202", Severity.ERROR, "{field} takes {expected}, found '{name}'{hint}", _VALUE)
+WRONG_LENGTH = Code("LF2203", Severity.ERROR, "{field} takes {expected}, found {found}", _DATA)

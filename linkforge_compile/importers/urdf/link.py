@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from functools import partial
 
+from linkforge_compile.core.models.shape_order import COLLISION, KINDS, VISUAL, shortest_setting
 from linkforge_compile.importers.element_reader import ElementReader
 from linkforge_compile.importers.spec_draft import is_same
 from linkforge_compile.importers.urdf.gazebo import Blocks
 from linkforge_compile.importers.urdf.geometry import read_geometry, read_pose
 from linkforge_compile.importers.urdf.material import Palette
-from linkforge_compile.shape_order import COLLISION, KINDS, VISUAL, as_said
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlMap, YamlNode
 
@@ -36,7 +36,7 @@ def read_link(link: ElementReader, palette: Palette, blocks: Blocks) -> YamlMap:
 
 
 def _shape_order(link: ElementReader, kinds: list[str], where: Span) -> YamlNode | None:
-    order = as_said(kinds)
+    order = shortest_setting(kinds)
     if order is None or isinstance(order, str):
         return None if order is None else link.draft.text(order, where)
     return link.draft.list_of([link.draft.text(kind, where) for kind in order], where)

@@ -6,7 +6,6 @@ import re
 from collections import Counter
 from collections.abc import Collection
 
-from linkforge_compile.bounds import Budget, Limit
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import SRDF_FOR_URDF
 from linkforge_compile.importers.comments import place_comments
@@ -21,6 +20,7 @@ from linkforge_compile.importers.urdf.material import Palette
 from linkforge_compile.importers.urdf.refused import find_refusals
 from linkforge_compile.importers.urdf.ros2_control import read_ros2_control
 from linkforge_compile.importers.urdf.transmission import read_transmission
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
