@@ -17,7 +17,7 @@ from linkforge_compile.core.meshes.read import MAX_TRIANGLES
 from linkforge_compile.diagnostics.render.text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_REPORTED, MAX_TOLD, MAX_WARNED
 from linkforge_compile.expand import includes, parameter_types
-from linkforge_compile.expand.expansion import MAX_DEPTH
+from linkforge_compile.expand.expand_uses import MAX_DEPTH
 from linkforge_compile.expressions import grammar, operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.limits import MAX_FILE_BYTES, Limit
@@ -39,7 +39,7 @@ EVERYWHERE = ("when", "for", "extra", "extra_attributes", "extra_inside")
 
 _LONGEST_CELL = 72
 _DIRECTIVE = re.compile(r"<!-- (keys of: .+|units|functions|bounds) -->")
-_DEFAULT = re.compile(r"(?:^|(?<=[.;] ))(?P<value>(?:(?![.;] ).)+?) unless said(?P<more>.*?)\.(?:\s|$)")
+_DEFAULT = re.compile(r"(?:^|(?<=[.;] ))(?P<value>(?:(?![.;] ).)+?) by default(?P<more>.*?)\.(?:\s|$)")
 _REQUIRED = re.compile(r"(?:^|(?<=[.;] ))(?P<value>[Rr]equired[^.]*)\.\s?")
 _UNIT = re.compile(r"\[([^\]]+)\]")
 _CODE = re.compile(r"`[^`]*`")

@@ -1,18 +1,16 @@
-"""The compiler on one page: read, validate, expand, lower, check; rendering is what the result is for.
+"""Compile a spec: read, validate, expand, lower and check it.
 
-Values flow down, faults flow sideways into the sink, and no stage stops the line: one run tells everything.
+Stages pass values on and report faults to the sink; no stage stops at the first, so that one run reports everything.
 """
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.checks import check
+from linkforge_compile.compilation import Compilation, CompileError
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.bounds import VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
@@ -31,6 +29,7 @@ from linkforge_compile.expand import (
 )
 from linkforge_compile.formats import NO_OPTIONS, Options, limits, require_options
 from linkforge_compile.fresh_stack import on_fresh_stack
+from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.limits import Budget
 from linkforge_compile.lower import MeshSolids, lower
 from linkforge_compile.roots import ANYWHERE, Roots
@@ -58,63 +57,11 @@ __all__ = [
 ]
 
 Parameters: TypeAlias = Mapping[str, object] | Iterable[str]
-"""Values by name, as Python values or text with units; or `name=value` pairs as the command line has them, which
-diagnostics then say of a missing one as well."""
+"""Values by name, as Python values or text with units; or `name=value` pairs, as on the command line, which the
+message about a missing one then suggests as well."""
 
 Packages: TypeAlias = Mapping[str, str | Path]
 """The folder that `package://NAME/` stands for, by name; they come before every other place to look."""
-
-
-@contextmanager
-def gc_paused() -> Iterator[None]:
-    """Pause the garbage collector: a robot holds no cycles, and to look for them takes a third of a long compile.
-
-    The collector is one for all threads: of two compiles at once, the first that ends resumes it.
-    """
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()
-
-
-class CompileError(Exception):
-    """A spec with errors was asked for its robot; `diagnostics` has every one of them."""
-
-    def __init__(self, diagnostics: tuple[Diagnostic, ...]) -> None:
-        self.diagnostics = diagnostics
-        super().__init__("\n".join(str(diagnostic) for diagnostic in diagnostics))
-
-    def __reduce__(self) -> tuple[type[CompileError], tuple[tuple[Diagnostic, ...]]]:
-        return CompileError, (self.diagnostics,)
-
-
-@dataclass(frozen=True)
-class Compilation:
-    """What one compile gave: the robot and all that was told about the spec.
-
-    `robot` is None where the spec has errors, and where a check left out what depends on parameters without a value.
-    `files` lists every file that it was made from: the compiled one first, what it includes, uses and reads values
-    from, then the meshes read for their inertia. `unread` lists those that were asked for and could not be read: when
-    one of them is there, the result is another.
-    """
-
-    robot: Robot | None
-    diagnostics: tuple[Diagnostic, ...]
-    files: tuple[Path, ...] = ()
-    unread: tuple[Path, ...] = ()
-
-    @property
-    def has_errors(self) -> bool:
-        return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
-
-    def result(self) -> Robot:
-        """Return the robot; raise CompileError where there is none."""
-        if self.robot is None:
-            raise CompileError(self.diagnostics)
-        return self.robot
 
 
 def compile_file(
@@ -130,8 +77,8 @@ def compile_file(
     """Compile a spec file; a required parameter without a value is an error.
 
     `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults. `gazebo`
-    is the simulator, Gazebo Sim or Classic, whose limits are told; give it to `render_urdf` as well. `output` is the
-    folder that the URDF is for: relative paths of meshes that lead nowhere from there are told; None for not known.
+    is the simulator, Gazebo Sim or Classic, whose limits are reported; give it to `render_urdf` as well. `output` is
+    the folder of the URDF, from which relative paths of meshes must lead to a file; None if it is not known.
     What a spec names is read in its own package or repository (else its folder), in `packages`, in those of
     AMENT_PREFIX_PATH and ROS_PACKAGE_PATH, and where `parameters` name a file; `allow_outside` lets it read anything.
 
@@ -155,7 +102,7 @@ def compile_text(
     gazebo: Gazebo = "gz",
     allow_outside: bool = False,
 ) -> Compilation:
-    """Compile a spec given as text; `name` stands in its diagnostics, `folder` is where relative paths start."""
+    """Compile a spec given as text; `name` is its name in diagnostics, `folder` is where relative paths start."""
     settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, allow_outside=allow_outside)
     return compile_source(text, name, folder, settings)
 
@@ -169,7 +116,7 @@ def check_file(
     gazebo: Gazebo = "gz",
     allow_outside: bool = False,
 ) -> Compilation:
-    """Tell all that is wrong with a spec file; what depends on a required parameter without a value is not judged."""
+    """Report what is wrong with a spec file; what depends on a required parameter without a value is not checked."""
     settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, Unset.NOTE, allow_outside=allow_outside)
     return compile_path(path, settings)
 
@@ -185,7 +132,7 @@ def check_text(
     gazebo: Gazebo = "gz",
     allow_outside: bool = False,
 ) -> Compilation:
-    """Tell all that is wrong with a spec given as text, as `check_file` does."""
+    """Report what is wrong with a spec given as text, as `check_file` does."""
     settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, Unset.NOTE, allow_outside=allow_outside)
     return compile_source(text, name, folder, settings)
 
@@ -200,7 +147,7 @@ def check_variants(
 ) -> dict[str | None, Compilation | None]:
     """Check a spec file with its defaults (None) and each of its variants, by name; None for those not checked.
 
-    Together they may take what five compiles may: LF3304 is told of the one that takes more, the last that is checked.
+    Together they have the budget of five compiles: the one that exceeds it is the last that is checked, with LF3304.
     """
     settings = Settings(parameters, packages, None, {"gazebo": gazebo}, Unset.NOTE, allow_outside=allow_outside)
     return check_each_variant(Path(path), settings)
@@ -220,9 +167,9 @@ def check_each_variant(file: Path, settings: Settings) -> dict[str | None, Compi
 def parameters_of(
     path: str | Path, *, packages: Packages | None = None, allow_outside: bool = False
 ) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
-    """List the parameters and variants of a spec file, None where it cannot be read, and what is wrong with them.
+    """List the parameters and variants of a spec file, None if it cannot be read, and what is wrong with them.
 
-    Those of a xacro file are the arguments that it and what it includes declare; none is declared by a URDF.
+    Those of a xacro file are the arguments that it and its includes declare; a URDF declares none.
     """
     from linkforge_compile.expand.listing import list_parameters
 
@@ -261,20 +208,24 @@ class Settings(NamedTuple):
     whole: Budget | None = None
 
     def loader(self, place: Path | None) -> Loader:
-        """Return what reads the files of one compile, the compiled one at a place; None for a text without one."""
+        """Return the loader of one compile of a file or of a text in a folder; None for a text without a folder."""
         packages = {name: Path(place) for name, place in (self.packages or {}).items()}
         roots = ANYWHERE if self.allow_outside else Roots.around(place, packages.values())
         return Loader(packages, roots, Budget(within=self.whole))
 
     def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:
-        """Return the parameters; the loader may read the files that they name."""
-        said = {} if self.parameters is None else self.parameters
-        arguments = arguments_from_values(said) if isinstance(said, Mapping) else arguments_from_text(tuple(said), sink)
+        """Return the parameters; the loader may then read the files that they name."""
+        given = {} if self.parameters is None else self.parameters
+        if isinstance(given, Mapping):
+            arguments = arguments_from_values(given)
+        else:
+            arguments = arguments_from_text(tuple(given), sink)
         loader.roots = loader.roots.naming(arguments.named_files)
         return arguments
 
 
 def compile_path(path: str | Path, settings: Settings) -> Compilation:
+    """Compile a spec file with settings."""
     file = Path(path)
     if file.suffix.lower() != XACRO:
         return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
@@ -285,11 +236,12 @@ def compile_path(path: str | Path, settings: Settings) -> Compilation:
 
         return open_xacro(XacroUse(file, ImportSite(str(path), None), settings.arguments(loader, sink)), loader, sink)
 
-    # The expansion has no parameters any more.
+    # What xacro expands has no parameters.
     return _compile(read, file, settings._replace(parameters=None))
 
 
 def compile_source(text: str, name: str, folder: str | Path | None, settings: Settings) -> Compilation:
+    """Compile a spec given as text with settings."""
     place = Path(folder) if folder is not None else None
     return _compile(lambda loader, sink: loader.parse(text, name, place, sink), place, settings)
 
@@ -305,15 +257,15 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
     sink = Diagnostics()
     loader = settings.loader(place)
     meshes = MeshSolids(loader.budget)
-    loader.check_spec = lambda spec, loader: judged(meshes, spec, loader).faults
+    loader.check_spec = lambda spec, loader: check_alone(meshes, spec, loader).faults
     robot = None
     ignores: tuple[Ignore, ...] = ()
     try:
         spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them
         robot = robot_of(spec, settings, loader, meshes, sink) if spec else None
         if robot is not None and robot.extra_elements:
-            # Not asked of a robot that is judged: an import keeps raw what has the name of another.
-            from linkforge_compile.formats.raw_names import check_raw_names
+            # Only of the compiled robot: an import keeps raw XML that has the name of another part.
+            from linkforge_compile.formats.extra_limits import check_raw_names
 
             sink.report_all(check_raw_names(robot))
         ignores = loader.ignores
@@ -330,7 +282,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
 
 
 def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:
-    """Expand, lower and check a spec that was read: the robot, as far as its faults leave one."""
+    """Expand, lower and check a spec that was read; return its robot, without what is faulty."""
     from linkforge_compile.core.resolver import FileSystemResolver
 
     arguments = settings.arguments(loader, sink)
@@ -350,18 +302,18 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
     return lowered.robot
 
 
-class Judged(NamedTuple):
-    """What a spec compiles to by itself, None where it has errors, and those."""
+class Checked(NamedTuple):
+    """The robot of a spec that was compiled by itself, None if it has errors, and these."""
 
     robot: Robot | None
     faults: tuple[Diagnostic, ...]
 
 
-def judged(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Judged:
-    """Compile a spec by itself at a cost of its own; it reads the meshes that are read for the whole."""
-    sink, was_told = Diagnostics(), meshes.is_without_library
+def check_alone(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Checked:
+    """Compile a spec by itself, within a budget of its own, sharing the meshes of the whole compile."""
+    sink, was_reported = Diagnostics(), meshes.is_without_library
     with loader.separate_budget():
         robot = robot_of(spec, Settings(), loader, meshes, sink)
-    meshes.is_without_library = was_told  # this sink is nobody's: the robot tells it where it is used
+    meshes.is_without_library = was_reported  # this sink is discarded: the whole compile reports it
     faults = tuple(fault for fault in sink if fault.severity is Severity.ERROR)
-    return Judged(None if faults else robot, faults)
+    return Checked(None if faults else robot, faults)

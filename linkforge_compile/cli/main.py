@@ -16,7 +16,7 @@ from linkforge_compile.cli.exits import INTERRUPTED, OK, WRONG_USAGE, UsageError
 if TYPE_CHECKING:
     import argparse
 
-_COMMANDS = {
+COMMANDS = {
     "init": "create a folder for a new robot, with a first spec and files for editors, git and builds",
     "compile": "compile a spec to URDF and SRDF",
     "watch": "compile a spec, and again whenever one of its files changes",
@@ -66,14 +66,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(words: list[str]) -> int:
-    if not words or words[0] not in _COMMANDS:
+    if not words or words[0] not in COMMANDS:
         return _run_without_command(words)
     from importlib import import_module
 
     name, *rest = words
     # `import` is a keyword of Python, so its module is `import_`.
     command = import_module(f"linkforge_compile.cli.commands.{name.replace('import', 'import_')}")
-    parser = _make_parser(f"linkforge {name}", _COMMANDS[name], command.add_arguments)
+    parser = _make_parser(f"linkforge {name}", COMMANDS[name], command.add_arguments)
     # Intermixed, so that `linkforge compile arm.robot.yaml -o build/ reach:=0.7` works as with ROS's tools.
     arguments = parser.parse_intermixed_args(rest)
     try:
@@ -93,11 +93,11 @@ def _run_without_command(words: list[str]) -> int:
     summary = "a declarative compiler for robots: YAML specs in, URDF and SRDF out"
     parser = _make_parser("linkforge", summary, _add_version)
     parser.usage = "linkforge [-h] [-V] COMMAND ..."
-    width = max(map(len, _COMMANDS))
+    width = max(map(len, COMMANDS))
     parser.epilog = "\n".join(
         (
             "commands:",
-            *(f"  {name:{width}}  {summary}" for name, summary in _COMMANDS.items()),
+            *(f"  {name:{width}}  {summary}" for name, summary in COMMANDS.items()),
             "",
             "`linkforge COMMAND --help` describes a command. Exit codes: 0 clean, 1 errors in the spec, 2 wrong usage,",
             "70 a bug in linkforge.",
@@ -109,7 +109,7 @@ def _run_without_command(words: list[str]) -> int:
         return WRONG_USAGE
     from linkforge_compile.diagnostics.suggest import did_you_mean
 
-    return parser.error(f"'{words[0]}' is no command{did_you_mean(words[0], _COMMANDS)}")
+    return parser.error(f"'{words[0]}' is no command{did_you_mean(words[0], COMMANDS)}")
 
 
 def _add_version(parser: argparse.ArgumentParser) -> None:
@@ -131,9 +131,9 @@ def _make_parser(
 
 
 def _report_usage_error(command: str, reason: str) -> int:
-    from linkforge_compile.cli.telling import line_to_stderr
+    from linkforge_compile.cli.reports import print_line
 
-    line_to_stderr(f"linkforge {command}: {reason}")
+    print_line(f"linkforge {command}: {reason}")
     return WRONG_USAGE
 
 

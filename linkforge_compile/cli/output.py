@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.cli.reports import print_status
 from linkforge_compile.cli.targets import file_to_write
-from linkforge_compile.cli.telling import say
 from linkforge_compile.roots import Roots, exists, identity, real_path
 
 if TYPE_CHECKING:
@@ -36,20 +36,20 @@ def write_to_stdout(text: str) -> None:
         raise UsageError(f"cannot write to standard output: {error.strerror}") from error
 
 
-def write_output(text: str, path: Path | None, arguments: argparse.Namespace) -> None:
+def write_document(text: str, path: Path | None, arguments: argparse.Namespace) -> None:
     """Write the one output of a command to a file, or to standard output for None, and print what was done."""
     if path is None:
         write_to_stdout(text)
     else:
-        say(f"wrote {path}" if write_if_changed(path, text) else f"{path} is up to date", arguments)
+        print_status(f"wrote {path}" if write_if_changed(path, text) else f"{path} is up to date", arguments)
 
 
 def write_json(text: str, output: str | None, arguments: argparse.Namespace) -> None:
-    """Write JSON as `write_output` does; UsageError if the file of `-o` does not end in .json."""
+    """Write JSON as `write_document` does; UsageError if the file of `-o` does not end in .json."""
     path = file_to_write(output)
     if path is not None and path.suffix != ".json":
         raise UsageError(f"-o takes a file that ends in .json, found '{output}'")
-    write_output(text, path, arguments)
+    write_document(text, path, arguments)
 
 
 def write_if_changed(path: Path, text: str) -> bool:

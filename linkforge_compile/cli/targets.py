@@ -1,4 +1,4 @@
-"""Where a compile writes: from `-o` and `--format` to a file for each format."""
+"""Chooses the file of each output from `-o` and `--format`."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Targets(NamedTuple):
         return self._replace(paths=MappingProxyType(paths))
 
     def require_files(self, option: str, why: str) -> None:
-        """Refuse an option that has no meaning for standard output, a device or a pipe."""
+        """Refuse an option that needs files as outputs, not standard output, a device or a pipe."""
         if any(
             path is None or (path.exists() and not (path.is_file() or path.is_dir())) for path in self.paths.values()
         ):
@@ -57,7 +57,7 @@ def add_target_options(parser: argparse.ArgumentParser) -> None:
     names = [one.name for one in formats.FORMATS]
     about = "; ".join(f"{one.name}: {one.description}" for one in formats.FORMATS)
     parser.add_argument(
-        "--format", choices=names, help=f"only this one (standard output: {names[0]} unless said); {about}"
+        "--format", choices=names, help=f"only this one (default on standard output: {names[0]}); {about}"
     )
 
 
@@ -97,10 +97,10 @@ def default_format() -> formats.Format:
 
 
 def targets_of_documents(names: Sequence[str], outputs: Sequence[str]) -> Targets | None:
-    """Return where the documents of a folder of templates go; None where `outputs` name files of formats.
+    """Return the targets of a folder of templates' documents; None if `outputs` name files of formats.
 
     Raises:
-        UsageError: for several documents that would go to standard output.
+        UsageError: Several documents would go to standard output.
 
     """
     if not outputs or (len(outputs) == 1 and file_to_write(outputs[0]) is None):
@@ -116,7 +116,7 @@ def targets_of_documents(names: Sequence[str], outputs: Sequence[str]) -> Target
 
 
 def _is_document(output: str, name: str) -> bool:
-    """Whether `-o` names the file of a document: one with an ending, that of a format if the document has it."""
+    """Whether `-o` names a document's file: one with a suffix, but not of a format that the document has not."""
     path = Path(output)
     is_folder = output.endswith(("/", "\\")) or path.is_dir()
     is_of_format = path.suffix in _suffixes() and path.suffix != Path(name).suffix
@@ -124,12 +124,12 @@ def _is_document(output: str, name: str) -> bool:
 
 
 def file_to_write(output: str | None) -> Path | None:
-    """Return the file that an option names to write, None for standard output: nothing, or `-`."""
+    """Return the output file that an option names, None for standard output: no option, or `-`."""
     return None if output is None or output == _STANDARD_OUTPUT else Path(output)
 
 
 def imported_spec(robot: str, output: str | None) -> Path | None:
-    """Return where an imported spec goes: a file, NAME.robot.yaml in a folder, None for standard output."""
+    """Return the file of an imported spec, which is NAME.robot.yaml in a folder; None for standard output."""
     path = file_to_write(output)
     if output is None or path is None:
         return None
@@ -137,7 +137,7 @@ def imported_spec(robot: str, output: str | None) -> Path | None:
 
 
 def name_of(spec: str) -> str:
-    """Return what the files of a spec are named after: arm for arm.robot.yaml, arm.xml and arm.urdf.xacro."""
+    """Return the name of a spec's outputs: arm for arm.robot.yaml, arm.xml and arm.urdf.xacro."""
     if spec == "-":
         return "robot"
     name = Path(spec).name
@@ -183,9 +183,9 @@ def _format_of_file(output: str, chosen: str | None) -> str:
 
 
 def _is_file(output: str, endings: Sequence[str]) -> bool:
-    """Whether `-o` names a file: one with one of the endings, a device or a pipe; all else are folders.
+    """Whether `-o` names a file: one with one of the endings, a device or a pipe. Other words name folders.
 
-    An ending that is neither is refused: `-o arm.robot.yaml` would else replace the spec, or make a folder of it.
+    UsageError for any other suffix: `-o arm.robot.yaml` would replace the spec, or create a folder of that name.
     """
     path = Path(output)
     if output.endswith(("/", "\\")) or path.is_dir():

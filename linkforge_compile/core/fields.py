@@ -1,4 +1,4 @@
-"""What a field of a model class says about itself, for the walkers that read, write, compare and prefix its values.
+"""Specs of the fields of model classes, for the walkers that read, write, compare and prefix their values.
 
 A field is annotated with a spec: `effort: Annotated[float, Number(EFFORT, NOT_NEGATIVE)]`. Type checkers, constructors
 and `typing.get_type_hints` see the plain type; a walker asks `field_specs` for the specs of a class. A field without
@@ -47,7 +47,7 @@ ZERO_TO_ONE = Bound("from 0 to 1", least=0.0, most=1.0)
 
 @dataclass(frozen=True, kw_only=True)
 class Spec:
-    """What every field says: its spelling, and what its absence means.
+    """The spelling of a field, its default and whether it is required.
 
     `key` is its key in the language: the name of the field where none is given, empty where the value is itself a key
     (of the map that holds the element) or is spelled by several keys.
@@ -56,8 +56,8 @@ class Spec:
     `example` is what to write where the language requires the field, by motion if that matters; empty where it does
     not require it.
 
-    `field_specs` fills in the rest. `implied` is what the absence of the field means: the default of its class, None
-    for a required one. `may_be_none` and `container` (None, Sequence or Mapping) follow from the annotation.
+    `field_specs` fills in the rest. `implied` is the value of a field that is not written: the default of its class,
+    None for a required one. `may_be_none` and `container` (None, Sequence or Mapping) follow from the annotation.
     """
 
     key: str | None = None
@@ -76,7 +76,7 @@ class Spec:
 class Number(Spec):
     """A number, with its unit and range.
 
-    `stand_in` takes the place of a faulty one, so that its element stays for the checks; None for `implied`. A length
+    `stand_in` replaces a faulty one, so that its element can be checked further; None for `implied`. A length
     that `may_be_far` is not taken for millimetres.
     """
 
@@ -109,7 +109,7 @@ class Text(Spec):
 
 @dataclass(frozen=True)
 class Name(Text):
-    """The element's own name, which takes the prefix; in the language nearly always the key of the map around it."""
+    """The element's own name, which takes the prefix; in the language mostly the key of the map around it."""
 
     key: str | None = ""
 
@@ -118,8 +118,8 @@ class Name(Text):
 class Reference(Text):
     """The name of another element, which takes the prefix; or a sequence of names, or a mapping with names as keys.
 
-    `to` says what is named: link, joint, part (a link or joint), collision, group, frame or topic. Of topics, those
-    that are absolute take no prefix.
+    `to` is the kind of what is named: link, joint, part (a link or joint), collision, group, frame or topic. Absolute
+    topics take no prefix.
     """
 
     to: str = ""
@@ -213,6 +213,12 @@ def _complete(spec: Spec, name: str, annotation: Any, default: object) -> Spec:
         return replace(spec, xml=f"@{name}" if spec.xml is None else spec.xml)
     kinds = spec.kinds or tuple(kind for kind in get_args(annotation) or (annotation,) if kind is not NoneType)
     return replace(spec, kinds=kinds, xml=getattr(kinds[0], "TAG", name) if spec.xml is None else spec.xml)
+
+
+def tags_with_text(kind: type) -> dict[str, str]:
+    """Return the tags of the fields of a model class that become elements with a text, by field, in their order."""
+    spellings = ((name, spec.xml or "") for name, spec in field_specs(kind).items())
+    return {name: xml.removesuffix("/text()") for name, xml in spellings if xml.endswith("/text()")}
 
 
 def written_numbers(part: object) -> Iterator[tuple[str, float]]:

@@ -1,4 +1,4 @@
-"""What every frozen part of the IR has: where it was written, what no field says, and copies that are itself."""
+"""Base classes of the model: frozen parts with their source, and elements with the raw XML that no field covers."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ from linkforge_compile.source import Sourced
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Part(Sourced):
-    """A frozen value: nothing in it ever changes, so a copy of it, deep or not, is the part itself."""
+    """A frozen value; since nothing in it changes, a copy of it is the part itself."""
 
     def __init_subclass__(cls) -> None:
-        # For its slots, dataclass makes a class twice, and knows its fields the second time. It puts inherited ones
-        # first; `astuple` and `fields` shall give those of the class itself first, and then what every part has.
+        # dataclasses puts inherited fields first, but `fields` and `astuple` have to begin with LinkForge's fields:
+        # those of the class itself, none of which is keyword-only. With `slots=True`, dataclass makes each class a
+        # second time, and that one has its fields by now.
         if fields := vars(cls).get("__dataclass_fields__"):
             cls.__dataclass_fields__ = dict(sorted(fields.items(), key=lambda item: item[1].kw_only is True))
 
@@ -96,7 +97,7 @@ _NOTHING: Final = ()
 def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) -> None:
     """Make tuples of the named sequences and FrozenMaps of the named mappings, all the way down; extras are tuples.
 
-    For `__post_init__` only. An element without collections of its own inherits it; one that has them calls it.
+    For `__post_init__` only, of elements with collections of their own; others inherit it.
     """
     for name in sequences:
         set_field(element, name, tuple(getattr(element, name)))
@@ -104,7 +105,7 @@ def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) ->
         set_field(element, name, frozen(FrozenMap(getattr(element, name))))
     has_no_elements, has_no_attributes = element.extra_elements is _NOTHING, element.extra_attributes is _NOTHING
     if has_no_elements and has_no_attributes and element.extra_inside is _NOTHING:
-        return  # nearly all, of which a robot has many
+        return  # most elements
     set_field(element, "extra_elements", tuple(element.extra_elements))
     set_field(element, "extra_attributes", attribute_pairs(element.extra_attributes))
     set_field(element, "extra_inside", tuple(element.extra_inside))
@@ -114,15 +115,13 @@ def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) ->
 class Element(Part):
     """A part that becomes an XML element.
 
-    `extra_attributes` are (name, value) pairs and `extra_elements` the texts of child elements, both for what no
-    field says; they are written as they stand and take no prefix. `extra_inside` says the same of the elements
-    inside that are no part of their own. They are compared, but not shown by `repr`.
+    `extra_attributes` are (name, value) pairs and `extra_elements` the texts of child elements that no field covers;
+    they are written unchanged and take no prefix. `extra_inside` has the same for child elements that have no class of
+    their own. They are compared, but not shown by `repr`.
     """
 
     TAG: ClassVar[str] = ""
     """The tag of the element; empty where it depends on what holds the part."""
-    KEYS_ARE_TAGS: ClassVar[bool] = False
-    """Whether the keys of a mapping in it become elements, and not attributes."""
     NAMES_INSIDE_TAKE_PREFIX: ClassVar[bool] = False
     """Whether the names in `extra_inside` are those of links, joints and groups, which take a prefix."""
 
@@ -137,10 +136,10 @@ class Element(Part):
 
 @dataclass(frozen=True, slots=True)
 class Inside(Element):
-    """What no field says of an element inside of another that only a field of its part makes: `<parent>` of a joint.
+    """Raw XML of a child element that has no class of its own, such as `<parent>` of a joint.
 
-    `tag` is its tag. `name` is its attribute `name` or `link`, or its text, where a tag stands several times: the
-    `<joint name>` of a group, a `<param name>`; None for the only one.
+    `tag` is its tag. `name` tells several of one tag apart: the attribute `name` or `link`, or the text, of a
+    `<joint name>` of a group or a `<param name>`; None where there is only one.
     """
 
     tag: str
@@ -150,7 +149,7 @@ class Inside(Element):
 def attribute_pairs(attributes: Sequence[tuple[str, str]] | Mapping[str, str]) -> tuple[tuple[str, str], ...]:
     """Return (name, value) pairs in the order given."""
     if attributes is _NOTHING:
-        return attributes  # nearly all
+        return attributes  # most elements
     pairs = attributes.items() if isinstance(attributes, Mapping) else attributes
     return tuple((name, value) for name, value in pairs)
 

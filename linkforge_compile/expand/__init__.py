@@ -1,4 +1,4 @@
-"""Many files and their parameters to one assembly: every use of every file, with every expression computed."""
+"""Turn a spec, its parameters and the files it uses into a tree of Instances with every expression computed."""
 
 from linkforge_compile.expand.arguments import (
     Arguments,

@@ -55,7 +55,6 @@ class Expressions(ExpressionScan):
         self.budget = budget
         self._templates: dict[YamlScalar, Template | None] = {}
         self._parts: dict[tuple[str, Span], YamlScalar] = {}
-        self._has_expressions: dict[YamlList | YamlMap, bool] = {}
         self._sizes: dict[YamlList | YamlMap, tuple[int, int]] = {}
 
     def template(self, scalar: YamlScalar, sink: Diagnostics) -> Template | None:
@@ -71,20 +70,6 @@ class Expressions(ExpressionScan):
             text = f"$({expression})"
             self._parts[expression, where] = YamlScalar(text, text, where)
         return self._parts[expression, where]
-
-    def has_expressions(self, node: YamlNode) -> bool:
-        """Whether a node or anything in it, keys included, holds an expression."""
-        if isinstance(node, YamlScalar):
-            return has_expression(node.text)
-        if isinstance(node, YamlFault):
-            return False
-        if node not in self._has_expressions:
-            if isinstance(node, YamlList):
-                found = any(self.has_expressions(item) for item in node)
-            else:
-                found = any(has_expression(entry.name) or self.has_expressions(entry.value) for entry in node)
-            self._has_expressions[node] = found
-        return self._has_expressions[node]
 
     def size(self, node: YamlNode) -> tuple[int, int]:
         """Return how many nodes a tree has, tags of raw XML included, and how many characters."""
@@ -183,7 +168,7 @@ class Evaluator:
 
     def value(self, node: YamlNode) -> Value | Fault:
         """Return the value of a node in expressions; FAULT if any part of it is faulty, which is reported."""
-        if not self.expressions.has_expressions(node):
+        if not self.expressions.is_computed(node):
             return plain_value(node)
         match node:
             case YamlScalar():

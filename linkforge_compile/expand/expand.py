@@ -28,7 +28,7 @@ def expand(
     if variant is None and not arguments.entries and is_plain(spec):
         return plain_instance(spec, loader)
     # Importing the rest of this package and the expressions takes 45 ms, which plain robots need not wait for.
-    from linkforge_compile.expand.expansion import expand_uses
+    from linkforge_compile.expand.expand_uses import expand_uses
 
     return expand_uses(spec, arguments, loader, sink, unset=unset, variant=variant)
 

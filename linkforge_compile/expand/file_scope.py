@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.expressions import SEEN_IN_THE_TEXT
@@ -20,12 +19,12 @@ from linkforge_compile.diagnostics.codes.modules import (
     RESERVED_NAME,
 )
 from linkforge_compile.expand.arguments import Unset
-from linkforge_compile.expand.bound_arguments import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
-from linkforge_compile.expand.file_functions import FileBuiltins
+from linkforge_compile.expand.file_builtins import FileBuiltins
 from linkforge_compile.expand.loader import Loader, SpecFile
 from linkforge_compile.expand.origins import Setting
+from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.parameters import Declaration, declarations
 from linkforge_compile.expand.paths import follow
 from linkforge_compile.expand.uses import from_base, mesh_base, rebased
@@ -54,20 +53,20 @@ class CompileState:
     variant: str | None = None
 
 
-class FileUse(NamedTuple):
-    """One use of a file: its arguments, its full prefix (FAULT if that is faulty), and the uses that led to it."""
-
-    spec: SpecFile
-    bound: BoundArguments
-    prefix: str | Fault = ""
-    include_stack: tuple[Span, ...] = ()
-
-
 class FileScope:
     """The names of one use of a file; each value is computed when first used, in any order, and once."""
 
-    def __init__(self, use: FileUse, state: CompileState, sink: Diagnostics) -> None:
-        spec, bound = use.spec, use.bound
+    def __init__(
+        self,
+        spec: SpecFile,
+        bound: BoundArguments,
+        state: CompileState,
+        sink: Diagnostics,
+        *,
+        prefix: str | Fault = "",
+        include_stack: tuple[Span, ...] = (),
+    ) -> None:
+        """`prefix` is the full one, FAULT if a part of it is; `include_stack` are the uses that led to the file."""
         self._spec = spec
         self._path_base = "" if spec.folder is None else mesh_base(spec, state.compiled)
         self._bound = bound
@@ -87,11 +86,11 @@ class FileScope:
         }
         self._variables = {name: self._lazy(self._variable, entry) for name, entry in self._entries("variables")}
         self._data = {name: self._lazy(self._data_value, entry) for name, entry in self._entries("data")}
-        self.builtins = FileBuiltins(spec, use.prefix, lambda: self.packages, state.loader, use.include_stack)
+        self.builtins = FileBuiltins(spec, prefix, lambda: self.packages, state.loader, include_stack)
         values: dict[str, Value | Fault | Lazy] = {
             "name": Lazy(self._name, spec.file.whole),
             "standalone": bound.use is None,
-            "prefix": use.prefix,
+            "prefix": prefix,
             **self._variables,
             **self._data,
             **self._parameters,

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
 from linkforge_compile.expand.arguments import Arguments, Unset
-from linkforge_compile.expand.bound_arguments import BoundArguments
 from linkforge_compile.expand.evaluate import Expressions
-from linkforge_compile.expand.file_scope import CompileState, FileScope, FileUse
+from linkforge_compile.expand.file_scope import CompileState, FileScope
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.packages import find_package
+from linkforge_compile.expand.parameter_values import BoundArguments
 from linkforge_compile.expand.parameters import Declaration, make_parameter, resolve_type
 from linkforge_compile.expand.uses import SPEC_ENDINGS, open_use
 from linkforge_compile.expand.variants import Variants, variants_of
@@ -140,8 +140,8 @@ def as_written(node: YamlNode) -> str:
 
 
 def _scope_without_arguments(spec: SpecFile, loader: Loader, sink: Diagnostics) -> FileScope:
-    use = FileUse(spec, BoundArguments(Arguments(is_partial=True), sink))
-    return FileScope(use, CompileState(spec, loader, Expressions(loader.budget), Unset.NOTE), sink)
+    state = CompileState(spec, loader, Expressions(loader.budget), Unset.NOTE)
+    return FileScope(spec, BoundArguments(Arguments(is_partial=True), sink), state, sink)
 
 
 def _listed(declaration: Declaration, scope: FileScope, spec: SpecFile, sink: Diagnostics) -> ListedParameter:

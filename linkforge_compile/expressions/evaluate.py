@@ -84,7 +84,7 @@ def evaluate(
     return text
 
 
-def handed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, ...]] | None:
+def passed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, ...]] | None:
     """Return the name whose value a template passes on unchanged, and the keys to the part that it passes on.
 
     None for a template that computes a new value.
@@ -100,11 +100,11 @@ def handed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, .
 
 def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagnostic:
     if name.id in _PYTHON_MODULES:
-        instead = "constants and functions are called by their names alone, pi"
+        instead = "write constants and functions without a module: pi"
         return codes.NOT_IN_EXPRESSIONS.at(expression.span(name), what=f"'{name.id}'", instead=instead)
     near = [*scope, *CONSTANTS]
     is_text = _is_compared(name, expression.tree) and nearest(name.id, near) is None
-    hint = f"; text is written in quotes: '{name.id}'" if is_text else ""
+    hint = f"; write text in quotes: '{name.id}'" if is_text else ""
     return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, hint=hint, near=near)
 
 
@@ -164,7 +164,7 @@ class _Evaluation:
             return FAULT
 
     def passed_on(self, node: ast.expr) -> tuple[str, tuple[str | int, ...]] | None:
-        """Return what `handed_on` does for a part of the expression."""
+        """Return what the function `passed_on` does, for a part of the expression."""
         match node:
             case ast.Name(id=name):
                 return None if name in CONSTANTS else (name, ())

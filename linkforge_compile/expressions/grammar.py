@@ -20,9 +20,9 @@ from linkforge_compile.units import UNITS
 MAX_DEPTH = 100
 """How deep an expression may nest; a sum nests as deep as it has terms."""
 
-_LIST_ELSEWHERE = "lists and maps are written in YAML and given a name in 'variables'"
-_IN_FOR = "a list is repeated over by 'for'"
-_NO_BITS = "there are no operators on bits"
+_LIST_ELSEWHERE = "declare lists and maps in 'variables'"
+_IN_FOR = "repeat entries with 'for'"
+_NO_BITS = "there are no bitwise operators"
 
 _REFUSED: dict[type[ast.AST], tuple[str, str]] = {
     ast.List: ("a list in brackets", _LIST_ELSEWHERE),
@@ -33,23 +33,23 @@ _REFUSED: dict[type[ast.AST], tuple[str, str]] = {
     ast.SetComp: ("a comprehension", _IN_FOR),
     ast.DictComp: ("a comprehension", _IN_FOR),
     ast.GeneratorExp: ("a comprehension", _IN_FOR),
-    ast.Lambda: ("a lambda", "the functions are those of the language"),
-    ast.NamedExpr: ("':='", "names are declared in 'variables'"),
-    ast.JoinedStr: ("an f-string", "text with a value in it is written outside: wheel_$(side)"),
-    ast.Starred: ("'*' before a value", "min() and max() take a list as it is"),
-    ast.Slice: ("a slice", "items are taken one by one, list[0]"),
-    ast.Await: ("'await'", "it means nothing here"),
-    ast.Yield: ("'yield'", "it means nothing here"),
-    ast.YieldFrom: ("'yield'", "it means nothing here"),
-    ast.BitXor: ("'^'", "powers are written '**'"),
-    ast.BitAnd: ("'&'", "'and' joins conditions"),
-    ast.BitOr: ("'|'", "'or' joins conditions"),
-    ast.Invert: ("'~'", "'not' turns a condition round"),
+    ast.Lambda: ("a lambda", "only functions of the language can be called"),
+    ast.NamedExpr: ("':='", "declare names in 'variables'"),
+    ast.JoinedStr: ("an f-string", "write the text around the expression: wheel_$(side)"),
+    ast.Starred: ("'*' before a value", "pass the list itself to min() or max()"),
+    ast.Slice: ("a slice", "read items one by one: list[0]"),
+    ast.Await: ("'await'", "there are no coroutines or generators"),
+    ast.Yield: ("'yield'", "there are no coroutines or generators"),
+    ast.YieldFrom: ("'yield'", "there are no coroutines or generators"),
+    ast.BitXor: ("'^'", "write '**' for powers"),
+    ast.BitAnd: ("'&'", "write 'and' between conditions"),
+    ast.BitOr: ("'|'", "write 'or' between conditions"),
+    ast.Invert: ("'~'", "write 'not' to negate a condition"),
     ast.LShift: ("'<<'", _NO_BITS),
     ast.RShift: ("'>>'", _NO_BITS),
     ast.MatMult: ("'@'", "there are no matrices"),
-    ast.Is: ("'is'", "values are compared with '=='"),
-    ast.IsNot: ("'is not'", "values are compared with '!='"),
+    ast.Is: ("'is'", "compare values with '=='"),
+    ast.IsNot: ("'is not'", "compare values with '!='"),
 }
 """Syntax of Python that expressions do not have: what it is called, and what to write instead."""
 
@@ -141,11 +141,11 @@ def _operator_fault(operator: ast.AST, left: ast.expr, right: ast.expr, expressi
 def _constant_fault(node: ast.Constant, value: object, expression: Expression) -> Diagnostic | None:
     match value:
         case bool() | None:
-            instead = f"it is written '{_PYTHON_CONSTANTS[value]}'"
+            instead = f"write '{_PYTHON_CONSTANTS[value]}'"
             return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=f"'{value}'", instead=instead)
         case str() if forbidden := FORBIDDEN_CHARACTER.search(value):
             what = f"the character {code_point(forbidden[0])}"
-            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=what, instead="no file can hold it")
+            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=what, instead="no file may contain it")
         case int() if value.bit_length() > MAX_INTEGER_BITS:
             return codes.RESULT_TOO_LARGE.at(expression.span(node), taker="this number")
         case float() if not math.isfinite(value):
@@ -170,14 +170,14 @@ def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
     span = expression.span(call.func)
     if not isinstance(call.func, ast.Name):
         known = SIGNATURES.get(call.func.attr) if isinstance(call.func, ast.Attribute) else None
-        instead = f"the functions are called by their names alone, {known.signature if known else 'sqrt(x)'}"
+        instead = f"call functions by their name only: {known.signature if known else 'sqrt(x)'}"
         return codes.NOT_IN_EXPRESSIONS.at(span, what=f"a call of '{expression.written(call.func)}'", instead=instead)
     name = call.func.id
     function = SIGNATURES.get(name)
     if function is None:
         return codes.UNKNOWN_FUNCTION.at(span, name=name, near=SIGNATURES)
     if call.keywords:
-        instead = f"the order tells what each is: {function.signature}"
+        instead = f"arguments are given in order: {function.signature}"
         return codes.NOT_IN_EXPRESSIONS.at(expression.span(call), what="an argument with a name", instead=instead)
     if any(isinstance(argument, ast.Starred) for argument in call.args) or function.accepts(len(call.args)):
         return None
@@ -192,29 +192,29 @@ _UNITS = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=Tru
 _KEYWORDS = "|".join(keyword.kwlist)
 
 _HABITS = (
-    (r"^\s*find\s+([\w-]+)\s*$", "'$(find ...)' is xacro's; a file of a package is package://{1}/..."),
-    (r"^\s*(?:arg|eval)\s+(.*?)\s*$", "'$(arg ...)' and '$(eval ...)' are xacro's; write $({1})"),
+    (r"^\s*find\s+([\w-]+)\s*$", "'$(find ...)' is xacro; write package://{1}/..."),
+    (r"^\s*(?:arg|eval)\s+(.*?)\s*$", "'$(arg ...)' and '$(eval ...)' are xacro; write $({1})"),
     (r"^\s*(?:env|optenv)\s.*", "the environment is not read; declare a parameter"),
-    (r"&&", "'and' is written for '&&'"),
-    (r"\|\|", "'or' is written for '||'"),
-    (r"!(?!=)", "'not' is written for '!'"),
-    (r"\?", "a choice is written a if condition else b"),
-    (r"\$[({]?", "names stand here without '$'"),
-    (r"#", "it cannot hold a comment"),
-    (r"(?<![=!<>:])=(?!=)", "two values are compared with '=='"),
+    (r"&&", "write 'and' for '&&'"),
+    (r"\|\|", "write 'or' for '||'"),
+    (r"!(?!=)", "write 'not' for '!'"),
+    (r"\?", "write: a if condition else b"),
+    (r"\$[({]?", "write names without '$' here"),
+    (r"#", "expressions cannot contain comments"),
+    (r"(?<![=!<>:])=(?!=)", "compare two values with '=='"),
     (
         rf"(?<![\w.])((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*(?!in\b)(?:{_UNITS}))(?!\w)",
-        "a unit cannot stand here; give '{1}' a name in 'variables'",
+        "units are not allowed here; declare '{1}' in 'variables'",
     ),
-    (r"[×·⋅∙]", "'*' is written for '{0}'"),
-    (r"÷", "'/' is written for '{0}'"),
-    (r"[−–—]", "'-' is written for '{0}'"),
-    (r"≤", "'<=' is written for '{0}'"),
-    (r"≥", "'>=' is written for '{0}'"),
-    (r"≠", "'!=' is written for '{0}'"),
-    (r"²", "'** 2' is written for '{0}'"),
-    (r"³", "'** 3' is written for '{0}'"),
-    (rf"\.\s*({_KEYWORDS})\b", "'{1}' is a word of the grammar; that key is read with ['{1}']"),
+    (r"[×·⋅∙]", "write '*' for '{0}'"),
+    (r"÷", "write '/' for '{0}'"),
+    (r"[−–—]", "write '-' for '{0}'"),
+    (r"≤", "write '<=' for '{0}'"),
+    (r"≥", "write '>=' for '{0}'"),
+    (r"≠", "write '!=' for '{0}'"),
+    (r"²", "write '** 2' for '{0}'"),
+    (r"³", "write '** 3' for '{0}'"),
+    (rf"\.\s*({_KEYWORDS})\b", "'{1}' is a reserved word; read that key with ['{1}']"),
     (r"(?<![\w.])0[0-9]+\b(?!\.)", "a number cannot begin with 0"),
     (r"\bif\b(?!.*\belse\b)", "'if' needs an 'else'"),
 )
@@ -229,4 +229,4 @@ def explain_syntax_error(text: str, error: SyntaxError) -> tuple[int, int, str]:
             return found.start(), len(found[0]), problem.format(found[0], *found.groups())
     # Python counts from 1 and saw one more parenthesis. Its own message differs between versions.
     start = min(max((error.offset or 0) - 2, 0), len(text))
-    return start, 1, "something is missing or too much here"
+    return start, 1, "something is missing or unexpected here"

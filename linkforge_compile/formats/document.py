@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from linkforge_compile.formats.format import DEFAULT_RENDERING, Document, Format, Options, Rendering, Templates
+from linkforge_compile.formats.format import DEFAULT_RENDERING, Document, Format, Options, Rendering
+from linkforge_compile.gc_paused import gc_paused
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -22,25 +22,50 @@ class TemplateFormat(Format):
         text, map_ = self.render_with_map(robot, rendering)
         return (Document(text, map=map_),)
 
+    @gc_paused()
     def render_with_map(self, robot: Robot, rendering: Rendering) -> Mapped:
         """Return the document, the same as without a map, and where each of its lines was written."""
-        from linkforge_compile.formats.marks import recording
-        from linkforge_compile.formats.source_map import unmarked
+        from linkforge_compile.formats.own_templates import render_own
+        from linkforge_compile.formats.source_map import Mapped, SourceMap, recording
+        from linkforge_compile.formats.xml_document import document_of, write_with_map
 
-        with recording() as marks:
-            return unmarked(self.text(robot, rendering), marks)
+        with recording() as origins:
+            body = document_of(render_own(self._template, self._views(robot, rendering)))
+        text, map_ = write_with_map(body, origins)
+        head = _head(rendering)
+        return Mapped(f"{head}{text}\n", SourceMap(((),) * head.count("\n") + map_.lines + ((),)))
 
+    @gc_paused()
     def text(self, robot: Robot, rendering: Rendering = DEFAULT_RENDERING) -> str:
-        """Return the document.
+        """Return the document; its last character is a line end.
 
         Raises:
             RobotGeneratorError: for text that XML cannot hold, and for extras that are not well-formed XML.
             TemplateError: for what is wrong with one of the user's templates.
+            TemplateFaultError: for a packaged template that was changed and cannot be rendered.
 
         """
-        options, pretty, banner, templates, _ = rendering
-        views = {"robot": robot, self.name: self.root_view(robot, options)}
-        return render(f"{self.name}/robot.xml.j2", views, pretty=pretty, banner=banner, templates=templates)
+        views, templates = self._views(robot, rendering), rendering.templates
+        if templates is None:
+            # Jinja2 takes 70 ms to import, and some commands render nothing.
+            from linkforge_compile.formats.own_templates import render_own
+            from linkforge_compile.formats.xml_document import document_of, write
+
+            body = write(document_of(render_own(self._template, views)), pretty=rendering.pretty)
+        else:
+            from linkforge_compile.formats.user_templates import TemplateFolder
+
+            folder = templates if isinstance(templates, TemplateFolder) else TemplateFolder(templates)
+            folder.require_templates()
+            body = folder.xml(self._template, views, pretty=rendering.pretty)
+        return f"{_head(rendering)}{body}\n"
+
+    @property
+    def _template(self) -> str:
+        return f"{self.name}/robot.xml.j2"
+
+    def _views(self, robot: Robot, rendering: Rendering) -> dict[str, object]:
+        return {"robot": robot, self.name: self.root_view(robot, rendering.options)}
 
     @abstractmethod
     def root_view(self, robot: Robot, options: Options) -> object:
@@ -50,47 +75,17 @@ class TemplateFormat(Format):
         return self.root_view(robot, options)
 
 
-def render(
-    template: str,
-    views: Mapping[str, object],
-    *,
-    pretty: bool,
-    banner: str | None,
-    templates: Templates = None,
-) -> str:
-    """Return the XML document that a template makes of views of the robot, by the names that it has for them.
-
-    `banner` becomes a comment above it, None or empty for none. The last character is a line end; without `pretty`
-    it is the only one, but for those in comments and texts of raw XML. `templates` are a user's that go before ours.
-
-    Raises:
-        RobotGeneratorError: for text that XML cannot hold.
-        TemplateError: for what is wrong with a template of the user's.
-        TemplateFaultError: for a template of ours that was changed and cannot be rendered.
-
-    """
-    from linkforge_compile.formats.markup import document_text
-
-    if templates is None:
-        # Jinja2 takes 70 ms to import, and some commands render nothing.
-        from linkforge_compile.formats.own_templates import render_own
-
-        body = document_text(render_own(template, views), pretty=pretty)
-    else:
-        from linkforge_compile.formats.user_templates import TemplateFolder
-
-        folder = templates if isinstance(templates, TemplateFolder) else TemplateFolder(templates)
-        folder.require_templates()
-        body = folder.xml(template, views, pretty=pretty)
-    head = ['<?xml version="1.0"?>', *([_comment(banner, pretty=pretty)] if banner else []), body]
-    return ("\n" if pretty else "").join(head) + "\n"
+def _head(rendering: Rendering) -> str:
+    """Return what stands above the root element: the declaration, and the banner as a comment."""
+    lines = ['<?xml version="1.0"?>', *([_comment(rendering)] if rendering.banner else [])]
+    return "".join(f"{line}\n" if rendering.pretty else line for line in lines)
 
 
-def _comment(text: str, *, pretty: bool) -> str:
-    """Return a comment; what would end it, or what XML cannot hold, is put out of action."""
-    from linkforge_compile.formats.markup import harmless_in_comment
+def _comment(rendering: Rendering) -> str:
+    """Return the banner as a comment; what would end it, or what XML cannot hold, is replaced."""
+    from linkforge_compile.formats.xml_text import harmless_in_comment
 
-    lines = [line.strip() for line in harmless_in_comment(text).splitlines()]
-    if not pretty or len(lines) == 1:
+    lines = [line.strip() for line in harmless_in_comment(rendering.banner or "").splitlines()]
+    if not rendering.pretty or len(lines) == 1:
         return f"<!-- {' '.join(lines)} -->"
     return "\n".join(["<!--", *(f"  {line}".rstrip() for line in lines), "-->"])

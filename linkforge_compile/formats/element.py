@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.fields import written_numbers
 from linkforge_compile.core.part import Element, Inside, attribute_pairs
 from linkforge_compile.core.raw_xml import RawXml
-from linkforge_compile.formats.marks import mark, mark_of_attribute, recorded
-from linkforge_compile.formats.markup import NOTHING, Spellable, Xml, escaped, is_xml_name, spelled
+from linkforge_compile.formats.source_map import active_origins, origin_of
+from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml, escaped, is_xml_name, spelled
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import double_text
 
 if TYPE_CHECKING:
     from linkforge_compile.formats.raw import Path
-
-_MOST_SHOWN = 80
-"""Characters of raw XML that a message quotes."""
 
 
 class Extended(Protocol):
@@ -41,35 +38,6 @@ class RestatedAttributeError(RobotGeneratorError):
         super().__init__(f"the attribute '{name}' is stated twice")
 
 
-class RawXmlError(RobotGeneratorError):
-    """Raw XML that cannot be read: `problem` is what is wrong at the index `at` of `text`.
-
-    `begun` is the index of the element that lacks its end, None where it is not that.
-    """
-
-    def __init__(self, problem: str, text: str, at: int, begun: int | None = None) -> None:
-        self.problem, self.text, self.at, self.begun = problem, text, at, begun
-        super().__init__(f"{problem}, in line {text.count(chr(10), 0, at) + 1} of {shown(text)}")
-
-
-def shown(text: str) -> str:
-    """Return raw XML as a message quotes it."""
-    return repr(text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}…")
-
-
-class InsideError(RobotGeneratorError):
-    """What `extra_inside` says cannot be laid into its element.
-
-    `mark` is the line of `marks_of` that said it, `key` the outermost element inside, `others` are further such faults
-    of the same document.
-    """
-
-    def __init__(self, reason: str) -> None:
-        self.mark = self.key = ""
-        self.others: tuple[InsideError, ...] = ()
-        super().__init__(reason)
-
-
 def attributes(part: Extended | None = None, /, **stated: Spellable | None) -> Xml:
     """Return ` name="value"` for each attribute that is stated, then for those that no field of the part says.
 
@@ -77,12 +45,12 @@ def attributes(part: Extended | None = None, /, **stated: Spellable | None) -> X
         RobotGeneratorError: for an extra attribute that says a stated one again, or that is no XML name.
 
     """
-    if part is None or not (part.extra_attributes or recorded()):
+    if part is None or not (part.extra_attributes or active_origins()):
         return Xml(_stated_alone(stated))
     extra = attribute_pairs(part.extra_attributes)
     _require_attributes(part, stated, extra)
-    if recorded():
-        return _marked_attributes(part, stated, extra)
+    if active_origins():
+        return _attributes_with_origins(part, stated, extra)
     return Xml(_stated_alone(stated) + "".join([f' {name}="{escaped(value)}"' for name, value in extra]))
 
 
@@ -97,17 +65,46 @@ def _stated_alone(stated: Mapping[str, Spellable | None]) -> str:
 
 def attributes_at(source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
     """Return ` name="value"` for what is no part of its own, but written under a path of one."""
-    return Xml(mark(source, *path) + _stated_alone(stated))
+    return Xml(origin_of(source, *path) + _stated_alone(stated))
 
 
-def _marked_attributes(part: Extended, stated: Mapping[str, Spellable | None], extra: Iterable[tuple[str, str]]) -> Xml:
+def _attributes_with_origins(
+    part: Extended, stated: Mapping[str, Spellable | None], extra: Iterable[tuple[str, str]]
+) -> Xml:
     own = (
-        f'{mark_of_attribute(part.source, name)} {name}="{_quotable(value)}"'
+        f'{_origin_of_attribute(part.source, name)} {name}="{_quotable(value)}"'
         for name, value in stated.items()
         if value is not None
     )
-    raw = (f'{mark(*place_of_attribute(name, part.source), name)} {name}="{escaped(value)}"' for name, value in extra)
-    return Xml("".join((mark(part.source), *own, *raw)))
+    raw = (
+        f'{origin_of(*place_of_attribute(name, part.source), name, of=name)} {name}="{escaped(value)}"'
+        for name, value in extra
+    )
+    return Xml("".join((origin_of(part.source), *own, *raw)))
+
+
+def _origin_of_attribute(source: SourceRef | None, name: str) -> str:
+    """Return the origin of an attribute: its key has the same name, except for those in `_KEYS`."""
+    key = name if source is None or source.node.child(name) else _KEYS.get(name, name)
+    return origin_of(source, key, of=name)
+
+
+_KEYS = {"filename": "file"}
+
+
+class PlacedText(str):
+    """Text for a template whose filter `place` writes `place`, an attribute that says where the text was written."""
+
+    place = NOTHING
+
+
+def placed(text: str, source: SourceRef | None, *path: str | int) -> str:
+    """Return text for a template, with where it was written, under a path of an object, while a map is made."""
+    if not text or active_origins() is None:
+        return text
+    result = PlacedText(text)
+    result.place = Xml(origin_of(source, *path, of="value"))
+    return result
 
 
 def place_of_attribute(name: str, where: SourceRef | None) -> tuple[SourceRef | None, *tuple[str, ...]]:
@@ -140,6 +137,8 @@ def require_attribute_name(name: str) -> None:
 def elements(part: Extended) -> Xml:
     """Return the elements that no field of the part says, each well-formed by itself; templates place them last.
 
+    What `extra_inside` says is among them, and moved by the writer.
+
     Raises:
         RobotGeneratorError: for raw XML that is not well-formed.
 
@@ -147,9 +146,18 @@ def elements(part: Extended) -> Xml:
     inside = inside_of(part)
     if not inside:
         return raw(part) if part.extra_elements else NOTHING
-    from linkforge_compile.formats.inside import marks_of
+    from linkforge_compile.formats.xml_document import inside_text
 
-    return Xml("\n".join([*marks_of(inside), raw(part)]))
+    return Xml("".join([*(_inside(one, inside_text) for one in inside), raw(part)]))
+
+
+def _inside(one: Inside, text: Callable[[int, str, str, str], str]) -> str:
+    return text(id(one), inside_key(one), attributes(one), elements(one))
+
+
+def inside_key(one: Inside) -> str:
+    """Return the key by which `extra_inside` says an element: its tag, and its name if any."""
+    return one.tag if one.name is None else f"{one.tag} {one.name}"
 
 
 def inside_of(part: Extended) -> Sequence[Inside]:
@@ -169,7 +177,7 @@ def raw(part: Extended) -> Xml:
         return NOTHING
     from linkforge_compile.formats.raw import raw_elements
 
-    return Xml("\n".join(raw_elements(text, source, *path) for text, source, path in raw_texts(part, part.source)))
+    return Xml("".join(raw_elements(text, source, *path) for text, source, path in raw_texts(part, part.source)))
 
 
 def raw_texts(part: Extended, where: SourceRef | None) -> Iterator[tuple[str, SourceRef | None, Path]]:
@@ -188,7 +196,7 @@ def leaf_at(tag: str, source: SourceRef | None, *path: str, **stated: Spellable 
 
 def leaf(tag: str, part: Element, /, **stated: Spellable | None) -> Xml:
     """Return an element whose fields are all attributes."""
-    if part.extra_attributes or part.extra_elements or part.extra_inside or recorded():
+    if part.extra_attributes or part.extra_elements or part.extra_inside or active_origins():
         return whole(tag, part, NOTHING, **stated)
     return Xml(f"<{tag}{_stated_alone(stated)}/>")  # nine of ten
 
@@ -201,7 +209,4 @@ def numbers_leaf(part: Element, /, **stated: Spellable | None) -> Xml:
 def whole(tag: str, part: Element, text: Xml, /, **stated: Spellable | None) -> Xml:
     """Return an element whose fields are attributes and its text."""
     start, inner = f"<{tag}{attributes(part, **stated)}", elements(part)
-    if not text:
-        return Xml(f"{start}>\n{inner}\n</{tag}>" if inner else f"{start}/>")
-    # Text and elements side by side are one line: whatever stood between them would be text.
-    return Xml(f"{start}>{text}{inner.replace(chr(10), '')}</{tag}>")
+    return Xml(f"{start}>{text}{inner}</{tag}>" if text or inner else f"{start}/>")

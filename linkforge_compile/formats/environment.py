@@ -22,7 +22,7 @@ from jinja2 import (
 from jinja2.nodes import EvalContext
 
 from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.formats.markup import Spellable, Xml, escaped, spelled
+from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml, escaped, spelled
 from linkforge_compile.resources import compiled_templates_folder, templates_folder
 from linkforge_compile.units import number_text
 
@@ -124,11 +124,17 @@ def _plain(value: object) -> object:
     raise TemplateRuntimeError(f"{describe(value)} has no text in YAML; write its fields")
 
 
+def place_of(value: object) -> Xml:
+    """Return the attribute that says where a text was written, while a source map is made."""
+    return getattr(value, "place", NOTHING)
+
+
 FILTERS: dict[str, Callable[..., object]] = {
     "number": number_text,
     "vector": format_vector,
     "degrees": math.degrees,
     "to_yaml": format_yaml,
+    "place": place_of,
 }
 """The filters that templates have beside those of Jinja2."""
 

@@ -10,14 +10,14 @@ from linkforge_compile.core.part import Inside
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.formats import UNWRITABLE
 from linkforge_compile.formats.element import (
-    InsideError,
     RestatedAttributeError,
     inside_of,
     place_of_attribute,
 )
-from linkforge_compile.formats.namespaces import undeclared_prefixes
+from linkforge_compile.formats.extra_limits import undeclared_prefixes
 from linkforge_compile.formats.parts import Doubtful, Held, Part
 from linkforge_compile.formats.unwritable import unwritable_raw, unwritable_texts
+from linkforge_compile.formats.xml_document import InsideError
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
@@ -45,10 +45,8 @@ def check_attributes(parts: Sequence[Held], robot: Robot, render: Callable[[], s
     except RestatedAttributeError as error:
         yield UNWRITABLE.at(*place_of_attribute(error.name, error.source), Key(error.name), reason=error)
     except InsideError as error:
-        from linkforge_compile.formats.inside import marks_of
-
         for fault in (error, *error.others):
-            part = next(part for part in extended if fault.mark in list(marks_of(inside_of(part))))
+            part = next(part for part in extended if fault.id in {str(id(one)) for one in inside_of(part)})
             yield UNWRITABLE.at(part.source, "extra_inside", Key(fault.key), reason=fault)
     except RobotGeneratorError:
         return  # told by what looks at the texts
@@ -62,6 +60,6 @@ def _is_extended(part: Part) -> bool:
 def check_written_twice(parts: Sequence[Held]) -> Iterator[Diagnostic]:
     """An element of which there can be one is written by its field or as raw XML, and not twice."""
     if any(part.extra_elements for part, *_ in parts):
-        from linkforge_compile.formats.written_twice import written_twice
+        from linkforge_compile.formats.extra_limits import written_twice
 
         yield from written_twice(parts)

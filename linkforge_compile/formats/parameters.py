@@ -5,9 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.formats.marks import mark
-from linkforge_compile.formats.markup import Xml, is_of_numpy, is_writable, is_xml_name, spelled
-from linkforge_compile.formats.node import Content, Node, lines_of
+from linkforge_compile.formats.source_map import origin_of
+from linkforge_compile.formats.xml_text import (
+    KEEPS_SPACE,
+    Xml,
+    element_text,
+    is_of_numpy,
+    is_writable,
+    is_xml_name,
+    raw_text,
+    spelled,
+)
 from linkforge_compile.source import SourceRef
 
 
@@ -21,7 +29,7 @@ def parameter_elements(parameters: Mapping[str, object], source: SourceRef | Non
         RobotGeneratorError: for a key that cannot be a tag.
 
     """
-    return Xml("\n".join(lines_of(_nodes(parameters, source, path))))
+    return Xml(_elements(parameters, source, path))
 
 
 def is_surely_writable(part: object) -> bool:
@@ -33,26 +41,26 @@ def is_surely_writable(part: object) -> bool:
     return all(key[:1] != "_" and is_xml_name(key) and is_surely_writable(inner) for key, inner in part.items())
 
 
-def _nodes(parameters: Mapping[str, object], source: SourceRef | None, path: tuple[str | int, ...]) -> list[Content]:
-    nodes: list[Content] = []
+def _elements(parameters: Mapping[str, object], source: SourceRef | None, path: tuple[str | int, ...]) -> str:
+    elements: list[str] = []
     for tag, value in parameters.items():
         if not isinstance(value, str) and isinstance(value, Sequence):
-            nodes += [_node(tag, item, source, (*path, tag, number)) for number, item in enumerate(value)]
+            elements += [_element(tag, item, source, (*path, tag, number)) for number, item in enumerate(value)]
         else:
-            nodes.append(_node(tag, value, source, (*path, tag)))
-    return nodes
+            elements.append(_element(tag, value, source, (*path, tag)))
+    return "".join(elements)
 
 
-def _node(tag: str, value: object, source: SourceRef | None, path: tuple[str | int, ...]) -> Node:
+def _element(tag: str, value: object, source: SourceRef | None, path: tuple[str | int, ...]) -> str:
     _require_name(tag)
     if isinstance(value, str) or not isinstance(value, Mapping):
-        return Node(tag, (), [text] if (text := _text(value)) else [], mark(source, *path))
+        return element_text(tag, (), raw_text(_text(value)), origin_of(source, *path))
     attributes = [(key[1:], _text(item)) for key, item in value.items() if key.startswith("_") and key != "_text"]
     for name, _ in attributes:
         _require_name(name)
-    children = _nodes({key: item for key, item in value.items() if not key.startswith("_")}, source, path)
-    text = _text(value.get("_text", ""))
-    return Node(tag, attributes, [text, *children] if text else children, mark(source, *path))
+    children = _elements({key: item for key, item in value.items() if not key.startswith("_")}, source, path)
+    text, origin = raw_text(_text(value.get("_text", ""))), origin_of(source, *path)
+    return element_text(tag, attributes, text + children, origin + KEEPS_SPACE if text.isspace() else origin)
 
 
 def _text(value: object) -> str:

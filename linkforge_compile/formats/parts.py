@@ -16,7 +16,7 @@ from linkforge_compile.core.models.link import Link, LinkPhysics
 from linkforge_compile.core.part import Element
 from linkforge_compile.core.part import Part as BasePart
 from linkforge_compile.formats.element import inside_of
-from linkforge_compile.formats.markup import is_writable
+from linkforge_compile.formats.xml_text import is_writable
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:

@@ -8,10 +8,8 @@ from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.formats.element import RawXmlError
-from linkforge_compile.formats.marks import marks_of_lines, recorded
-from linkforge_compile.formats.markup import Xml, require_writable, verbatim_comment
-from linkforge_compile.formats.node import Content, Node, is_text, lines_of
+from linkforge_compile.formats.source_map import active_origins, origins_of_lines
+from linkforge_compile.formats.xml_text import KEEPS_SPACE, RawXmlError, Xml, element_text, raw_text, require_writable
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, SourceRef
 from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
@@ -27,14 +25,14 @@ No author writes this name, so that an `</extra>` too many closes nothing that i
 _BLANK = re.compile(r"(?:\s|&#(?:9|10|13|32|x9|x[Aa]|x[Dd]|x20);)*")
 
 _LONGEST_KEPT = 10_000
-"""Characters of raw XML that is remembered laid out."""
+"""Characters of raw XML that is kept normalized."""
 
 Path: TypeAlias = tuple[str | int, ...]
 """Keys and positions that lead from an object to what is written in it."""
 
 
 def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -> Xml:
-    """Return raw XML laid out; names, prefixes, values, texts and comments as written.
+    """Return raw XML without its layout; names, prefixes, values, texts and comments as written.
 
     White space alone between tags is layout, unless the element says `xml:space="preserve"` or CDATA marks it as text.
     CDATA becomes text. The text was written under `path` of what `source` points to.
@@ -46,46 +44,48 @@ def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -
             a processing instruction, which most readers refuse.
 
     """
-    if recorded() or len(text) > _LONGEST_KEPT:
-        return _laid_out(text, source, path)
-    return _kept(str(text))  # one that knows its place would keep its whole file
+    if active_origins() or len(text) > _LONGEST_KEPT:
+        return _normalized(text, source, path)
+    return _normalized_once(str(text))  # a text that knows its place would keep its whole file in memory
 
 
-# A text is asked for by the limits of its format and by the rendering, and by each compile of a watcher.
+# A text is needed by the limits of its format and by the rendering, and by each compile of `watch`.
 @lru_cache(maxsize=256)
-def _kept(text: str) -> Xml:
-    return _laid_out(text, None, ())
+def _normalized_once(text: str) -> Xml:
+    return _normalized(text, None, ())
 
 
-def _laid_out(text: str, source: SourceRef | None, path: Path) -> Xml:
-    return Xml("\n".join(lines_of(_parse(text, source, path))))
+def _normalized(text: str, source: SourceRef | None, path: Path) -> Xml:
+    root, sections = _parse(text)
+    normalizer = _Normalizer(sections, origins_of_lines(text, source, path))
+    return Xml("".join(normalizer.content(root, keeps_space=False)))
 
 
-def nodes_of(text: str) -> list[Node]:
+def elements_of(text: str) -> tuple[XmlElement, ...]:
     """Return the elements of raw XML; raise as `raw_elements` does where it is not well-formed."""
-    return [item for item in _parse(text, None, ()) if isinstance(item, Node)]
+    return _parse(text)[0].children
 
 
-def well_formed_nodes(text: str) -> list[Node]:
-    """Return the elements of raw XML; none where it is not well-formed, which is told by what looks at the texts."""
+def well_formed_elements(text: str) -> tuple[XmlElement, ...]:
+    """Return the elements of raw XML; none where it is not well-formed, which `limits` reports."""
     try:
-        return nodes_of(text)
+        return elements_of(text)
     except RobotGeneratorError:
-        return []
+        return ()
 
 
-def _parse(text: str, source: SourceRef | None, path: Path) -> list[Content]:
+def _parse(text: str) -> tuple[XmlElement, Mapping[int, int]]:
+    """Return the element that stands around raw XML, and the sections of CDATA in it."""
     require_writable(text)
     file = SourceFile("", f"{_BEGIN}{text}{_END}")
     places = Places(file.text)
     try:
         sections = _sections(places)
-        root = document_of(file, places).root
+        return document_of(file, places).root, sections
     except MalformedXmlError as error:
         # As of a text that just ends: a tag that is not closed would be one that holds what stands around the text.
         fault = fault_of(text, _BEGIN) if fault_of(file.text) else None
         raise _malformed(text, fault or MalformedXmlError(error.problem, max(error.at - len(_BEGIN), 0))) from None
-    return _Reading(sections, marks_of_lines(text, source, path)).content(root, keeps_space=False)
 
 
 def _sections(places: Places) -> Mapping[int, int]:
@@ -139,24 +139,38 @@ def _malformed(text: str, fault: MalformedXmlError) -> RawXmlError:
     )
 
 
-class _Reading(NamedTuple):
-    """Makes nodes of elements: `sections` are those with CDATA, `mark` gives that of a line."""
+class _Normalizer(NamedTuple):
+    """Writes elements without layout: `sections` are those with CDATA, `origin` gives the attribute of a line."""
 
     sections: Mapping[int, int]
-    mark: Callable[[int], str]
+    origin: Callable[[int], str]
 
-    def content(self, element: XmlElement, *, keeps_space: bool) -> list[Content]:
+    def content(self, element: XmlElement, *, keeps_space: bool) -> list[str]:
+        """Return the content of an element, without blank texts where these are layout."""
         space = element.get("xml:space")
         keeps_space = keeps_space if space is None else space == "preserve"
         section = self.sections.get(element.begin)
-        content: list[Content] = []
+        texts = (item for item in element.content if isinstance(item, str))
+        keeps_texts = keeps_space or section is not None or any(text.strip() for text in texts)
+        content: list[str] = []
         for item in element.content:
             if isinstance(item, XmlElement):
-                mark = self.mark(item.span.line) if recorded() else ""
-                inside = self.content(item, keeps_space=keeps_space or (section is not None and section < item.begin))
-                content.append(Node(item.tag, tuple(item.values.items()), inside, mark))
-            else:
-                content.append(item if isinstance(item, str) else verbatim_comment(item.text))
-        if keeps_space or section is not None or any(is_text(item) and str(item).strip() for item in content):
-            return content
-        return [item for item in content if not is_text(item)]
+                is_behind_section = section is not None and section < item.begin
+                content.append(self.element(item, keeps_space=keeps_space or is_behind_section))
+            elif not isinstance(item, str):
+                content.append(f"<!--{item.text}-->")
+            elif keeps_texts:
+                content.append(raw_text(item))
+        return content
+
+    def element(self, element: XmlElement, *, keeps_space: bool = False) -> str:
+        origin = self.origin(element.span.line) if active_origins() else ""
+        if element.begin in self.sections:
+            origin += KEEPS_SPACE
+        content = "".join(self.content(element, keeps_space=keeps_space))
+        return element_text(element.tag, element.values.items(), content, origin)
+
+
+def plain_text(element: XmlElement) -> str:
+    """Return an element of raw XML as it is written, without layout."""
+    return _Normalizer({}, lambda _: "").element(element).replace(KEEPS_SPACE, "")

@@ -16,7 +16,6 @@ from jinja2 import (
     pass_context,
     pass_eval_context,
 )
-from jinja2.compiler import CodeGenerator, Frame
 from jinja2.exceptions import SecurityError
 from jinja2.filters import FILTERS as JINJA_FILTERS
 from jinja2.filters import make_attrgetter
@@ -116,14 +115,6 @@ def _filtered(node: nodes.Node, name: str) -> nodes.Filter:
     return nodes.Filter(node, name, [], [], None, None, lineno=node.lineno, environment=node.environment)
 
 
-class _CountingCode(CodeGenerator):
-    """Compiles a template whose work is counted."""
-
-    def visit_Template(self, node: nodes.Template, frame: Frame | None = None) -> None:  # noqa: N802 CodeGenerator's
-        _Counting().visit(node)
-        super().visit_Template(node, frame)
-
-
 class FolderEnvironment(ImmutableSandboxedEnvironment):
     """The environment of a folder of templates, which a budget bounds.
 
@@ -131,7 +122,6 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
     before they are made.
     """
 
-    code_generator_class = _CountingCode
     intercepted_binops = frozenset({"*", "**", "+", "%"})
 
     def __init__(self, loader: BaseLoader, budget: Budget) -> None:
@@ -151,6 +141,12 @@ class FolderEnvironment(ImmutableSandboxedEnvironment):
     def text_of(self, template: str, context: Mapping[str, object]) -> str:
         """Return what a template makes of a context."""
         return self.concat(self.get_template(template).generate(context))
+
+    def _generate(
+        self, source: nodes.Template, name: str | None, filename: str | None, defer_init: bool = False
+    ) -> str:
+        """Compile a template whose work is counted, by the hook that Jinja2 has for this."""
+        return super()._generate(_Counting().visit(source), name, filename, defer_init)
 
     # Any: what templates handle, which the signatures of Jinja2 leave open.
 

@@ -1,13 +1,24 @@
-"""Source maps: which line of a spec wrote a line of a document."""
+"""Source maps: which line of a spec wrote a line of a document.
+
+While one is made, templates render tags with attributes that say by a number where a thing was written, and the writer
+of the document takes them off. Whether one is made is the only state outside of arguments: nearly every function that
+makes a piece of a document would have to hand it on otherwise.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.formats.marks import MARK, Marks
-from linkforge_compile.formats.markup import restored
-from linkforge_compile.source.provenance import Provenance
+from linkforge_compile.formats.xml_text import RESERVED
+from linkforge_compile.source.provenance import Provenance, written_at
+
+if TYPE_CHECKING:
+    from linkforge_compile.source import SourceRef
 
 
 class Segment(NamedTuple):
@@ -19,14 +30,14 @@ class Segment(NamedTuple):
 
 @dataclass(frozen=True)
 class SourceMap:
-    """Where each line of a document was written, and each attribute on it; `lines` has none for what nobody wrote."""
+    """Where each line of a document was written, and each attribute on it; `lines` has () for a line without origin."""
 
     lines: tuple[tuple[Segment, ...], ...]
 
     def at(self, line: int, column: int | None = None) -> Provenance | None:
-        """Return where what stands on a line was written, or more closely what stands at a column of it.
+        """Return where a line was written, or more closely what stands at a column of it.
 
-        Both count from 1. None for what nobody wrote, and beyond the document.
+        Both count from 1. None for a line without origin, and beyond the document.
         """
         segments = self.lines[line - 1] if 0 < line <= len(self.lines) else ()
         places = [place for begin, place in segments if begin <= (column or 1)]
@@ -40,40 +51,57 @@ class Mapped(NamedTuple):
     map: SourceMap
 
 
-def unmarked(text: str, marks: Marks) -> Mapped:
-    """Take the marks out of a document that is laid out, one tag a line.
+class Origins:
+    """Where the pieces of one document were written, by number."""
 
-    A line without a mark is part of the element around it, and a closing tag of its element: both by the indent.
+    def __init__(self) -> None:
+        self._numbers: dict[Provenance, int] = {}
+
+    def attribute(self, place: Provenance, of: str = "") -> str:
+        """Return an attribute for a tag: what follows it was written there. Within a tag, each has another `of`."""
+        return f' {RESERVED}at{of and f".{of}"}="{self._numbers.setdefault(place, len(self._numbers))}"'
+
+    @property
+    def places(self) -> tuple[Provenance, ...]:
+        """The places in the order of their numbers."""
+        return tuple(self._numbers)
+
+
+_ACTIVE: ContextVar[Origins | None] = ContextVar("_ACTIVE", default=None)
+
+
+@contextmanager
+def recording() -> Iterator[Origins]:
+    """Have origins noted in all that is rendered within."""
+    origins = Origins()
+    token = _ACTIVE.set(origins)
+    try:
+        yield origins
+    finally:
+        _ACTIVE.reset(token)
+
+
+active_origins: Callable[[], Origins | None] = _ACTIVE.get
+"""Return the origins of the document that is rendered with a map; None where no map is made."""
+
+
+def origin_of(source: SourceRef | None, *path: str | int, of: str = "") -> str:
+    """Return the attribute for the deepest thing written on a path; "" for none, and where no map is made."""
+    origins = active_origins()
+    if origins is None or source is None:
+        return ""
+    return origins.attribute(written_at(source.at(*path), source), of)
+
+
+def origins_of_lines(text: str, source: SourceRef | None, path: tuple[str | int, ...]) -> Callable[[int], str]:
+    """Return what gives the attribute for one line, counted from 1, of a text of several written under a path.
+
+    It is that of the whole text where the file does not have the line as one.
     """
-    places = marks.places
-    lines: list[str] = []
-    segments: list[tuple[Segment, ...]] = []
-    around: dict[int, tuple[Segment, ...]] = {}
-    for marked in text.split("\n"):
-        line, own = _line(marked, places)
-        content = line.lstrip(" ")
-        indent = len(line) - len(content)
-        if content.startswith("</"):
-            own = around.get(indent, ())
-        elif content:
-            own = own or around.get(indent - 2, ())[:1]
-            around[indent] = own[:1]
-        for part in restored(line).split("\n"):
-            lines.append(part)
-            segments.append(own)
-            own = own[-1:] and (own[-1]._replace(column=1),)
-    return Mapped("\n".join(lines), SourceMap(tuple(segments)))
+    origins = active_origins()
+    if origins is None or source is None:
+        return lambda _: ""
+    from linkforge_compile.source.text_place import TextPlace
 
-
-def _line(marked: str, places: tuple[Provenance, ...]) -> tuple[str, tuple[Segment, ...]]:
-    pieces = MARK.split(marked)
-    if len(pieces) == 1:
-        return marked, ()
-    line = pieces[0]
-    segments: list[Segment] = []
-    for number, piece in zip(pieces[1::2], pieces[2::2], strict=True):
-        place = places[int(number)]
-        if not segments or segments[-1].place != place:
-            segments.append(Segment(len(line) + 1 if segments else 1, place))
-        line += piece
-    return line, tuple(segments)
+    place = TextPlace.of(text, source.at(*path))
+    return cache(lambda number: origins.attribute(written_at(place.line(number) or place.span, source)))

@@ -11,7 +11,7 @@ from jinja2 import Environment, FileSystemLoader
 from jinja2.loaders import split_template_path
 
 from linkforge_compile.formats.environment import is_xml
-from linkforge_compile.formats.markup import is_writable
+from linkforge_compile.formats.xml_text import is_writable
 from linkforge_compile.limits import MAX_FILE_BYTES
 from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import Roots, exists, is_file

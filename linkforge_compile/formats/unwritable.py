@@ -7,19 +7,19 @@ from dataclasses import replace
 from functools import partial
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.models.link import LinkPhysics
 from linkforge_compile.core.part import Element, attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.formats import UNWRITABLE
 from linkforge_compile.formats.element import (
     Extended,
-    RawXmlError,
     place_of_attribute,
     raw_texts,
     require_attribute_name,
 )
-from linkforge_compile.formats.markup import is_writable, require_writable
 from linkforge_compile.formats.parts import RAW_XML, Held, Part
+from linkforge_compile.formats.xml_text import RawXmlError, is_writable, require_writable
 from linkforge_compile.source import Key, SourceRef
 
 
@@ -50,7 +50,7 @@ def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> 
         from linkforge_compile.formats.raw import raw_elements
 
         yield from refused(lambda: raw_elements(value), where, name)
-    elif isinstance(value, Mapping) and isinstance(part, Element) and part.KEYS_ARE_TAGS:
+    elif isinstance(value, Mapping) and isinstance(part, Element) and field_specs(type(part))[name].xml == "*":
         from linkforge_compile.formats.parameters import is_surely_writable, parameter_elements
 
         # A plugin's raw XML stands in place of its parameters.

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.templates import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
-from linkforge_compile.formats.markup import document_text, harmless_in_comment, with_layout_alone, without_marks
+from linkforge_compile.formats.xml_text import harmless_in_comment
 from linkforge_compile.limits import Budget
 from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import ANYWHERE, Roots
@@ -26,10 +26,13 @@ if TYPE_CHECKING:
 SUFFIX = ".j2"
 """How the names of templates end; without it, that of a document's template is the document's."""
 
-_BEYOND_LIMIT = replace(
-    BEYOND_LIMIT, message=BEYOND_LIMIT.message.replace("the robot takes", "rendering takes"), in_xml=""
+_RENDERING_BEYOND_LIMIT = replace(
+    BEYOND_LIMIT,
+    message="rendering takes more than {most} {counted}; {way_out} (LINKFORGE_LIMITS=10 in the environment allows ten "
+    "times as much)",
+    in_xml="",
 )
-"""What exceeds a bound is a user's template, and no robot."""
+"""What exceeds the limit is a user's template, and not the robot."""
 
 _NOT_DOCUMENTS = ("_", ".")
 """How the names of templates begin at the top of a folder that others include."""
@@ -72,7 +75,7 @@ class TemplateFolder:
             OSError: for a folder that cannot be read.
 
         """
-        self.folder, self._budget = Path(folder), Budget(code=_BEYOND_LIMIT)
+        self.folder, self._budget = Path(folder), Budget(code=_RENDERING_BEYOND_LIMIT)
         self._roots = ANYWHERE if allow_outside else Roots.around(self.folder, (self.folder, *packages))
         with os.scandir(self.folder) as entries:
             names = sorted(entry.name for entry in entries if entry.is_symlink() or entry.is_file())
@@ -150,19 +153,17 @@ class TemplateFolder:
 
         """
         from linkforge_compile.formats.template_faults import find_xml_fault
+        from linkforge_compile.formats.xml_document import document_of, write
 
-        rendered = self._text(template, context)
-        place = self._loader.place_of(template)
-        if fault := find_xml_fault(without_marks(rendered).lstrip()):
+        rendered = self._text(template, context).lstrip()
+        if fault := find_xml_fault(rendered):
             line = self._loader.place_of_line(template, fault.line)
             raise TemplateError((NOT_XML_FROM_TEMPLATE.at(line, problem=fault.problem),))
         try:
-            return document_text(with_layout_alone(rendered), pretty=pretty)
-        except RobotGeneratorError as error:
-            raise TemplateError((TEMPLATE_FAILS.at(place, reason=error),)) from None
-        except (LookupError, TypeError, ValueError):
-            reason = "the 'elements' of a view need the other elements of that view before them"
-            raise TemplateError((TEMPLATE_FAILS.at(place, reason=reason),)) from None
+            return write(document_of(rendered), pretty=pretty)
+        except (RobotGeneratorError, RecursionError) as error:
+            reason = "its elements are nested too deeply" if isinstance(error, RecursionError) else error
+            raise TemplateError((TEMPLATE_FAILS.at(self._loader.place_of(template), reason=reason),)) from None
 
     def _text(self, template: str, context: Mapping[str, object]) -> str:
         try:

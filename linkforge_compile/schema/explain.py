@@ -162,7 +162,7 @@ def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:
             field, first = path[length - 1], next(iter(node))
             known = next(one for one in node if one.name in entry.keys)
             name = "NAME" if first is known else first.name
-            actual = f"the keys of one; write '{field}: {{{name}: {{{known.name}: …}}}}'"
+            actual = f"the keys of a single one; write '{field}: {{{name}: {{{known.name}: …}}}}'"
             where = known.key.span
             return Finding(WRONG_KIND.at(where, field=f"'{field}'", expected=shape.title, found=actual), path[:length])
         inner = node.child(key)

@@ -9,24 +9,24 @@ import re
 from collections.abc import Iterable
 
 _POSE = "write 'origin: {xyz: [x, y, z], rpy: [roll, pitch, yaw]}'"
-_JOINT_PLACES_LINK = "its place is the 'origin' of the joint whose 'child' it is"
-_SET_BY_WITH = "parameters are set by 'with'"
+_JOINT_PLACES_LINK = "a link is placed by the 'origin' of the joint whose 'child' it is"
+_SET_BY_WITH = "parameters are set under 'with'"
 
 _KEYS = (
     # objects by title ("" is any), keys, hint
     ("", "geometry", "write the shape itself, such as 'box: [1, 1, 1]'"),
-    ("", "name", "its name is the key that it stands under"),
+    ("", "name", "its name is its key"),
     ("", "if xacro:if", "write 'when', such as 'when: $(simulated)'"),
     ("", "unless xacro:unless", "write 'when', such as 'when: $(not simulated)'"),
-    ("", "args xacro:arg", "what a user may set stands under 'parameters'"),
-    ("", "properties xacro:property", "what is computed stands under 'variables'"),
-    ("", "macros xacro:macro", "what is used several times is a file of its own, used under 'modules'"),
-    ("", "xacro:include", "files that are one robot stand under 'include', those of its parts under 'modules'"),
+    ("", "args xacro:arg", "declare it under 'parameters'"),
+    ("", "properties xacro:property", "declare it under 'variables'"),
+    ("", "macros xacro:macro", "put it in a file of its own and use that under 'modules'"),
+    ("", "xacro:include", "list files of the same robot under 'include', files of its parts under 'modules'"),
     ("a robot", "srdf", "write 'semantic'"),
     ("a parameter", "min", "write 'minimum'"),
     ("a parameter", "max", "write 'maximum'"),
-    ("defaults", "frame", "they do not reach frames"),
-    ("an override", "frames", "a frame is a link and a joint here: write what is to change under 'links' or 'joints'"),
+    ("defaults", "frame", "defaults do not apply to frames"),
+    ("an override", "frames", "a frame is a link and a joint here; override those under 'links' or 'joints'"),
     ("an override, a module", "parameters", _SET_BY_WITH),
     ("a module", "args", _SET_BY_WITH),
     ("a module", "file", "write 'use'"),
@@ -61,9 +61,9 @@ _NUMBERS_OF_LISTS = (
 
 _ANY_OTHER_KEY = (
     # objects by title, where to write a key that is like none of theirs
-    ("a module", "a parameter is set by 'with: {{{0}: …}}'"),
-    ("the long form", "beside 'for' and 'when' stands 'value', and nothing else"),
-    ("a gazebo block, a robot's gazebo block", "a tag that has no key stands under 'properties'"),
+    ("a module", "set a parameter with 'with: {{{0}: …}}'"),
+    ("the long form", "only 'for', 'when' and 'value' are allowed here"),
+    ("a gazebo block, a robot's gazebo block", "write other tags under 'properties'"),
 )
 
 FIELDS_IN_ORDER = {
@@ -101,7 +101,7 @@ _COLORS = {
     "yellow": "[1, 1, 0]",
 }
 
-NO_BALL_JOINT = "; URDF has no such joint: write three revolute ones that share a place"
+NO_BALL_JOINT = "; URDF has no ball joint, so write three revolute joints with the same origin"
 
 
 def _by_key(rows: Iterable[tuple[str, str, str]]) -> dict[tuple[str, str], str]:

@@ -56,7 +56,7 @@ def group_unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
         hint, near = _hint(entries[0], node, schema)
         more = len(entries) - 1
         if more and not number_of_list_hint(str(schema["title"]), entries[0].name):
-            hint = f"{hint}; the same with {more} more beside it"
+            hint = f"{hint} ({more} more like it here)"
         yield UnknownKeys(entries, hint, near)
 
 
@@ -107,7 +107,7 @@ def _hint(entry: YamlEntry, node: YamlMap, schema: Schema) -> tuple[str, Sequenc
     if hint := other_key_hint(owner, name):
         return hint, ()
     if owner == "a parameter" and node.entries.keys().isdisjoint(known):
-        return "a map that is its value stands under 'default'", ()
+        return "write a map that is its value under 'default'", ()
     if owner == "an override" and _is_empty(entry.value):
         return f"write it in its section, such as 'links: {{{name}: …}}'", ()
     own = [key for key in known if key not in COMMON_KEYS]
@@ -137,7 +137,7 @@ def _place_hint(entry: YamlEntry, known: Mapping[str, Json]) -> str:
         return "write " + alternatives([f"'{name}: {{{entry.name}: …}}'" for name in sections])
     inner = entry.value.entries if isinstance(entry.value, YamlMap) else {}
     if inner and all(name in known and name not in COMMON_KEYS for name in inner):
-        return "write what is in it without a map around it"
+        return "write its entries without this map around them"
     entries = [one.value for one in inner.values() if not _is_empty(one.value)]
     sections = [name for name, part in parts.items() if entries and all(_may_be_entry(one, part) for one in entries)]
     # A mount has the keys of a joint, but is never written under another key.

@@ -52,7 +52,7 @@ def number_hint(text: str, unit: str | None) -> str:
     if corrected is None or (unit and quantity and quantity.dimension.si_unit != unit):
         return ""
     if thousands := _THOUSANDS_COMMA.fullmatch(text):
-        return f"'{corrected}', or '{''.join(thousands.groups())}' if the comma parts thousands"
+        return f"'{corrected}', or '{''.join(thousands.groups())}' if the comma separates thousands"
     return f"'{corrected}'"
 
 

@@ -25,7 +25,7 @@ from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNod
 if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError
 
-_LEVEL_HINT = "; so is all beside it: is a line with a name missing above, or the indentation off?"
+_LEVEL_HINT = "; so are all entries here: is a line with a name missing above, or the indentation wrong?"
 
 
 def report_mismatches(tree: YamlMap, sink: Diagnostics, *, is_included: bool) -> YamlMap:

@@ -7,7 +7,7 @@ import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.expand import Instance, Loader, Unset, arguments_from_text, expand
-from linkforge_compile.expand.expansion import MAX_DEPTH
+from linkforge_compile.expand.expand_uses import MAX_DEPTH
 from tests.expand.assembling import metadata_of, plain, write
 
 

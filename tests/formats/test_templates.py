@@ -13,7 +13,8 @@ from linkforge_compile.core import Robot
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.formats import environment, own_templates, render_urdf
 from linkforge_compile.formats.environment import make_environment, own_environment
-from linkforge_compile.formats.markup import Xml, document_text
+from linkforge_compile.formats.xml_document import document_of, write
+from linkforge_compile.formats.xml_text import Xml
 
 ROBOT = SimpleNamespace(
     name="a&b", own=Xml("<own>\n<inner/>\n</own>"), none=Xml(), speed=0.1 + 0.2, axis=Vector3(0, 1, 0), missing=None
@@ -28,7 +29,7 @@ def rendered(text: str, name: str = "robot.xml.j2", **others: str) -> str:
 
 def written(text: str, *, pretty: bool = True, **others: str) -> list[str]:
     """Return the lines of the document that a template makes of it."""
-    return document_text(rendered(text, **others), pretty=pretty).split("\n")
+    return write(document_of(rendered(text, **others)), pretty=pretty).split("\n")
 
 
 def test_lines_stand_as_deep_as_their_elements():
@@ -51,18 +52,20 @@ def test_templates_have_all_of_jinja2():
     text = (
         "{% extends 'base.xml.j2' %}{% from 'tags.xml.j2' import tag %}{% block inside %}\n"
         "{% if robot.missing %}\n<no/>\n{% else %}\n{{ tag('it', size=3) }}\n{% endif %}\n"
-        "{% for n in 'ab' if n != 'a' %}{{ n | upper }} is text\n{% endfor %}"
+        "{% for n in 'ab' if n != 'a' %}<{{ n | upper }}/>\n{% endfor %}"
         "{% endblock %}"
     )
     others = {
         "base": "<a>\n{% block inside %}{% endblock %}\n</a>\n",
         "tags": "{% macro tag(name, size=1) %}\n<{{ name }} size='{{ size }}'/>\n{% endmacro %}",
     }
-    assert written(text, **others) == ["<a>", "  <it size='3'/>", "  B is text", "</a>"]
+    assert written(text, **others) == ["<a>", "  <it size='3'/>", "  <B/>", "</a>"]
 
 
-def test_lines_of_text_stay_apart_on_one_line():
-    assert written("<a>\n  one\n  two\n</a>\n<b/>", pretty=False) == ["<a>one", "two", "</a><b/>"]
+def test_lines_of_text_stay_as_they_are():
+    text = "<a>\n  one\n  two\n</a>\n<b/>"
+    assert written(text, pretty=False) == ["<a>", "  one", "  two", "</a><b/>"]
+    assert written(text) == ["<a>", "  one", "  two", "</a>", "<b/>"]
 
 
 def test_an_end_too_many_is_left_for_who_reads_it():

@@ -70,7 +70,7 @@ def test_a_template_is_given_the_robot_its_views_and_the_banner(tmp_path: Path):
 
 def test_the_banner_ends_no_comment(tmp_path: Path):
     write(tmp_path, a_xml="<!-- {{ banner }} --><a/>")
-    assert render_templates(ARM, tmp_path, banner="from a--b.yaml") == {"a.xml": "<!-- from a- -b.yaml --><a/>\n"}
+    assert render_templates(ARM, tmp_path, banner="from a--b.yaml") == {"a.xml": "<!-- from a- -b.yaml -->\n<a/>\n"}
 
 
 def test_an_index_answers_to_names(tmp_path: Path):
@@ -96,8 +96,10 @@ def test_a_document_of_xml_is_escaped_and_laid_out_as_urdf(tmp_path: Path):
     ("text", "laid_out"),
     [
         ("<a>text\n</a>", "<a>text\n</a>\n"),
-        ("<a><b>\n</b></a>", "<a><b>\n</b></a>\n"),
-        ("<a><!-- c -->\n</a>", "<a><!-- c -->\n</a>\n"),
+        ("<a><b>\n</b><c/></a>", "<a>\n  <b/>\n  <c/>\n</a>\n"),
+        ("<a> </a>", "<a> </a>\n"),
+        ("<a xml:space='preserve'>\n<b/></a>", "<a xml:space='preserve'>\n<b/></a>\n"),
+        ("<a><!-- c -->\n</a>", "<a>\n  <!-- c -->\n</a>\n"),
         ("<a>x ></a>\n", "<a>x ></a>\n"),
         ("<a>\n one\n   two\n</a>", "<a>\n one\n   two\n</a>\n"),
         ("<a>\n<b>\n 1\n<c/>\n  2 </b>\n<d/>\n</a>", "<a>\n  <b>\n 1\n<c/>\n  2 </b>\n  <d/>\n</a>\n"),
@@ -344,8 +346,7 @@ def test_urdf_that_is_no_xml_is_told_at_the_template_that_goes_before_ours(tmp_p
     [
         "<a>\n{{ urdf.joints[0].elements }}\n</a>",
         "<a/>\n{{ urdf.joints[0].elements }}",
-        "<a>\n{{ '\\x00nosuch' | safe }}\n</a>",
-        "<a>\n{{ '\\x00[1]' | safe }}\n</a>",
+        "{{ urdf.joints[0].elements }}",
     ],
 )
 def test_what_a_view_says_of_other_elements_is_told_where_there_are_none(text: str, tmp_path: Path):
@@ -354,7 +355,7 @@ def test_what_a_view_says_of_other_elements_is_told_where_there_are_none(text: s
         "extra_inside: {parent: {extra_attributes: {x: '1'}}}}}\n"
     ).result()
     (tmp_path / "a.xml.j2").write_text(text)
-    with pytest.raises(TemplateError, match="LF7205"):
+    with pytest.raises(TemplateError, match=r"LF720[56]"):
         render_templates(robot, tmp_path)
 
 

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.one_spec import check_settings_of, check_spec
+from linkforge_compile.cli.inputs import check_settings_of, check_spec
 from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments
-from linkforge_compile.cli.telling import add_telling_options, has_errors, selected, to_stderr, written
+from linkforge_compile.cli.reports import add_report_options, format_diagnostics, has_errors, select, write_to_stderr
 
 if TYPE_CHECKING:
     import argparse
@@ -49,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--all-variants", action="store_true", help="check the defaults and every variant of each spec, in one report"
     )
     add_spec_options(parser)
-    add_telling_options(parser, is_product=True)
+    add_report_options(parser, is_product=True)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -69,11 +69,11 @@ def run(arguments: argparse.Namespace) -> int:
     for report in reports.values():
         for diagnostic in report.diagnostics:
             found.setdefault(str(diagnostic), diagnostic)
-    chosen = selected(found.values(), arguments)
+    chosen = select(found.values(), arguments)
     _print(chosen, arguments)
     if not arguments.quiet:
         variants = _variants_summary(reports.values()) if arguments.all_variants else ""
-        to_stderr(f"checked {_count(len(reports), 'spec')}{variants}: {summary(chosen)}\n")
+        write_to_stderr(f"checked {_count(len(reports), 'spec')}{variants}: {summary(chosen)}\n")
     return FAULTY_SPEC if has_errors(chosen) else OK
 
 
@@ -124,9 +124,9 @@ def _check(spec: str, assignments: list[str], arguments: argparse.Namespace) -> 
 
 def _print(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
     """Print text for people on standard error, and forms for programs on standard output."""
-    text = written(diagnostics, arguments)
+    text = format_diagnostics(diagnostics, arguments)
     if arguments.diagnostics == "text":
-        to_stderr(text)
+        write_to_stderr(text)
     else:
         from linkforge_compile.cli.output import write_to_stdout
 

@@ -8,15 +8,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli.exits import OK, UsageError
-from linkforge_compile.cli.one_spec import STDIN, compile_spec, is_xml, once_only, require_file
+from linkforge_compile.cli.inputs import STDIN, compile_spec, is_xml, read_unseekable, require_file
 from linkforge_compile.cli.options import add_spec_options, name_set_by, packages_of, split_assignments
-from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.compare import Difference, Vanished
+    from linkforge_compile.compare import Difference, RemovedName
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
 
@@ -68,7 +68,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(f"--{side}-variant", metavar="NAME", help=f"the variant of the robot {side} alone")
         parser.add_argument(f"--{side}-srdf", metavar="SRDF", help=f"the SRDF of the robot {side}, which is a URDF")
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def _tolerance(text: str) -> float:
@@ -133,7 +133,7 @@ class _Comparison(NamedTuple):
     is_semantic_missed: bool
     not_read_back: str | None
     differences: Sequence[Difference]
-    removed: Sequence[Vanished]
+    removed: Sequence[RemovedName]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -149,7 +149,7 @@ def run(arguments: argparse.Namespace) -> int:
         return NO_ROBOT
     (before, after), not_read_back = _as_urdfs(sides, (before, after), arguments)
     from linkforge_compile.cli.output import write_to_stdout
-    from linkforge_compile.compare import TOLERANCE, compare, vanished
+    from linkforge_compile.compare import TOLERANCE, compare, removed_public_names
 
     tolerance = TOLERANCE if arguments.tolerance is None else arguments.tolerance
     semantic = all(side.has_semantic for side in sides)
@@ -160,7 +160,7 @@ def run(arguments: argparse.Namespace) -> int:
         not semantic and (before.has_semantic or after.has_semantic),
         not_read_back,
         compare(before, after, tolerance=tolerance, semantic=semantic),
-        vanished(before, after, semantic=semantic),
+        removed_public_names(before, after, semantic=semantic),
     )
     write_to_stdout(_json_text(comparison) if arguments.json else "".join(f"{line}\n" for line in _lines(comparison)))
     return DIFFERENT if comparison.differences else OK
@@ -175,7 +175,7 @@ def _parse_side(name: str, word: str, arguments: argparse.Namespace) -> _Side:
     require_file(f"--{name}-srdf", srdf)
     if word.lower().endswith((".srdf", ".srdf.xacro")):
         raise UsageError(f"'{word}' is an SRDF; give it with its robot: --{name}-srdf {word}")
-    text = once_only(word)
+    text = read_unseekable(word)
     side = _Side(word, assignments, variant, srdf, text, is_xml(word, text))
     if side.is_urdf and (variant or (assignments and not side.parameter_files)):
         raise UsageError(f"'{word}' has no {'variants' if variant else 'parameters'}")
@@ -229,12 +229,12 @@ def _load(side: _Side, common: Iterable[str], arguments: argparse.Namespace) -> 
             allow_outside=arguments.allow_outside,
             text=side.text,
         )
-        if tell((*_errors(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
+        if report((*_errors(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
             return None
         compilation = compile_text(imported.text, name=name, folder=Path(side.word).parent)
     else:
         compilation = compile_spec(side.word, [], own, text=side.text)
-    return None if tell(_errors(compilation.diagnostics), arguments) else compilation.robot
+    return None if report(_errors(compilation.diagnostics), arguments) else compilation.robot
 
 
 def _errors(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
@@ -298,7 +298,7 @@ def _count(differences: Sequence[Difference]) -> str:
     return ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds), key=list(_SIGNS).index))
 
 
-def _removed_lines(removed: Sequence[Vanished]) -> Iterator[str]:
+def _removed_lines(removed: Sequence[RemovedName]) -> Iterator[str]:
     """Yield the kind and name of each removed name, and the interfaces of a joint in one line."""
     if not removed:
         return
@@ -312,7 +312,7 @@ def _removed_lines(removed: Sequence[Vanished]) -> Iterator[str]:
         yield f"  {kind:{width}}  {text}"
 
 
-def _owner(name: Vanished) -> tuple[str, str, str | None]:
+def _owner(name: RemovedName) -> tuple[str, str, str | None]:
     if not name.kind.endswith(_INTERFACE):
         return name.kind, name.name, name.now
     return name.kind, name.name.rpartition("/")[0], name.now.rpartition("/")[0] if name.now else None

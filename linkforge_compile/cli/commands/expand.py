@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
-from linkforge_compile.cli.one_spec import compile_spec, one_spec
+from linkforge_compile.cli.inputs import compile_spec, require_one_spec
 from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
+from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.cli.targets import file_to_write
-from linkforge_compile.cli.telling import add_telling_options, tell
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
@@ -32,21 +32,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_spec_and_values(parser)
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     specs, assignments = split_assignments(arguments.words)
-    spec = one_spec(specs)
+    spec = require_one_spec(specs)
     compilation = compile_spec(spec, assignments, arguments)
-    if tell(compilation.diagnostics, arguments) or compilation.robot is None:
+    if report(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
-    from linkforge_compile.cli.output import refuse_to_replace, write_output
+    from linkforge_compile.cli.output import refuse_to_replace, write_document
     from linkforge_compile.export_spec import write_spec
 
     output = file_to_write(arguments.output)
     refuse_to_replace(compilation.files, [output])
     name = on_one_line(Path(spec).name)
     banner = None if spec == "-" else f"Expanded by linkforge from {name}; edit that file, not this one."
-    write_output(write_spec(compilation.robot, banner=banner, origins=True), output, arguments)
+    write_document(write_spec(compilation.robot, banner=banner, origins=True), output, arguments)
     return OK

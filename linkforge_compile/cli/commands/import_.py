@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.one_spec import STDIN, one_spec, require_file, standard_input
+from linkforge_compile.cli.inputs import STDIN, read_stdin, require_file, require_one_spec
 from linkforge_compile.cli.options import (
     add_outside_option,
     add_package_option,
@@ -15,9 +15,8 @@ from linkforge_compile.cli.options import (
     packages_of,
     split_assignments,
 )
+from linkforge_compile.cli.reports import add_report_options, print_failure, progress_after, report
 from linkforge_compile.cli.targets import file_to_write, imported_spec
-from linkforge_compile.cli.telling import add_telling_options, say_failure, tell
-from linkforge_compile.cli.waiting import told_when_long
 from linkforge_compile.diagnostics import Diagnostic, Severity
 
 if TYPE_CHECKING:
@@ -56,13 +55,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_parameter_option(parser, "set an argument of the xacros")
     add_package_option(parser)
     add_outside_option(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     files, assignments = split_assignments(arguments.words)
     _refuse_other_kinds(files)
-    urdf = one_spec(files)
+    urdf = require_one_spec(files)
     from linkforge_compile.cli.output import refuse_to_replace
 
     require_file("--srdf", arguments.srdf)
@@ -71,7 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
     output = imported_spec(urdf, arguments.output)
     from linkforge_compile.importing import import_urdf
 
-    with told_when_long(urdf, arguments):
+    with progress_after(urdf, arguments):
         imported = import_urdf(
             STDIN if urdf == "-" else urdf,
             srdf=arguments.srdf,
@@ -79,14 +78,14 @@ def run(arguments: argparse.Namespace) -> int:
             packages=packages_of(arguments),
             allow_outside=arguments.allow_outside,
             output=output.parent if output else None,
-            text=standard_input() if urdf == "-" else None,
+            text=read_stdin() if urdf == "-" else None,
         )
     diagnostics = _with_losses_as_errors(imported) if arguments.strict else imported.diagnostics
-    is_faulty = tell(diagnostics, arguments) or imported.has_errors
+    is_faulty = report(diagnostics, arguments) or imported.has_errors
     if imported.text is None:
         return FAULTY_SPEC
     if arguments.strict and is_faulty:
-        say_failure(f"nothing written: {_reason(imported.losses)}", arguments)
+        print_failure(f"nothing written: {_reason(imported.losses)}", arguments)
         return FAULTY_SPEC
     _write(imported.text, output, arguments)
     return FAULTY_SPEC if is_faulty else OK
@@ -117,9 +116,9 @@ def _refuse_other_kinds(files: list[str]) -> None:
 
 
 def _write(text: str, output: Path | None, arguments: argparse.Namespace) -> None:
-    from linkforge_compile.cli.output import write_output
+    from linkforge_compile.cli.output import write_document
 
     if output and output.is_file() and not arguments.force and output.read_bytes() != text.encode("utf-8"):
         # Once imported, a spec belongs to the user: do not lose what was changed in it.
         raise UsageError(f"'{output}' is there and says something else; --force replaces it")
-    write_output(text, output, arguments)
+    write_document(text, output, arguments)

@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.telling import line_to_stderr
+    from linkforge_compile.cli.reports import print_line
     from linkforge_compile.editor.robot_folder import NAME, RobotFolder
 
     name = arguments.name
@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
     status = _write_files(place, name)
     if not arguments.quiet:
         for line in (*status, *_next_steps(place, name)):
-            line_to_stderr(line)
+            print_line(line)
     return OK
 
 

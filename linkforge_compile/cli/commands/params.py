@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
 from linkforge_compile.cli.options import add_outside_option, add_package_option, packages_of
-from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.cli.reports import add_report_options, report
 
 if TYPE_CHECKING:
     import argparse
@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="as JSON, for tools")
     add_package_option(parser)
     add_outside_option(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -38,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
     listing, diagnostics = parameters_of(
         arguments.spec, packages=packages_of(arguments), allow_outside=arguments.allow_outside
     )
-    is_faulty = tell(diagnostics, arguments)
+    is_faulty = report(diagnostics, arguments)
     if listing:
         write_to_stdout(_json_text(listing) if arguments.json else "".join(f"{line}\n" for line in _lines(listing)))
     return FAULTY_SPEC if is_faulty else OK

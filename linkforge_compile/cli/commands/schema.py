@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import OK, UsageError
 from linkforge_compile.cli.options import add_package_option, packages_of
-from linkforge_compile.cli.telling import line_to_stderr
+from linkforge_compile.cli.reports import print_line
 
 if TYPE_CHECKING:
     import argparse
@@ -74,12 +74,12 @@ def workspace_schema(root: Path, packages: Mapping[str, Path], *, runs_xacro: bo
 
     specs = _find_specs(root, packages)
     for folder in schemas_below(root, specs):
-        line_to_stderr(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it")
+        print_line(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it")
     vocabularies = without_parts(read_vocabulary(spec, root, packages, runs_xacro=runs_xacro) for spec in specs)
     remedy = "`linkforge check` tells why" if runs_xacro else "`linkforge schema --workspace` may find them"
     for vocabulary in vocabularies:
         if not vocabulary.is_whole:
-            line_to_stderr(f"names of {root / vocabulary.files[0]} may be missing; {remedy}")
+            print_line(f"names of {root / vocabulary.files[0]} may be missing; {remedy}")
     return workspace_text(vocabularies)
 
 
@@ -110,9 +110,9 @@ def _find_specs(root: Path, packages: Mapping[str, Path], *, warns: bool = True)
 
 
 def _warn_unread(error: OSError) -> None:
-    line_to_stderr(f"'{error.filename}' cannot be read: {(error.strerror or '').lower()}; names may be missing")
+    print_line(f"'{error.filename}' cannot be read: {(error.strerror or '').lower()}; names may be missing")
 
 
 def _warn_outside(link: Path) -> None:
     what = f"the link '{link}' leads out of the folders that may be read, and is not opened"
-    line_to_stderr(f"{what}; names may be missing")
+    print_line(f"{what}; names may be missing")

@@ -176,7 +176,7 @@ class LinkBuilder(JointDraft):
         return self
 
     def physics(self, **properties: Any) -> Self:  # Any: each field has a type of its own
-        """Set fields of LinkPhysics (self_collide, gravity, mu, mu2, kp, kd); others go to a GazeboElement."""
+        """Set fields of LinkPhysics (self_collide, gravity, mu, mu2, kp, kd); others are set on a GazeboElement."""
         self._check_not_committed()
         known = {name: properties.pop(name) for name in field_specs(LinkPhysics) if name in properties}
         self._physics = replace(self._physics, **known)
@@ -184,7 +184,7 @@ class LinkBuilder(JointDraft):
         return self
 
     def child(self, name: str, joint_name: str | None = None) -> LinkBuilder:
-        """Commit this link and begin one that hangs on it."""
+        """Commit this link and begin a child of it."""
         self._commit()
         return LinkBuilder(self._builder, name, parent=self._link_name, joint_name=joint_name)
 

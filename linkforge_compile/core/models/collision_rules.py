@@ -1,4 +1,4 @@
-"""Which links a planner need not hold against each other, and the spheres that stand for a link's shape."""
+"""Collisions in motion planning: pairs of links that are not checked, and spheres in place of a link's shape."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from linkforge_compile.units import LENGTH
 class CollisionPair(Element):
     """Two links whose collision is not checked, or is after all: `<disable_collisions>`, `<enable_collisions>`.
 
-    `reason` is for people and tools (`Adjacent`, `Never`), None if nobody says. (a, b) and (b, a) mean the same but
-    are not equal; `key` is.
+    `reason` is for people and tools (`Adjacent`, `Never`), None if not given. (a, b) and (b, a) are
+    the same pair but not equal; `key` is.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank link, INVALID_VALUE for a link with itself.
@@ -89,7 +89,7 @@ class SrdfSphere(Element):
 
 @dataclass(frozen=True, slots=True)
 class LinkSphereApproximation(Element):
-    """Spheres that stand for the shape of a link: `<link_sphere_approximation link>`; none means it has no shape.
+    """Spheres in place of the shape of a link: `<link_sphere_approximation link>`; without spheres it has no shape.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank link.

@@ -1,4 +1,4 @@
-"""Gazebo: what a simulator wants to know about a link, a joint or the robot, and its plugins."""
+"""Gazebo: settings of the simulator for a link, a joint or the robot, and its plugins."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from linkforge_compile.core.fields import (
     Parameters,
     Reference,
     Text,
+    tags_with_text,
 )
 from linkforge_compile.core.frozen_map import FreePart, FrozenMap
 from linkforge_compile.core.part import Element, freeze
@@ -37,7 +38,6 @@ class GazeboPlugin(Element):
     """
 
     TAG = "plugin"
-    KEYS_ARE_TAGS = True
 
     name: Annotated[str, Name(example="controller")]
     filename: Annotated[str, Text(example="libcontroller.so")]
@@ -47,8 +47,7 @@ class GazeboPlugin(Element):
     def with_prefix(self, prefix: str) -> GazeboPlugin:
         """Return the plugin with the prefix before its name, unless that is a class of Gazebo Sim's.
 
-        Gazebo Classic's plugins are named by their user; Gazebo Sim loads the class that the name says, such as
-        `gz::sim::systems::Imu`, and there is none with a prefix.
+        A plugin of Gazebo Classic has any name; Gazebo Sim loads the class of that name, `gz::sim::systems::Imu`.
         """
         return self if "::" in self.name else Element.with_prefix(self, prefix)
 
@@ -64,17 +63,6 @@ class GazeboPlugin(Element):
             )
 
 
-ELEMENT_TAGS = {
-    "material": "material",
-    "static": "static",
-    "stop_cfm": "stopCfm",
-    "stop_erp": "stopErp",
-    "provide_feedback": "provideFeedback",
-    "implicit_spring_damper": "implicitSpringDamper",
-}
-"""The tag that each field of GazeboElement becomes that is one, in the order in which they are written."""
-
-
 @dataclass(frozen=True, slots=True)
 class GazeboElement(Element):
     """Settings of a simulator: `<gazebo reference>`.
@@ -82,7 +70,7 @@ class GazeboElement(Element):
     `reference` names a link or joint, None the robot as a whole. `properties` are child elements by tag: their
     texts, or what is in them. `material` and `static` belong to links, the rest to joints: `stop_cfm` (constraint
     force mixing at the joint's stops, 0 or above) and `stop_erp` (share of the error that a step corrects, 0 to 1).
-    None for what is not said.
+    None for what is not written.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank reference, INVALID_VALUE for stop_cfm or stop_erp out of range.
@@ -91,7 +79,6 @@ class GazeboElement(Element):
     """
 
     TAG = "gazebo"
-    KEYS_ARE_TAGS = True
 
     reference: Annotated[str | None, Reference("part")] = None
     properties: Annotated[Mapping[str, FreePart], Parameters(xml="*")] = FrozenMap()
@@ -125,6 +112,9 @@ class GazeboElement(Element):
             )
         require_finite(self, "stop_cfm")
 
+
+ELEMENT_TAGS = tags_with_text(GazeboElement)
+"""The tags of the fields of GazeboElement that become tags, in the order in which they are written."""
 
 KEEP_FIXED_JOINT = ("preserveFixedJoint", "disableFixedJointLumping")
 """The tags by which a block about a fixed joint keeps Gazebo from merging the links on its two sides into one."""

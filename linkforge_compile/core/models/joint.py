@@ -46,7 +46,7 @@ class JointType(StrEnum):
 
     @property
     def motion(self) -> Motion:
-        """How the joint moves, as far as the units of its numbers go."""
+        """How the joint moves, which its units depend on."""
         return _MOTIONS.get(self, Motion.OTHER)
 
 
@@ -121,7 +121,7 @@ class JointLimits(Element):
 
 @dataclass(frozen=True, slots=True)
 class JointDynamics(Element):
-    """What a joint resists with: `<dynamics>`.
+    """Damping and friction of a joint: `<dynamics>`.
 
     `damping` [N·m·s/rad] and static `friction` [N·m]; [N·s/m] and [N] for prismatic joints.
 
@@ -141,8 +141,8 @@ class JointDynamics(Element):
 class JointMimic(Element):
     """A joint that follows another: `<mimic>`; its position is `multiplier` times that of `joint`, plus `offset`.
 
-    `offset` is [rad], or [m] for a prismatic joint. `stated` names those of both that are written although they
-    have their default; it is no other mimic for that.
+    `offset` is [rad], or [m] for a prismatic joint. `stated` names those of
+    the two that are written although they have their default; it is not compared.
 
     Raises:
         RobotMathError: INVALID_VALUE for NaN or infinity.
@@ -163,7 +163,7 @@ class JointMimic(Element):
 
 @dataclass(frozen=True, slots=True)
 class JointSafetyController(Element):
-    """Where a controller begins to hold a joint back: `<safety_controller>`.
+    """Where a controller begins to limit a joint: `<safety_controller>`.
 
     The soft limits are positions [rad] or [m]; `k_position` bounds the velocity by the distance to them,
     `k_velocity` the effort by the distance to that velocity. None for what is not written.
@@ -183,7 +183,7 @@ class JointSafetyController(Element):
 
 @dataclass(frozen=True, slots=True)
 class JointCalibration(Element):
-    """Positions at which a reference switch goes up or down: `<calibration>`; [rad] or [m], None for no such edge.
+    """Positions at which a reference switch goes up or down: `<calibration>`; [rad] or [m], None for no such position.
 
     Raises:
         RobotMathError: INVALID_VALUE for NaN or infinity.
@@ -268,5 +268,5 @@ class Joint(Element):
 
     @property
     def degrees_of_freedom(self) -> int:
-        """How many numbers say where the child is: 0 fixed, 1 for one axis, 2 planar, 6 floating."""
+        """How many numbers determine the pose of the child: 0 fixed, 1 for one axis, 2 planar, 6 floating."""
         return _DEGREES_OF_FREEDOM[self.type]

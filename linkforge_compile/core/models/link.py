@@ -1,4 +1,4 @@
-"""Links: rigid bodies with their mass, their looks and their shape in contact."""
+"""Links: rigid bodies with their mass, visuals and collisions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from linkforge_compile.core.constants import (
     MIN_REASONABLE_INERTIA,
 )
 from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.fields import Child, Children, Flag, Name, Number, Pose, Text, check_numbers
+from linkforge_compile.core.fields import Child, Children, Flag, Name, Number, Pose, Text, check_numbers, tags_with_text
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.models.shape_order import COLLISION, KINDS, VISUAL
@@ -62,10 +62,10 @@ _STABILITY_FLOOR = InertiaTensor.stability_floor()
 
 @dataclass(frozen=True, slots=True)
 class Inertial(Element):
-    """How a link resists being moved: `<inertial>`.
+    """The mass properties of a link: `<inertial>`.
 
     `mass` [kg], 0 or above. `origin` is the centre of mass with the axes of the tensor, in the link frame.
-    `inertia` is about the centre of mass in those axes; where nobody states it, the stability floor.
+    `inertia` is about the centre of mass in those axes; the stability floor by default.
 
     Raises:
         RobotPhysicsError: OUT_OF_RANGE if the mass is below 0.
@@ -118,27 +118,20 @@ class LinkPhysics(Part):
         check_numbers(self)
 
     def is_written(self, name: str) -> bool:
-        """Whether a field becomes a tag: it differs from its default, or is stated all the same."""
+        """Whether a field becomes a tag: it differs from its default, or is stated."""
         return name in self.stated or getattr(self, name) != getattr(USUAL_PHYSICS, name)
 
 
 USUAL_PHYSICS = LinkPhysics()
-"""What a simulator does with a link that says nothing, which is nearly every link."""
+"""The defaults of simulators."""
 
-PHYSICS_TAGS = {
-    "self_collide": "selfCollide",
-    "gravity": "gravity",
-    "mu": "mu1",
-    "mu2": "mu2",
-    "kp": "kp",
-    "kd": "kd",
-}
+PHYSICS_TAGS = tags_with_text(LinkPhysics)
 """The tag of Gazebo that each field of LinkPhysics becomes, in the order in which they are written."""
 
 
 @dataclass(frozen=True, slots=True)
 class Visual(Element):
-    """A shape to look at: `<visual>`; `origin` is its pose in the link frame, None a material or name it lacks."""
+    """A visible shape: `<visual>`; `origin` is its pose in the link frame, `material` and `name` may be None."""
 
     TAG = "visual"
 
@@ -150,7 +143,7 @@ class Visual(Element):
 
 @dataclass(frozen=True, slots=True)
 class Collision(Element):
-    """A shape to touch: `<collision>`; `origin` is its pose in the link frame, None a name it lacks."""
+    """A shape in contact: `<collision>`; `origin` is its pose in the link frame, `name` may be None."""
 
     TAG = "collision"
 
@@ -163,7 +156,7 @@ class Collision(Element):
 class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
     """A rigid body, or a frame if `inertial` is None and it has no shapes: `<link name>`. It may be changed in place.
 
-    `source` says where it was written, None if nowhere; it is not compared. `extra_attributes` and
+    `source` is where it was written, None if it was not read; it is not compared. `extra_attributes` and
     `extra_elements` are as on `Element`. `shape_order` has a 'visual' or 'collision' for each shape in the order in
     which they are written, empty for visuals before collisions: to MuJoCo a collision has the color of the visual
     before it. It is not compared.
@@ -203,11 +196,11 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
         object.__setattr__(self, field, value)
 
     def add_visual(self, visual: Visual) -> None:
-        """Put a visual behind those that are there."""
+        """Append a visual."""
         self.visuals = (*self.visuals, visual)
 
     def add_collision(self, collision: Collision) -> None:
-        """Put a collision behind those that are there."""
+        """Append a collision."""
         self.collisions = (*self.collisions, collision)
 
     @property
@@ -261,7 +254,7 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
     def __setstate__(self, state: tuple[Mapping[str, object] | None, Mapping[str, object]]) -> None:
         attributes, slots = state
         for name, value in slots.items():
-            object.__setattr__(self, name, value)  # somebody else's class may refuse changes
+            object.__setattr__(self, name, value)  # a derived class may refuse changes
         if attributes:
             vars(self).update(attributes)
 

@@ -1,4 +1,4 @@
-"""Materials: how a visual looks."""
+"""Materials: colors and textures of visuals."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Color(Element):
 
     @classmethod
     def grey(cls) -> Color:
-        """Return the grey of a shape that nobody coloured: 0.7, opaque."""
+        """Return the grey of a shape without a color: 0.7, opaque."""
         return cls(*DEFAULT_MATERIAL_RGBA)
 
     def to_tuple(self) -> tuple[float, float, float, float]:
@@ -66,9 +66,9 @@ class Color(Element):
 class Material(Element):
     """A color, a texture or both, under a name that may be empty: `<material name>`.
 
-    `texture` is the file of the image, as a URI or a path: `<texture filename>`; None for none. `after_links` says that
-    the robot's document has it behind the links: of two colors of one name, MuJoCo takes the first in the document for
-    all who only name it. It is not compared: of equal ones that share a name it holds if all say it.
+    `texture` is the file of the image, as a URI or a path: `<texture filename>`; None for none. With
+    `after_links` it is written after the links: of two colors of one name, MuJoCo uses the first in the document
+    wherever only the name is given. It is not compared; for equal materials of one name it holds if all have it.
 
     Raises:
         RobotValidationError: VALUE_EMPTY if it has neither color nor texture.

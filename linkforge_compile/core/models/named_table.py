@@ -29,7 +29,7 @@ class OnDuplicate(Enum):
 
 
 class KeySpec(NamedTuple):
-    """How items of a kind are told apart; `kind` names one of them in messages ("link")."""
+    """The key of items of a kind; `kind` names one of them in messages ("link")."""
 
     kind: str
     key: Callable[[Any], Any] = NAME  # Any: each kind has items of its own class, and a name or names as keys

@@ -1,4 +1,4 @@
-"""What motion planning knows about a robot: groups of joints, their named poses, end effectors, passive joints."""
+"""Motion planning: groups of joints, their named poses, end effectors, virtual and passive joints."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from linkforge_compile.core.exceptions import RobotValidationError, ValidationEr
 from linkforge_compile.core.fields import Children, Choice, Name, Reference, Text
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.part import Element, freeze, set_field
-from linkforge_compile.core.rules import is_finite, not_finite, require_not_blank
+from linkforge_compile.core.rules import is_finite, not_finite, require_choice, require_not_blank
 
 
 class VirtualJointType(StrEnum):
@@ -26,7 +26,7 @@ class VirtualJointType(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class VirtualJoint(Element):
-    """How the robot stands in the world: `<virtual_joint name type parent_frame child_link>`.
+    """The joint between the world and the robot: `<virtual_joint name type parent_frame child_link>`.
 
     `type` is `fixed`, `planar` or `floating`; `parent_frame` belongs to the world and takes no prefix.
 
@@ -45,14 +45,7 @@ class VirtualJoint(Element):
     def __post_init__(self) -> None:
         freeze(self)
         require_not_blank(self.name, "virtual joint name", "VirtualJointName")
-        if self.type not in tuple(VirtualJointType):
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
-                f"virtual joint type must be one of {', '.join(VirtualJointType)}, found '{self.type}'",
-                target="VirtualJointType",
-                value=self.type,
-                field=("type",),
-            )
+        require_choice(self.type, VirtualJointType, "virtual joint type", "VirtualJointType", "type")
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +70,7 @@ class Chain(Element):
 
 @dataclass(frozen=True, slots=True)
 class PlanningGroup(Element):
-    """Joints that are planned together: `<group name>`; said by links, joints, chains or other groups.
+    """Joints that are planned together: `<group name>`; given by links, joints, chains or other groups.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank name, VALUE_EMPTY for a group of nothing.
@@ -142,7 +135,7 @@ class GroupState(Element):
 
     name: Annotated[str, Name()]
     group: Annotated[str, Reference("group", key="")]
-    # Any: a number may go in, a tuple comes out
+    # Any: numbers are accepted, and made tuples
     joint_values: Annotated[Mapping[str, Any], Reference("joint", key="", xml="joint/@name")] = FrozenMap()
 
     def __post_init__(self) -> None:
@@ -165,9 +158,9 @@ def _position_tuple(given: object) -> tuple[object, ...]:
 
 @dataclass(frozen=True, slots=True)
 class EndEffector(Element):
-    """A group that works as a hand: `<end_effector name group parent_link parent_group>`.
+    """A group that is a tool at the end of an arm: `<end_effector name group parent_link parent_group>`.
 
-    `parent_link` is the link of the arm that carries it, `parent_group` the group of the arm, None if not said.
+    `parent_link` is the link of the arm that carries it, `parent_group` the group of the arm, None if not given.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank name or group.

@@ -38,13 +38,13 @@ if TYPE_CHECKING:
 class Robot(RobotParts):
     """A robot: `<robot name>` of URDF, and `semantic` for that of SRDF.
 
-    It changes, its parts do not (a Link alone may). Every method that adds something either does so as a whole, or
-    leaves the robot as it was and raises RobotValidationError: DUPLICATE_NAME for a name that is taken, NOT_FOUND for
+    It is mutable; of its parts, only links are. Every method that adds something either adds all of it, or leaves
+    the robot as it was and raises RobotValidationError: DUPLICATE_NAME for a name that is taken, NOT_FOUND for
     a link, joint or group that the addition refers to and the robot lacks.
     """
 
     def add_link(self, link: Link, overwrite: bool = False) -> None:
-        """Add a link; with `overwrite` it takes the place of one of the same name."""
+        """Add a link; with `overwrite` it replaces one of the same name."""
         if overwrite and self.has_link(link.name):
             self.links = [link if other.name == link.name else other for other in self.links]
         else:
@@ -80,7 +80,7 @@ class Robot(RobotParts):
         self.add_parts(ros2_controls=[ros2_control])
 
     def update_ros2_control(self, ros2_control: Ros2Control) -> None:
-        """Put a hardware component in the place of the one of its name, without checks; add it if there is none."""
+        """Replace the hardware component of the same name, without checks; add it if there is none."""
         if self.has_ros2_control(ros2_control.name):
             self.ros2_controls = [
                 ros2_control if other.name == ros2_control.name else other for other in self.ros2_controls
@@ -103,7 +103,7 @@ class Robot(RobotParts):
         """Add the entries of a description; the parts that they name need not exist.
 
         A collision pair that exists, whatever the order of its links, and a link without default collisions are not
-        added again. Group states are told apart by group and name, sphere approximations by link, joint properties by
+        added again. Group states are identified by group and name, sphere approximations by link, joint properties by
         joint and property.
         """
         if not description.is_empty:
@@ -165,7 +165,7 @@ class Robot(RobotParts):
         return self._add_entries(disabled_collisions=disabled)
 
     def enable_collisions(self, link1: str, link2: str, reason: str | None = None) -> Self:
-        """Let planning look for collisions between two links in spite of their defaults; a pair counts once."""
+        """Let planning look for collisions between two links although it is disabled by default; a pair counts once."""
         from linkforge_compile.core.models.collision_rules import CollisionPair
 
         pair = CollisionPair(self.link(link1).name, self.link(link2).name, reason)
@@ -182,7 +182,7 @@ class Robot(RobotParts):
         return self._add_entries(joint_properties=[JointProperty(self.joint(joint_name).name, property_name, value)])
 
     def approximate_link_collision(self, link: str, spheres: list[SrdfSphere]) -> Self:
-        """Give the spheres that stand for a link's shape in collisions."""
+        """Approximate a link's shape in collisions by spheres."""
         from linkforge_compile.core.models.collision_rules import LinkSphereApproximation
 
         return self._add_entries(link_sphere_approximations=[LinkSphereApproximation(self.link(link).name, spheres)])
@@ -202,8 +202,8 @@ class Robot(RobotParts):
     ) -> Robot:
         """Add all parts of another robot under a prefix, and the joint from `at_link` to its root link.
 
-        The joint's own name takes no prefix; `origin` is identity where it is None. From `joint` it takes what
-        has no argument here: dynamics, mimic, safety controller, calibration, source, the axis as written, extras.
+        The joint's own name takes no prefix; `origin` is identity where it is None. From `joint` come the fields
+        without an argument here: dynamics, mimic, safety controller, calibration, source, axis as written, extras.
         Without `at_link` nothing connects the two, and the arguments about the joint are not read.
         The component stays as it is. Its name, version, metadata and resolver are not taken over.
 
@@ -227,13 +227,13 @@ class Robot(RobotParts):
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
             parts["joints"].append(complete_joint(connecting, joint) if joint else connecting)
         parts["extra_elements"] = list(component.extra_elements)
-        self._take_in(component, prefix, parts, materials)
+        self._add_component(component, prefix, parts, materials)
         return self
 
-    def _take_in(
+    def _add_component(
         self, component: Robot, prefix: str, parts: dict[str, list[Any]], materials: dict[str, Material]
     ) -> None:
-        """Add the parts and materials of a component, and what it says of itself, all or nothing."""
+        """Add parts, materials, raw XML and semantic entries of a component, all of them or none."""
         new_materials = select_new_materials(materials, self.materials)
         tables = {kind: getattr(self, kind).extended(added) for kind, added in parts.items()}
         own_attributes = dict(self.extra_attributes)
@@ -296,7 +296,7 @@ class Robot(RobotParts):
             RobotGeneratorError: With `validate`, the errors that were found, a line each.
 
         """
-        # The contract makes exporting a method: here alone the core reaches up to the rooms that use it.
+        # LinkForge has exporting as a method, so this one module of core imports packages above it.
         from linkforge_compile.formats import render_urdf
 
         if validate:
@@ -304,7 +304,7 @@ class Robot(RobotParts):
         return render_urdf(self, pretty=pretty_print)
 
     def export_srdf(self, validate: bool = True, pretty_print: bool = True) -> str:
-        """Return what the robot says semantically as SRDF; with `validate`, only if no check finds an error.
+        """Return the semantic description as SRDF; with `validate`, only if no check finds an error.
 
         Raises:
             RobotGeneratorError: With `validate`, the errors that were found, a line each.

@@ -1,4 +1,4 @@
-"""What a robot holds: its parts by kind, look-up by name and neighbourhood, and what its tree is."""
+"""The parts of a robot by kind, and look-up by name and in its tree."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class _Tree:
-    """What is computed from the links and joints of a robot when it is needed."""
+    """The graph of some links and joints, computed when it is needed."""
 
     def __init__(self, links: NamedTable[Link], joints: NamedTable[Joint]) -> None:
         self._links, self._joints, self._renamings = links, joints, Link.renamings
@@ -80,8 +80,12 @@ class SemanticField:
             return None  # the field's default, to dataclasses
         from linkforge_compile.core.models.srdf import SemanticRobotDescription
 
-        description: SemanticRobotDescription = vars(robot)["semantic"] or SemanticRobotDescription(robot.name)
-        return description if description.robot_name == robot.name else replace(description, robot_name=robot.name)
+        description: SemanticRobotDescription | None = vars(robot)["semantic"]
+        if description is None:
+            return SemanticRobotDescription(robot.name)
+        if description.robot_name != robot.name:
+            description = vars(robot)["semantic"] = replace(description, robot_name=robot.name)
+        return description
 
     def __set__(self, robot: RobotParts, description: SemanticRobotDescription | None) -> None:
         vars(robot)["semantic"] = description
@@ -315,7 +319,7 @@ class RobotParts:
         )
 
     def summary(self) -> str:
-        """Return a few lines about the robot: valid means one root and no cycle."""
+        """Return a few lines about the robot; it is valid with one root and no cycle."""
         valid = False
         try:
             roots = self.graph.get_root_links()

@@ -1,4 +1,4 @@
-"""ros2_control: which hardware moves the joints, reads the sensors and switches the pins, and by which interfaces."""
+"""ros2_control: hardware with its joints, sensors, gpios and their interfaces."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from linkforge_compile.core.fields import Children, Choice, Name, Parameters, Re
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_name, require_unique_names
+from linkforge_compile.core.rules import require_choice, require_name, require_unique_names
 
 __all__ = ["Interface", "Ros2Control", "Ros2ControlGpio", "Ros2ControlJoint", "Ros2ControlSensor"]
 
@@ -125,7 +125,7 @@ class Ros2Control(Element):
     """One piece of hardware: `<ros2_control name type>`.
 
     `type` is `system`, `actuator` or `sensor`; `hardware_plugin` the class that talks to it, `<plugin>` in
-    `<hardware>`, where `parameters` go as well. `extra_elements` stand in `<ros2_control>` itself.
+    `<hardware>`, with the `parameters`. `extra_elements` are children of `<ros2_control>` itself.
 
     Raises:
         RobotValidationError: NAME_EMPTY for an empty name; INVALID_VALUE for another type, a command interface in a
@@ -147,13 +147,7 @@ class Ros2Control(Element):
     def __post_init__(self) -> None:
         freeze(self, "joints", "sensors", "gpios", mappings=("parameters",))
         require_name(self.name, "ros2_control name", "Ros2ControlName")
-        if self.type not in tuple(Ros2ControlType):
-            raise _invalid(
-                f"ros2_control type must be one of {', '.join(Ros2ControlType)}, found '{self.type}'",
-                "Ros2ControlType",
-                self.type,
-                "type",
-            )
+        require_choice(self.type, Ros2ControlType, "ros2_control type", "Ros2ControlType", "type")
         if not self.hardware_plugin:
             raise RobotValidationError(
                 ValidationErrorCode.VALUE_EMPTY,

@@ -1,4 +1,4 @@
-"""Sensors: what measures on a link, how well, and under which topic."""
+"""Sensors on links: what they measure, how well, and under which topic."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from linkforge_compile.core.fields import (
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_name
+from linkforge_compile.core.rules import require_choice, require_name
 from linkforge_compile.units import ANGLE, FREQUENCY, LENGTH, LOAD, PIXELS, TURN_RATE, VELOCITY
 
 
@@ -67,7 +67,7 @@ class ForceTorqueFrame(StrEnum):
 
 
 class ForceTorqueDirection(StrEnum):
-    """Who acts on whom."""
+    """Whether forces are those of the child on the parent, or of the parent on the child."""
 
     CHILD_TO_PARENT = default.FT_DIR_CHILD_TO_PARENT
     PARENT_TO_CHILD = default.FT_DIR_PARENT_TO_CHILD
@@ -78,8 +78,8 @@ class SensorNoise(Element):
     """Noise on a measured value, in that value's unit: `<noise>`.
 
     `type` is `gaussian`, `gaussian_quantized` or what else the simulator knows. A bias is drawn once from
-    `bias_mean` and `bias_stddev`, the rest for every reading. `stated` names those two where they are 0 and written
-    all the same.
+    `bias_mean` and `bias_stddev`, the rest for every reading. `stated` names those two where they are 0 and
+    written nevertheless.
 
     Raises:
         RobotMathError: INVALID_VALUE for NaN or infinity.
@@ -100,7 +100,7 @@ class SensorNoise(Element):
         check_numbers(self)
 
     def is_written(self, name: str) -> bool:
-        """Whether a bias becomes a tag: it is not 0, or is stated all the same."""
+        """Whether a bias becomes a tag: it is not 0, or is stated."""
         return name in self.stated or getattr(self, name) != 0
 
 
@@ -266,7 +266,7 @@ class ContactInfo(Element):
 class ForceTorqueInfo(Element):
     """A force and torque sensor in a joint: `<force_torque>`.
 
-    `frame` says in whose axes it measures (`child`, `parent`, `sensor`), `measure_direction` who acts on whom
+    `frame` is the frame of its axes (`child`, `parent`, `sensor`), `measure_direction` the direction of the forces
     (`child_to_parent`, `parent_to_child`); `noise` on [N] and [N·m], None for none.
 
     Raises:
@@ -284,19 +284,11 @@ class ForceTorqueInfo(Element):
 
     def __post_init__(self) -> None:
         freeze(self)
-        self._check_word("frame", tuple(ForceTorqueFrame), "ForceTorqueFrame")
-        self._check_word("measure_direction", tuple(ForceTorqueDirection), "ForceTorqueDirection")
-
-    def _check_word(self, name: str, words: tuple[str, ...], target: str) -> None:
-        found: str = getattr(self, name)
-        if found not in words:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
-                f"{name} must be one of {', '.join(words)}, found '{found}'",
-                target=target,
-                value=found,
-                field=(name,),
-            )
+        require_choice(self.frame, ForceTorqueFrame, "frame", "ForceTorqueFrame", "frame")
+        direction = self.measure_direction
+        require_choice(
+            direction, ForceTorqueDirection, "measure_direction", "ForceTorqueDirection", "measure_direction"
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -305,7 +297,7 @@ class Sensor(Element):
 
     `update_rate` [Hz]. `origin` is its pose in the frame of the link `link_name`. Of the infos, the one that
     belongs to the type is set (a ray or gpu_lidar may do without); the others are None. `topic` is where it
-    publishes, `frame` the frame in its messages (an optical frame, say); None for what the simulator chooses.
+    publishes, `frame` the frame in its messages (such as an optical frame); None to let the simulator choose.
     `plugin` is None for none.
 
     Raises:

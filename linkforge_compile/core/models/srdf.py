@@ -1,4 +1,4 @@
-"""The semantic description of a robot, SRDF: what planning needs to know beside links and joints."""
+"""The semantic description of a robot for motion planning: SRDF."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ _MEMBERS: Mapping[str, KeySpec] = {
 
 @dataclass(frozen=True, slots=True)
 class SemanticRobotDescription(Element):
-    """All that SRDF says about a robot: `<robot name>`, empty where it is not known yet.
+    """The SRDF of a robot: `<robot name>`, with an empty name until the robot is known.
 
     Collections keep the order in which they were given, and find their members by name, as those of a robot do.
     `no_default_collision_links` are names of links.
@@ -81,13 +81,13 @@ class SemanticRobotDescription(Element):
 
     @property
     def is_empty(self) -> bool:
-        """True for a description of nothing, whatever robot it names."""
+        """True for a description without members and raw XML."""
         return self == SemanticRobotDescription(self.robot_name)
 
     def merge_with(self, other: SemanticRobotDescription) -> SemanticRobotDescription:
         """Return this description followed by the members of the other, under the name of this one.
 
-        A collision pair or link without default collisions that both have is there once, as this one says it.
+        A collision pair or link without default collisions that both have is kept once, with the reason given here.
 
         Raises:
             RobotValidationError: DUPLICATE_NAME for anything else that both have, or the other twice.

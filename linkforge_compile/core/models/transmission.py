@@ -47,7 +47,7 @@ class _TransmissionEnd(Element):
     mechanical_reduction: Annotated[float | None, Number(bound=BEYOND_EPSILON, xml="mechanicalReduction/text()")] = 1.0
     offset: Annotated[float, Number(POSITION, xml="offset/text()")] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
-    """The field `offset` where it is 0 and written all the same."""
+    """The field `offset` where it is 0 and written nevertheless."""
     interfaces_stated: bool = field(default=True, kw_only=True, repr=False)
     """Whether the interfaces become tags: many files state none, and ros2_control asks for none."""
 
@@ -75,7 +75,7 @@ class _TransmissionEnd(Element):
         require_finite(self, "mechanical_reduction", "offset")
 
     def is_written(self, name: str) -> bool:
-        """Whether `offset` becomes a tag: it is not 0, or is stated all the same."""
+        """Whether `offset` becomes a tag: it is not 0, or is stated."""
         return name in self.stated or getattr(self, name) != 0
 
     def normalized(self) -> Self:
@@ -127,7 +127,6 @@ class Transmission(Element):
     """
 
     TAG = "transmission"
-    KEYS_ARE_TAGS = True
 
     name: Annotated[str, Name()]
     type: Annotated[str, Text(xml="type/text()", example="transmission_interface/SimpleTransmission")]

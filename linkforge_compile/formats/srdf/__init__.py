@@ -36,8 +36,8 @@ class Srdf(TemplateFormat):
         """Yield what rendering refuses."""
         if not robot.has_semantic:
             return  # `robot.semantic` would make an empty part
+        from linkforge_compile.formats.extra_limits import undeclared_prefixes
         from linkforge_compile.formats.limits import check_attributes
-        from linkforge_compile.formats.namespaces import undeclared_prefixes
         from linkforge_compile.formats.parts import doubtful_parts_in
         from linkforge_compile.formats.unwritable import unwritable_texts
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.formats.element import attributes, elements, leaf
-from linkforge_compile.formats.marks import mark
-from linkforge_compile.formats.markup import Xml, placed, spelled
+from linkforge_compile.formats.element import attributes, elements, leaf, placed
+from linkforge_compile.formats.source_map import origin_of
+from linkforge_compile.formats.xml_text import Xml, spelled
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -65,7 +65,7 @@ def semantic_view(robot: Robot) -> SemanticView:
     """Return what a robot says semantically, every string ready for its place."""
     semantic = robot.semantic
     return SemanticView(
-        Xml(mark(robot.source, "name") + attributes(semantic, name=semantic.robot_name or robot.name)),
+        Xml(origin_of(robot.source, "name", of="robot") + attributes(semantic, name=semantic.robot_name or robot.name)),
         tuple(map(_group, semantic.groups)),
         tuple(map(_group_state, semantic.group_states)),
         _leaves("end_effector", semantic.end_effectors, "name", "parent_link", "group", "parent_group"),

@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.link import PHYSICS_TAGS, Link, LinkPhysics
-from linkforge_compile.formats.element import attributes, attributes_at, elements
-from linkforge_compile.formats.marks import recorded
-from linkforge_compile.formats.markup import Xml, placed, spelled
+from linkforge_compile.formats.element import attributes, attributes_at, elements, placed
 from linkforge_compile.formats.parameters import parameter_elements
+from linkforge_compile.formats.source_map import active_origins
 from linkforge_compile.formats.urdf.link import says_physics
+from linkforge_compile.formats.xml_text import Xml, spelled
 
 
 class PluginView(NamedTuple):
@@ -75,7 +75,7 @@ def _parameters(plugin: GazeboPlugin) -> Xml:
 
 
 def _properties(block: GazeboElement) -> Xml:
-    if not recorded():
+    if not active_origins():
         return parameter_elements(block.properties)
     # Tags of Gazebo that are keys of the language stand in the block itself, others in its `properties`.
     own = block.source.node if block.source else None

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.joint import Joint, JointMimic
 from linkforge_compile.core.part import Element
-from linkforge_compile.formats.element import attributes, elements, leaf_at, numbers_leaf
-from linkforge_compile.formats.markup import NOTHING, Xml, placed
+from linkforge_compile.formats.element import attributes, elements, leaf_at, numbers_leaf, placed
 from linkforge_compile.formats.urdf.link import origin
+from linkforge_compile.formats.xml_text import NOTHING, Xml
 
 
 class JointView(NamedTuple):

@@ -23,9 +23,9 @@ from linkforge_compile.diagnostics.codes.formats import (
     UNKNOWN_VERSION,
 )
 from linkforge_compile.formats.limits import check_attributes, check_texts, check_written_twice
-from linkforge_compile.formats.markup import spelled
 from linkforge_compile.formats.parts import Held, doubtful_parts_of_urdf
 from linkforge_compile.formats.urdf.view import capsules, stated_version
+from linkforge_compile.formats.xml_text import spelled
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:

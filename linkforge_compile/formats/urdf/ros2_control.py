@@ -12,8 +12,8 @@ from linkforge_compile.core.models.ros2_control import (
     Ros2ControlJoint,
     Ros2ControlSensor,
 )
-from linkforge_compile.formats.element import attributes, elements
-from linkforge_compile.formats.markup import Xml, placed, spelled
+from linkforge_compile.formats.element import attributes, elements, placed
+from linkforge_compile.formats.xml_text import Xml, spelled
 
 if TYPE_CHECKING:
     from linkforge_compile.source import SourceRef

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.sensor import Sensor, SensorNoise, SensorType
 from linkforge_compile.core.part import Element
-from linkforge_compile.formats.element import attributes, elements, whole
-from linkforge_compile.formats.markup import NOTHING, Xml, placed, spelled
+from linkforge_compile.formats.element import attributes, elements, placed, whole
 from linkforge_compile.formats.urdf.gazebo import PluginView, plugin_view
+from linkforge_compile.formats.xml_text import NOTHING, Xml, spelled
 from linkforge_compile.units import number_text
 
 if TYPE_CHECKING:

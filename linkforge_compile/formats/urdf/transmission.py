@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
-from linkforge_compile.formats.element import attributes, elements
-from linkforge_compile.formats.markup import Xml, placed
+from linkforge_compile.formats.element import attributes, elements, placed
 from linkforge_compile.formats.parameters import parameter_elements
+from linkforge_compile.formats.xml_text import Xml
 from linkforge_compile.units import number_text
 
 

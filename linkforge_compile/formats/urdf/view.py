@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.geometry import Capsule
 from linkforge_compile.formats.element import attributes, elements
-from linkforge_compile.formats.markup import Xml
 from linkforge_compile.formats.urdf.joint import JointView, joint_views
 from linkforge_compile.formats.urdf.link import LinkView, MaterialView, link_views, material_view, says_physics
+from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

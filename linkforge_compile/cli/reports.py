@@ -1,14 +1,14 @@
-"""Prints diagnostics and status lines on standard error, as the options of the command say."""
+"""Prints diagnostics and status lines as the options of a command choose, by default on standard error."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TextIO
 
-from linkforge_compile.cli.colour import WHEN, is_coloured
 from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.diagnostics.render import FORMS
 from linkforge_compile.source.characters import on_one_line
@@ -17,9 +17,13 @@ if TYPE_CHECKING:
     import argparse
 
     from linkforge_compile.diagnostics import Code
+    from linkforge_compile.source import Span
+
+PATIENCE = 3.0
+"""Time until `progress_after` prints its message [s]."""
 
 
-def add_telling_options(parser: argparse.ArgumentParser, *, is_product: bool = False) -> None:
+def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = False) -> None:
     """Add the options about diagnostics, with `--format` as another name if they are all that the command prints."""
     group = parser.add_argument_group("diagnostics")
     group.add_argument(
@@ -32,7 +36,7 @@ def add_telling_options(parser: argparse.ArgumentParser, *, is_product: bool = F
     group.add_argument(
         "--select",
         metavar="CODES",
-        type=_codes,
+        type=_parse_codes,
         action="extend",
         default=[],
         help="only these warnings and notes",
@@ -40,17 +44,22 @@ def add_telling_options(parser: argparse.ArgumentParser, *, is_product: bool = F
     group.add_argument(
         "--ignore",
         metavar="CODES",
-        type=_ignorable_codes,
+        type=_parse_ignorable_codes,
         action="extend",
         default=[],
         help="do not report these warnings and notes; codes or their beginnings, such as LF5,LF6003",
     )
     group.add_argument("--werror", action="store_true", help="report warnings as errors")
     group.add_argument("-q", "--quiet", action="store_true", help="print errors only")
-    group.add_argument("--color", choices=WHEN, default="auto", help="whether to color text (default: on a terminal)")
+    group.add_argument(
+        "--color",
+        choices=("auto", "always", "never"),
+        default="auto",
+        help="whether to color text (default: on a terminal)",
+    )
 
 
-def selected(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> tuple[Diagnostic, ...]:
+def select(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> tuple[Diagnostic, ...]:
     """Return the diagnostics that the options select, with the severities that the options set."""
     diagnostics = tuple(diagnostics)
     if not diagnostics:
@@ -61,10 +70,10 @@ def selected(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -
     return selection.of(diagnostics)
 
 
-def tell(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> bool:
+def report(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> bool:
     """Print the diagnostics that the options select, and return whether there is an error among them."""
-    chosen = selected(diagnostics, arguments)
-    to_stderr(written(chosen, arguments))
+    chosen = select(diagnostics, arguments)
+    write_to_stderr(format_diagnostics(chosen, arguments))
     return has_errors(chosen)
 
 
@@ -72,30 +81,30 @@ def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
     return any(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)
 
 
-def say(line: str, arguments: argparse.Namespace) -> None:
+def print_status(line: str, arguments: argparse.Namespace) -> None:
     """Print a line of status, unless with `--quiet` or if standard error is one document for a program."""
     if not arguments.quiet:
-        say_failure(line, arguments)
+        print_failure(line, arguments)
 
 
-def say_failure(line: str, arguments: argparse.Namespace) -> None:
+def print_failure(line: str, arguments: argparse.Namespace) -> None:
     """Print a line about a failure, unless standard error is one document for a program."""
     if getattr(arguments, "diagnostics", "text") in {"text", "github"}:
-        line_to_stderr(line)
+        print_line(line)
 
 
-def line_to_stderr(line: str) -> None:
+def print_line(line: str) -> None:
     """Print one line on standard error, with control characters in names of files escaped."""
-    to_stderr(f"{on_one_line(line)}\n")
+    write_to_stderr(f"{on_one_line(line)}\n")
 
 
-def to_stderr(text: str) -> None:
+def write_to_stderr(text: str) -> None:
     """Write to standard error, unless it is closed."""
     if sys.stderr is not None:
         sys.stderr.write(text)
 
 
-def written(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> str:
+def format_diagnostics(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> str:
     """Return the diagnostics as text, in the form that the options choose."""
     # GitHub resolves paths in annotations from the top of the checkout, wherever the build runs.
     root = Path(os.environ.get("GITHUB_WORKSPACE") or Path.cwd()).absolute()
@@ -113,19 +122,60 @@ def written(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) 
             from linkforge_compile.diagnostics.render.sarif import render_sarif
 
             return render_sarif(diagnostics, root=root, version=__version__, manual=_page)
-    return _text(diagnostics, arguments.color)
+    return _format_text(diagnostics, arguments.color)
 
 
-def _text(diagnostics: tuple[Diagnostic, ...], color: str) -> str:
+def _format_text(diagnostics: tuple[Diagnostic, ...], color: str) -> str:
     if not diagnostics:
         return ""
     from linkforge_compile.diagnostics.render.text import render_first
 
-    text = render_first(diagnostics, colour=is_coloured(sys.stderr, color))
+    text = render_first(diagnostics, colour=is_colored(sys.stderr, color))
     if sys.stderr is None or not sys.stderr.isatty():
         return text
     worst = next((one for one in diagnostics if one.severity is Severity.ERROR), diagnostics[0])
     return f"{text}{worst.code.help} for more\n"
+
+
+def is_colored(stream: TextIO | None, when: str = "auto") -> bool:
+    """Whether to color output to a stream, None if it is closed.
+
+    In order of precedence: `--color` (`when`), NO_COLOR (no-color.org), FORCE_COLOR and CLICOLOR_FORCE, which builds
+    set if their log shows colors, and whether the stream is a terminal. An empty variable, or a forcing one that is
+    `0`, counts as unset.
+    """
+    if when != "auto":
+        return when == "always"
+    if os.environ.get("NO_COLOR"):
+        return False
+    if any(os.environ.get(name, "0") not in {"", "0"} for name in ("FORCE_COLOR", "CLICOLOR_FORCE")):
+        return True
+    return stream is not None and stream.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def place_lines(what: str, place: Span) -> Iterator[str]:
+    """Yield `WHAT at FILE:LINE:COLUMN`, the source line and a caret under the place."""
+    from linkforge_compile.diagnostics.render.text import snippet
+
+    yield on_one_line(f"{what} at {place}")
+    yield from snippet(place)
+
+
+@contextmanager
+def progress_after(file: str, arguments: argparse.Namespace) -> Iterator[None]:
+    """On a terminal, print which file is being read if the body takes longer than PATIENCE."""
+    if sys.stderr is None or not sys.stderr.isatty():
+        yield
+        return
+    from threading import Timer
+
+    timer = Timer(PATIENCE, print_status, (f"still reading {file}; Ctrl-C ends it", arguments))
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 def _page(code: Code) -> str:
@@ -134,7 +184,7 @@ def _page(code: Code) -> str:
     return page(code.id, styled=False)
 
 
-def _codes(text: str) -> list[str]:
+def _parse_codes(text: str) -> list[str]:
     """Parse codes or beginnings of codes, separated by commas or spaces."""
     import argparse
 
@@ -148,12 +198,12 @@ def _codes(text: str) -> list[str]:
     return codes
 
 
-def _ignorable_codes(text: str) -> list[str]:
+def _parse_ignorable_codes(text: str) -> list[str]:
     import argparse
 
     from linkforge_compile.diagnostics.codes import REGISTER
 
-    codes = _codes(text)
+    codes = _parse_codes(text)
     for code in codes:
         severities = {one.severity for one in REGISTER.values() if one.id.startswith(code)}
         if severities == {Severity.ERROR}:

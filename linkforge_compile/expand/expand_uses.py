@@ -11,13 +11,13 @@ from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CI
 from linkforge_compile.expand.annotating_sink import with_use_trace
 from linkforge_compile.expand.arguments import Arguments, Unset
 from linkforge_compile.expand.assembly import Instance, charge_entries, own_name, robot_part
-from linkforge_compile.expand.bound_arguments import BoundArguments
-from linkforge_compile.expand.evaluate import Expressions
+from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
-from linkforge_compile.expand.file_functions import references_left
-from linkforge_compile.expand.file_scope import CompileState, FileScope, FileUse
+from linkforge_compile.expand.file_builtins import references_left
+from linkforge_compile.expand.file_scope import CompileState, FileScope
 from linkforge_compile.expand.loader import Loader, SpecFile
 from linkforge_compile.expand.modules import ModuleEntry, read_modules
+from linkforge_compile.expand.parameter_values import BoundArguments
 from linkforge_compile.expand.uses import (
     SPEC_ENDINGS,
     XACRO,
@@ -99,18 +99,11 @@ class _Expansion:
         if use.spec.file in self._used:
             self._state.expressions.charge_copy(use.spec.tree, use.bound.use or use.spec.file.whole)
         self._used.add(use.spec.file)
-        sink = with_use_trace(self._sink, use.include_stack)
-        scope = FileScope(FileUse(use.spec, use.bound, use.prefix, use.include_stack), self._state, sink)
+        sink, stack = with_use_trace(self._sink, use.include_stack), use.include_stack
+        scope = FileScope(use.spec, use.bound, self._state, sink, prefix=use.prefix, include_stack=stack)
         scope.check_parameters()
-        tree = expand_node(robot_part(use.spec.tree), scope.evaluator, shapes())
-        assert isinstance(tree, YamlMap), "a map that is computed is a map"
-        defaults = None
-        if use.spec.tree.get("defaults") is not None:
-            from linkforge_compile.expand.defaults import compute_defaults, with_defaults
-
-            defaults = compute_defaults(use.spec.tree, scope.evaluator)
-            tree = with_defaults(tree, defaults) if defaults else tree
-        entries = tuple(read_modules(use.spec, scope.evaluator, use.include_stack))
+        tree, defaults = _robot_tree(use.spec, scope.evaluator)
+        entries = tuple(read_modules(use.spec, scope.evaluator, stack))
         removed, references = scope.evaluator.disabled.deleted, scope.builtins.references
         if use.entry and use.entry.overrides:
             from linkforge_compile.expand.module_override import ModuleBody
@@ -127,7 +120,7 @@ class _Expansion:
             entry=use.entry.ref if use.entry else None,
             prefix=use.entry.prefix if use.entry else "",
             mesh_bases=self._mesh_bases(use),
-            include_stack=use.include_stack,
+            include_stack=stack,
             modules=modules,
             references=references,
             find_mesh=mesh_finder(use.sites(scope), self._state.loader),
@@ -161,7 +154,7 @@ class _Expansion:
         if site.text.lower().endswith(SPEC_ENDINGS):
             sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
             return None, entry.arguments
-        from linkforge_compile.expand.semantic import open_semantic, with_semantic
+        from linkforge_compile.expand.merge_srdf import open_semantic, with_semantic
 
         srdf_use = self._xacro_use(scope.builtins.site(srdf.text, srdf.span), entry, sink)
         semantic = open_semantic(srdf_use, loader, sink) if srdf_use else None
@@ -202,6 +195,18 @@ class _Expansion:
         else:
             return True
         return False
+
+
+def _robot_tree(spec: SpecFile, evaluator: Evaluator) -> tuple[YamlMap, YamlMap | None]:
+    """Return the computed tree of a file with its defaults merged, and the defaults, None for none."""
+    tree = expand_node(robot_part(spec.tree), evaluator, shapes())
+    assert isinstance(tree, YamlMap), "a map that is computed is a map"
+    if spec.tree.get("defaults") is None:
+        return tree, None
+    from linkforge_compile.expand.defaults import compute_defaults, with_defaults
+
+    defaults = compute_defaults(spec.tree, evaluator)
+    return with_defaults(tree, defaults) if defaults else tree, defaults
 
 
 def _unread(entry: ModuleEntry) -> Instance:

@@ -24,7 +24,7 @@ from linkforge_compile.expressions import FAULT, Fault, Value
 from linkforge_compile.limits import Limit
 from linkforge_compile.schema.words import alternatives
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read
+from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression, read
 
 _MAX_SHOWN = 8
 """How many parameters, choices and variants a message shows."""
@@ -114,12 +114,20 @@ def parameter_value(
     ):
         is_used = bool(by) and result is None
         # A value without expressions is checked even if it is not used.
-        if node is not None and (is_used or not evaluator.expressions.has_expressions(node)):
+        if node is not None and (is_used or not _has_expressions(node)):
             value = _own_value(parameter, node, spec, evaluator, sink)
             result = value if is_used else result
         if node is not None and by and result is not None:
             settings.append(Setting(by, node, evaluator))
     return result, replace(settings[0], instead_of=tuple(settings[1:])) if settings else None
+
+
+def _has_expressions(node: YamlNode) -> bool:
+    if isinstance(node, YamlScalar):
+        return has_expression(node.text)
+    if isinstance(node, YamlMap):
+        return any(has_expression(entry.name) or _has_expressions(entry.value) for entry in node)
+    return isinstance(node, YamlList) and any(map(_has_expressions, node))
 
 
 def _declared_here(sink: Diagnostics, declared: Span) -> Diagnostics:

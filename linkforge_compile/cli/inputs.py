@@ -21,7 +21,7 @@ STDIN = "<stdin>"
 """The name of standard input in diagnostics."""
 
 
-def one_spec(specs: list[str]) -> str:
+def require_one_spec(specs: list[str]) -> str:
     """Return the only spec of a command line; UsageError if there is none, or several."""
     if specs == [""]:
         raise UsageError("takes one spec, found '': is a variable of the shell empty?")
@@ -52,7 +52,7 @@ def compile_spec(
 
     settings = settings_of(assignments, arguments)._replace(formats=formats)
     if spec == "-" or text is not None:
-        text = standard_input() if text is None else text
+        text = read_stdin() if text is None else text
         return compile_source(text, STDIN if spec == "-" else spec, Path.cwd(), settings)
     return compile_path(spec, settings._replace(output=output))
 
@@ -63,7 +63,7 @@ def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace)
 
     settings = check_settings_of(assignments, arguments)
     if spec == "-":
-        return compile_source(standard_input(), STDIN, Path.cwd(), settings)
+        return compile_source(read_stdin(), STDIN, Path.cwd(), settings)
     return compile_path(spec, settings)
 
 
@@ -89,7 +89,7 @@ def settings_of(assignments: list[str], arguments: argparse.Namespace) -> Settin
     )
 
 
-def standard_input() -> str:
+def read_stdin() -> str:
     """Return the text on standard input, a spec in UTF-8 or XML; UsageError if it is larger than a file may be."""
     if sys.stdin is None:
         raise UsageError("cannot read standard input: it is closed")
@@ -102,10 +102,10 @@ def require_file(option: str, word: str | None) -> None:
         raise UsageError(f"{option} takes a file; standard input may be the robot")
 
 
-def once_only(word: str) -> str | None:
+def read_unseekable(word: str) -> str | None:
     """Return the text of standard input or a pipe, which can be read only once; None for a file."""
     if word == "-":
-        return standard_input()
+        return read_stdin()
     try:
         if not stat.S_ISFIFO(os.stat(word).st_mode):  # noqa: PTH116
             return None
