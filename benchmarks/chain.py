@@ -1,4 +1,4 @@
-"""A chain of links as a spec: what the speed of long robots is measured with."""
+"""Specs of a chain of links, to measure the compile time of large robots."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _JOINT = """
 
 
 def make_chain(links: int) -> str:
-    """Return the spec of so many links, each with what a real one has, and the joints between them."""
+    """Return a spec of so many links with inertias and shapes, and the joints between them."""
     return "".join(
         (
             "linkforge: 1\nname: chain\nmaterials:\n  steel: {color: [0.6, 0.6, 0.65]}\nlinks:",
@@ -33,7 +33,7 @@ def make_chain(links: int) -> str:
 
 
 def make_repeated_chain(links: int) -> str:
-    """Return a spec of the same robot, of more than one link, as a person would write it."""
+    """Return a spec of the same robot, with at least two links, written with `for`."""
     link, joint = _LINK.format("$(i)"), _JOINT.format("$(i)", "$(i + 1)")
     return "".join(
         (

@@ -1,4 +1,4 @@
-"""Measure linkforge as users run it, from an installed wheel, beside xacro and linkforge-core.
+"""Measure linkforge from an installed wheel, in comparison with xacro and linkforge-core.
 
     python benchmarks/compare.py
     python benchmarks/compare.py --environment /tmp/measured --only cold,warm --robots vendors/ my.urdf.xacro
@@ -48,7 +48,7 @@ def main() -> None:
 
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=parse_count, default=9, help="runs of each side that count (9)")
+    parser.add_argument("--rounds", type=parse_count, default=9, help="measured runs of each side (9)")
     parser.add_argument(
         "--only",
         type=parse_comparisons,
@@ -62,7 +62,7 @@ def parse_arguments() -> argparse.Namespace:
         nargs="+",
         default=[],
         metavar="PATH",
-        help="xacro files, or folders with *.urdf.xacro, besides benchmarks/robots; arguments take their defaults",
+        help="further xacro files, or folders with *.urdf.xacro; arguments have their defaults",
     )
     parser.add_argument(
         "--wheel", type=Path, metavar="FILE", help="the wheel to install (one built from this checkout)"
@@ -71,7 +71,7 @@ def parse_arguments() -> argparse.Namespace:
         "--environment",
         type=Path,
         metavar="FOLDER",
-        help="a virtual environment to use as it is, or to make and keep if there is none (a temporary one)",
+        help="an existing virtual environment to use, or a new one to create and keep (a temporary one)",
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures of each round")
     return parser.parse_args()
@@ -85,7 +85,7 @@ def parse_count(text: str) -> int:
 
 
 def parse_comparisons(text: str) -> list[str]:
-    """Read names of comparisons with commas between them."""
+    """Parse names of comparisons, separated by commas."""
     names = text.split(",")
     for name in names:
         if name not in COMPARISONS:
@@ -111,7 +111,7 @@ def find_xacro_files(path: Path) -> list[Path]:
 
 @contextmanager
 def open_bench(options: argparse.Namespace) -> Iterator[Bench]:
-    """Make what the options want measured ready: the environment, and a folder to write into."""
+    """Prepare the environment and a folder for outputs."""
     with tempfile.TemporaryDirectory() as text:
         folder = Path(text)
         place = (options.environment or folder / "environment").absolute()
@@ -125,7 +125,7 @@ def open_bench(options: argparse.Namespace) -> Iterator[Bench]:
 
 
 def describe(bench: Bench) -> dict[str, str]:
-    """Return what the figures depend on: the machine, the versions, and how it is measured."""
+    """Return a description of the machine, the versions and the measurement."""
     installed = bench.environment.describe()
     load = ", ".join(f"{load:.1f}" for load in os.getloadavg())
     return {
@@ -141,7 +141,7 @@ def describe(bench: Bench) -> dict[str, str]:
 
 
 def import_robots(bench: Bench, group: str, files: list[Path]) -> Iterator[str]:
-    """Import robots from what xacro makes of them; yield a line for each that one side cannot read."""
+    """Import robots from the URDF that xacro expands; yield a line for each that one side cannot read."""
     robots: list[Robot] = []
     for file in files:
         print(f"importing {file}", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""What the benchmarks compare: each function yields the rows of one comparison."""
+"""The comparisons of the benchmarks; each function yields the rows of one."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ class Robot(NamedTuple):
     name: str
     xacro: Path
     spec: Path
-    """Imported from what xacro makes of the file."""
+    """Imported from the URDF that xacro expands."""
 
 
 @dataclass
 class Bench:
-    """Where, how often and with which robots to measure."""
+    """The environment, number of rounds and robots of a measurement."""
 
     environment: Environment
     spawner: Worker
@@ -34,17 +34,17 @@ class Bench:
     folder: Path
     rounds: int
     robots: dict[str, list[Robot]] = field(default_factory=dict)
-    """By the folder or file that they were found in."""
+    """By the folder or file in which they were found."""
 
     def make_run(self, program: str, *arguments: object) -> Callable[[], Sample]:
-        """Return what runs a program of the environment as a whole process."""
+        """Return a function that runs a program of the environment as a process."""
         command = (self.environment.program(program), *map(str, arguments))
         return lambda: self.spawner.measure(*command)
 
     def measure_in_turns(
         self, what: str, *sides: Callable[[], Sample], rounds: int | None = None
     ) -> list[list[Sample]]:
-        """Return what each side took in each round, after a first round that does not count."""
+        """Return the times of each side in each round, after a first round that is not counted."""
         print(what, end=" ", file=sys.stderr, flush=True)
         taken: list[list[Sample]] = []
         for _ in range((rounds or self.rounds) + 1):
@@ -70,13 +70,13 @@ class Bench:
     def measure_in_process(
         self, what: str, other_is: str, ours: tuple[str, ...], other: tuple[str, ...], budget: Budget | None = None
     ) -> Row:
-        """Measure two actions of worker.py, each again and again in a process of its own."""
+        """Measure two actions of worker.py, each repeatedly in its own process."""
         with self.environment.worker(*ours) as one, self.environment.worker(*other) as another:
             return self.measure(what, other_is, one.measure, another.measure, budget)
 
 
 def measure_cold(bench: Bench) -> Iterator[Row]:
-    """Compile a robot as a whole process, against xacro as one."""
+    """Compare processes that compile a robot with processes of xacro."""
     for group, robots in bench.robots.items():
         rows = []
         for robot in robots:
@@ -89,7 +89,7 @@ def measure_cold(bench: Bench) -> Iterator[Row]:
 
 
 def measure_warm(bench: Bench) -> Iterator[Row]:
-    """Compile a robot for the second time in a process, against xacro in one."""
+    """Compare the second compile of a robot in a process with xacro in a process."""
     for group, robots in bench.robots.items():
         rows = []
         for robot in robots:
@@ -115,7 +115,7 @@ def measure_chain(bench: Bench) -> Iterator[Row]:
 
 
 def measure_growth(bench: Bench) -> Iterator[Row]:
-    """Compile 10,000 links against 1,000, each less what a robot of one link takes."""
+    """Compare compiling 10,000 links with 1,000, each less the cost of a robot with one link."""
     runs = []
     for links in (10000, 1000, 1):
         spec = bench.folder / f"chain_{links}.robot.yaml"
@@ -139,7 +139,7 @@ def measure_merge(bench: Bench) -> Iterator[Row]:
 
 
 def measure_start(bench: Bench) -> Iterator[Row]:
-    """Start the command, against a bare Python; no budget."""
+    """Compare starting the command with starting Python; there is no budget."""
     for option in ("--version", "--help"):
         ours, other = bench.make_run("linkforge", option), bench.make_run("python", "-c", "pass")
         yield bench.measure(f"linkforge {option}", "python -c pass", ours, other)
@@ -154,4 +154,4 @@ COMPARISONS: dict[str, Callable[[Bench], Iterator[Row]]] = {
     "start": measure_start,
 }
 OF_ROBOTS = {"cold", "warm"}
-"""Those that take `Bench.robots`."""
+"""The comparisons that use `Bench.robots`."""

@@ -1,4 +1,4 @@
-"""The installed environment that the benchmarks measure: made with pip, and not writable for what runs in it."""
+"""The virtual environment in which the benchmarks run, and which they cannot write."""
 
 from __future__ import annotations
 
@@ -19,54 +19,37 @@ WORKER = Path(__file__).with_name("worker.py")
 
 _READ_ONLY_MOUNT = 'mount --bind -o ro "$0" "$0" && exec "$@"'
 
-_DESCRIBE = """
-import json, platform
-from importlib.metadata import distributions
-from importlib.util import cache_from_source, find_spec
-from pathlib import Path
-
-def compiled(package):
-    sources = [*Path(find_spec(package).submodule_search_locations[0]).rglob("*.py")]
-    return [sum(Path(cache_from_source(str(source))).exists() for source in sources), len(sources)]
-
-print(json.dumps({
-    "python": platform.python_version(),
-    "packages": {one.name: one.version for one in sorted(distributions(), key=lambda one: one.name.lower())},
-    "compiled": {package: compiled(package) for package in ("linkforge_compile", "xacro", "linkforge")},
-}))
-"""
-
 
 class Description(NamedTuple):
-    """What is installed in an environment."""
+    """The contents of an environment."""
 
     python: str
     packages: dict[str, str]
     """Versions by name."""
     compiled: dict[str, tuple[int, int]]
-    """How many modules of a package have bytecode, and how many there are."""
+    """The number of modules with bytecode and of all modules, by package."""
 
 
 class Sample(NamedTuple):
-    """What one run took."""
+    """The cost of one run."""
 
     wall: float
     """[s]"""
     processor: float
     """[s]"""
     megabytes: float
-    """Peak memory of a whole process; 0 for a run within one."""
+    """Peak memory of a process; 0 for a run inside the worker."""
 
 
 class Worker:
-    """A process of the environment that runs one action a request."""
+    """A process of the environment that runs an action for each request."""
 
     def __init__(self, process: subprocess.Popen[str], errors: IO[str]) -> None:
         self.process = process
         self.errors = errors
 
     def measure(self, *command: str) -> Sample:
-        """Run the action once, or a whole process where the worker's action is that."""
+        """Run the action once, or a process for the action `process`."""
         assert self.process.stdin
         assert self.process.stdout
         print(json.dumps(command), file=self.process.stdin, flush=True)
@@ -78,19 +61,19 @@ class Worker:
 
 
 class Environment:
-    """A virtual environment whose processes may not write into it."""
+    """A virtual environment that its processes cannot write."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.prefix = find_read_only_mount(folder)
-        """The words before each command that keep it from writing into the folder."""
+        """The words before each command that make the folder read-only for it."""
 
     def program(self, name: str) -> str:
         return str(self.folder / "bin" / name)
 
     @property
     def protection(self) -> str:
-        """What keeps processes from writing into the folder."""
+        """How the folder is protected, for the description of a measurement."""
         if self.prefix:
             return "mounted read-only"
         if self.folder.stat().st_mode & 0o222:
@@ -98,14 +81,14 @@ class Environment:
         return "read-only by permissions" + (", which do not bind root" if os.geteuid() == 0 else "")
 
     def describe(self) -> Description:
-        """Return what is installed."""
-        run = self.run(self.program("python"), "-P", "-c", _DESCRIBE)
+        """Return the versions and bytecode in the environment."""
+        run = self.run(self.program("python"), "-P", str(WORKER), "describe")
         if run.returncode:
             sys.exit(f"{self.folder} is no environment with linkforge-compile, xacro and linkforge-core\n{run.stderr}")
         return Description(**json.loads(run.stdout))
 
     def run(self, *command: str) -> subprocess.CompletedProcess[str]:
-        """Run a process that is not measured."""
+        """Run a process without measuring it."""
         return subprocess.run(
             [*self.prefix, *command],
             env=_make_variables(),
@@ -129,14 +112,14 @@ class Environment:
 
 
 def _make_variables() -> dict[str, str]:
-    """Return our variables for a process that is measured."""
+    """Return the environment variables of a measured process."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "LINKFORGE", "PIP_NO"))}
-    # The bounds on a spec, raised for 10,000 links.
+    # 10,000 links exceed the default limits of a spec.
     return {**kept, "PYTHONDONTWRITEBYTECODE": "1", "LINKFORGE_LIMITS": "10"}
 
 
 def find_read_only_mount(folder: Path) -> list[str]:
-    """Return the words that run a command with a folder mounted read-only; none if the system refuses."""
+    """Return the words that run a command with a folder mounted read-only; () if the system refuses that."""
     if shutil.which("unshare"):
         for namespace in (("unshare", "--mount"), ("unshare", "--user", "--map-root-user", "--mount")):
             words = [*namespace, "sh", "-c", _READ_ONLY_MOUNT, str(folder)]
@@ -154,7 +137,7 @@ def forbid_writing(folder: Path) -> None:
 
 
 def make_environment(folder: Path, wheel: Path | None) -> None:
-    """Make a virtual environment with our wheel, built from this checkout unless given, xacro and linkforge-core."""
+    """Create an environment with a wheel (default: built from this checkout), xacro and linkforge-core."""
     _report("making a virtual environment")
     _run_or_exit(sys.executable, "-m", "venv", str(folder))
     pip = (str(folder / "bin" / "python"), "-m", "pip", "--quiet", "--disable-pip-version-check")
@@ -170,7 +153,7 @@ def make_environment(folder: Path, wheel: Path | None) -> None:
 
 
 def _find_core_requirement() -> str:
-    """Return the requirement of linkforge-core that our tests have."""
+    """Return the version of linkforge-core that our tests require."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
     return next(name for name in project["optional-dependencies"]["dev"] if name.startswith("linkforge-core"))
 

@@ -1,9 +1,9 @@
-"""Prints which robots come back the same when they are imported and compiled, as an independent judge sees it.
+"""Print which robots are the same after import and compile, as an independent program compares them.
 
-    python benchmarks/import_table.py JUDGE ROBOT.urdf|ROBOT.srdf|FOLDER ... [--with xml,pin,mujoco,urdfdom]
+    python benchmarks/import_table.py COMPARER ROBOT.urdf|ROBOT.srdf|FOLDER ... [--with xml,pin,mujoco,urdfdom]
 
-JUDGE is `urdf_equiv.py` of the shared tools. An SRDF is judged together with the URDF of its robot, which is looked for
-around it. Exit code 1 unless every robot is equal, but for the name that an SRDF gives it, where that was told.
+COMPARER is `urdf_equiv.py` of the shared tools. An SRDF is compared together with the URDF of its robot, which is
+searched around it. Exit code 1 if a robot differs by more than a reported change of the name in its SRDF.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ Difference = Mapping[str, str | None]
 
 
 def differences_of(robot: Robot, judge: Path, urdf: Path, srdf: Path | None, consumers: str) -> list[Difference]:
-    """Return in what a compiled robot differs from the files that it was made from."""
+    """Return the differences of a compiled robot from the files it was imported from."""
     with tempfile.TemporaryDirectory() as folder:
         ours, semantic = Path(folder) / "ours.urdf", Path(folder) / "ours.srdf"
         ours.write_text(render_urdf(robot), "utf-8")

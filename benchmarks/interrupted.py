@@ -1,6 +1,6 @@
-"""Kills a writer of output files at any moment: the file is one whole result, each time.
+"""Kill a process that writes an output file, at random moments; count the files that were written only in part.
 
-python benchmarks/interrupted.py [TRIES]     200 unless said
+python benchmarks/interrupted.py [TRIES]     (default: 200)
 """
 
 from __future__ import annotations
@@ -12,34 +12,41 @@ import tempfile
 import time
 from pathlib import Path
 
-_WRITER = """
-import sys
-from pathlib import Path
-from linkforge_compile.cli.output import write_if_changed
-print("ready", flush=True)
-while True:
-    for letter in "ab":
-        write_if_changed(Path(sys.argv[1]), letter * 2_000_000)
-"""
+_CONTENTS = ("a" * 2_000_000, "b" * 2_000_000)
 
 
-def torn_files(tries: int, folder: Path) -> int:
-    """Return how many of so many kills left a file that is no whole result."""
+def write_forever(target: Path) -> None:
+    """Write the two contents to a file in turn; the process that does so is killed."""
+    from linkforge_compile.cli.output import write_if_changed
+
+    print("ready", flush=True)
+    while True:
+        for content in _CONTENTS:
+            write_if_changed(target, content)
+
+
+def count_torn_files(tries: int, folder: Path) -> int:
+    """Return how many of the kills left a file with neither of the two contents."""
     target, torn = folder / "robot.urdf", 0
     for _ in range(tries):
-        with subprocess.Popen([sys.executable, "-c", _WRITER, str(target)], stdout=subprocess.PIPE) as writer:
+        with subprocess.Popen([sys.executable, __file__, "write", str(target)], stdout=subprocess.PIPE) as writer:
             assert writer.stdout is not None
             writer.stdout.readline()
             time.sleep(random.uniform(0, 0.05))
             writer.kill()
-        content = target.read_text() if target.exists() else "a" * 2_000_000
-        torn += content not in ("a" * 2_000_000, "b" * 2_000_000)
+        torn += target.exists() and target.read_text() not in _CONTENTS
     return torn
 
 
+def main(words: list[str]) -> int:
+    if words[:1] == ["write"]:  # the process to kill
+        write_forever(Path(words[1]))
+    tries = int(words[0]) if words else 200
+    with tempfile.TemporaryDirectory() as folder:
+        torn = count_torn_files(tries, Path(folder))
+    print(f"{tries} kills, {torn} torn files")
+    return int(torn > 0)
+
+
 if __name__ == "__main__":
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
-    with tempfile.TemporaryDirectory() as place:
-        found = torn_files(count, Path(place))
-    print(f"{count} kills, {found} torn files")
-    sys.exit(found > 0)
+    sys.exit(main(sys.argv[1:]))

@@ -1,4 +1,4 @@
-"""How many lines our examples take, beside the public xacro of the same robots.
+"""Count the lines of our examples and of the public xacro of the same robots.
 
     python benchmarks/lines.py
 
@@ -19,7 +19,7 @@ EXAMPLES = HERE.parent / "examples"
 
 
 class PublicFile(NamedTuple):
-    """A file of a public repository, and how many lines of it are neither blank nor comments only."""
+    """A file of a public repository, with its number of lines that are neither blank nor only a comment."""
 
     path: str
     commit: str
@@ -27,7 +27,7 @@ class PublicFile(NamedTuple):
 
 
 class Robot(NamedTuple):
-    """A robot that both sides describe; `differences` says where their scope is not the same."""
+    """A robot that both sides describe; `differences` are those in scope."""
 
     name: str
     ours: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""Rows of the benchmark table: two sides that were measured in turns, their medians, and a ratio with its budget."""
+"""Rows of the benchmark table, with the medians of two sides, their ratio and its budget."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ HEADER = (
 
 
 class Side(NamedTuple):
-    """What one side took in each counted round."""
+    """The measurements of one side, one a round."""
 
     values: list[float]
     """Wall time [s], or peak memory [MB]."""
@@ -23,14 +23,14 @@ class Side(NamedTuple):
 
 
 class Budget(NamedTuple):
-    """Ratios to reach, the second one some day."""
+    """The ratio to reach, and a more ambitious one."""
 
     target: float
     moonshot: float
 
 
 class Row(NamedTuple):
-    """A line of the table; a budget bounds the ratios of both wall time and processor time, or that of memory."""
+    """A line of the table; a budget applies to the ratios of wall and processor time, or of memory."""
 
     what: str
     other_is: str
@@ -45,14 +45,14 @@ class Row(NamedTuple):
 
     @property
     def processor_ratio(self) -> float | None:
-        """The same of the processor's time; None for memory."""
+        """The ratio of processor time; None for memory."""
         if not self.ours.processor:
             return None
         return median(self.ours.processor) / median(self.other.processor)
 
     @property
     def spread(self) -> tuple[float, float]:
-        """The least and the most of the ratios of single rounds: how noisy the machine was."""
+        """The least and greatest ratio of single rounds, which shows how noisy the machine was."""
         ratios = [ours / other for ours, other in zip(self.ours.values, self.other.values, strict=True)]
         return min(ratios), max(ratios)
 

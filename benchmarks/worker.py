@@ -1,26 +1,30 @@
-"""What the benchmarks time, in a process of the environment that is measured; compare.py starts it.
+"""The actions that the benchmarks measure, in a process of the measured environment; compare.py starts it.
 
     python worker.py ACTION [ARGUMENT ...]
+    python worker.py describe
 
-For each line of standard input, the action runs once, and a line of JSON answers: wall time [s], time of the processor
-[s], and peak memory [MB] of a whole process. The line is what a process is to run, as JSON; otherwise it is empty.
+For each line of standard input, the action runs once, and a line of JSON answers: wall time [s], processor time [s],
+and peak memory [MB] of a process. The line of input is the command of the process, as JSON; otherwise it is empty.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import platform
 import sys
 from collections.abc import Callable
 from functools import partial
 from importlib import import_module
+from importlib.metadata import distributions
+from importlib.util import cache_from_source, find_spec
 from itertools import count, pairwise
 from pathlib import Path
 from time import perf_counter, process_time
 from types import ModuleType
 
 Turn = Callable[[], object]
-"""What is timed; each turn is prepared anew, outside the time that counts."""
+"""The work to measure; it is prepared anew for each turn, which is not measured."""
 
 
 def prepare_compile(spec: str) -> Callable[[], Turn]:
@@ -38,7 +42,7 @@ def prepare_xacro(xacro_file: str) -> Callable[[], Turn]:
 
 
 def prepare_compile_text(spec: str) -> Callable[[], Turn]:
-    """Compile and render a spec that differs each time by a comment, so that no earlier result serves."""
+    """Compile and render a spec with a different comment each time, so that no result can be reused."""
     from linkforge_compile import compile_text, render_urdf
 
     text, turns = Path(spec).read_text("utf-8"), count()
@@ -63,7 +67,7 @@ def prepare_rewrite(urdf: str) -> Callable[[], Turn]:
 
 
 def prepare_merge(library: str, modules: str, links: str) -> Callable[[], Turn]:
-    """Merge copies of one module into a robot, with our core or linkforge-core's."""
+    """Merge copies of one module into a robot, with our core or that of linkforge-core."""
     core = import_module(library)
 
     def prepare() -> Turn:
@@ -80,7 +84,7 @@ def prepare_merge(library: str, modules: str, links: str) -> Callable[[], Turn]:
 
 
 def make_module(core: ModuleType, links: int) -> object:
-    """Return a chain of links with what a module has: shapes, mass, a motor for each joint, groups and pairs."""
+    """Return a chain of links with shapes, masses, a motor for each joint, groups and disabled pairs."""
     robot = core.Robot("arm")
     steel = core.Material("steel", core.Color(0.6, 0.6, 0.65))
     robot.materials["steel"] = steel
@@ -111,7 +115,7 @@ ACTIONS: dict[str, Callable[..., Callable[[], Turn]]] = {
 
 def run_process(command: list[str]) -> tuple[float, float, float]:
     """Run a process to its end; return its wall time [s], processor time [s] and peak memory [MB]."""
-    # A process inherits the peak memory of the one that starts it, and this one is small.
+    # A process inherits the peak memory of its parent, so this one must be small.
     silent = [(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
     start = perf_counter()
     pid = os.posix_spawn(command[0], command, os.environ, file_actions=silent)
@@ -119,7 +123,7 @@ def run_process(command: list[str]) -> tuple[float, float, float]:
     wall = perf_counter() - start
     if status:
         sys.exit(f"exit code {os.waitstatus_to_exitcode(status)} of {' '.join(command)}")
-    # Linux counts in kilobytes, macOS in bytes.
+    # The unit is kilobytes on Linux, bytes on macOS.
     return wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
 
 
@@ -130,7 +134,26 @@ def run_turn(turn: Turn) -> tuple[float, float, float]:
     return perf_counter() - start, process_time() - processor_start, 0.0
 
 
+def describe() -> dict[str, object]:
+    """Return the fields of environment.Description for this environment."""
+
+    def count_compiled(package: str) -> tuple[int, int]:
+        folder = (find_spec(package) or sys.exit(f"no package {package}")).submodule_search_locations or [""]
+        sources = [*Path(folder[0]).rglob("*.py")]
+        return sum(Path(cache_from_source(str(source))).exists() for source in sources), len(sources)
+
+    packages = sorted(distributions(), key=lambda one: one.name.lower())
+    return {
+        "python": platform.python_version(),
+        "packages": {one.name: one.version for one in packages},
+        "compiled": {package: count_compiled(package) for package in ("linkforge_compile", "xacro", "linkforge")},
+    }
+
+
 def main(action: str, *arguments: str) -> None:
+    if action == "describe":
+        print(json.dumps(describe()))
+        return
     answers = os.fdopen(os.dup(1), "w", buffering=1)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     prepare = None if action == "process" else ACTIONS[action](*arguments)

@@ -39,7 +39,7 @@ EVERYWHERE = ("when", "for", "extra", "extra_attributes", "extra_inside")
 
 _LONGEST_CELL = 72
 _DIRECTIVE = re.compile(r"<!-- (keys of: .+|units|functions|bounds) -->")
-_DEFAULT = re.compile(r"(?:^|(?<=[.;] ))(?P<value>(?:(?![.;] ).)+?) unless said(?P<more>.*?)\.(?:\s|$)")
+_DEFAULT = re.compile(r"(?:^|(?<=[.;] ))(?P<value>(?:(?![.;] ).)+?) by default(?P<more>.*?)\.(?:\s|$)")
 _REQUIRED = re.compile(r"(?:^|(?<=[.;] ))(?P<value>[Rr]equired[^.]*)\.\s?")
 _UNIT = re.compile(r"\[([^\]]+)\]")
 _CODE = re.compile(r"`[^`]*`")

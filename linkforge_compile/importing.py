@@ -1,4 +1,4 @@
-"""The way in: a robot that was written as URDF, SRDF or xacro becomes a spec, and is judged as one."""
+"""Import a robot written as URDF, SRDF or xacro: write its spec, compile it, and report what is lost."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ _IMPORTED = (URDF, SRDF)
 """The formats of the documents of an import, in their order."""
 
 _WRONG_ARGUMENTS = (NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER)
-"""What is told of arguments that are not those that the files take: another robot is meant than the one read."""
+"""Faults of arguments, after which the robot that was read may not be the one that was meant."""
 
 
 @dataclass(frozen=True)
 class Import:
-    """What reading a robot that was written elsewhere gave: a spec, and what is to be told about it.
+    """The result of an import: the text of a spec, and the diagnostics.
 
-    `text` is None where the file is not the robot that it is said to be, or does not take the arguments.
+    `text` is None if the file is no robot of its format, or does not accept the arguments.
     """
 
     text: str | None
@@ -51,7 +51,7 @@ class Import:
 
     @property
     def losses(self) -> tuple[Diagnostic, ...]:
-        """What of the robot is not in the spec."""
+        """The diagnostics about what of the robot is not in the spec."""
         return tuple(diagnostic for diagnostic in self.diagnostics if diagnostic.code in LOSSES)
 
 
@@ -67,11 +67,10 @@ def import_urdf(
 ) -> Import:
     """Read a URDF file, and the SRDF of the same robot, as a spec that compiles to the same robot.
 
-    Its errors are told where those files have them. A xacro, of either, is expanded first with those of the arguments
-    that it takes, its packages are looked for in `packages` before other places, and what it names is read where
-    `compile_file` reads; `allow_outside` lets it read anything. `output` is the folder that the spec is for: meshes
-    that lie beside the URDF and not there are told. `text` is the URDF where it is no file: `path` then is what it is
-    called, and its folder the one where its relative paths start.
+    Errors are reported at their places in those files. A xacro is expanded first, with the arguments that it declares;
+    its packages are searched in `packages` before other places, and it may read the files that `compile_file` reads,
+    or any with `allow_outside`. `output` is the folder of the spec: meshes beside the URDF but not there are reported.
+    `text` is the URDF if it is no file; `path` is its name then, and relative paths start in the folder of `path`.
     """
     settings = Settings(arguments, packages, allow_outside=allow_outside, output=Path(output) if output else None)
     urdf = _Urdf(Path(path), text)
@@ -79,23 +78,23 @@ def import_urdf(
 
 
 class _Urdf(NamedTuple):
-    """What is imported: a file, or a text that is called so."""
+    """The URDF to import: a file, or a text with that name."""
 
     path: Path
     text: str | None
 
 
 class ReadBack(NamedTuple):
-    """A robot as its URDF and SRDF say it, None where those are refused, and the errors that say why."""
+    """A robot read from its own URDF and SRDF, None if those are refused, and the errors."""
 
     robot: Robot | None
     faults: tuple[Diagnostic, ...]
 
 
 def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> ReadBack:
-    """Return a robot as its URDF and SRDF say it, for whoever lays it beside one that was read from those.
+    """Return a robot read from its own URDF and SRDF, to compare it with one that was read from such files.
 
-    Its sensors are Gazebo's then, and it has no metadata.
+    Its sensors are Gazebo elements then, and it has no metadata.
     """
     sink = Diagnostics()
     try:
@@ -119,15 +118,15 @@ def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
         return None
     judge = _judge_of(SpecFile(file, imported.tree, None), loader)
     semantic = SourceFile("<srdf>", render_srdf(robot)) if robot.has_semantic else None
-    both = with_srdf(imported, semantic, judge, sink) if semantic else (imported, judge(imported.tree))
-    if both is None:
+    result = with_srdf(imported, semantic, judge, sink) if semantic else (imported, judge(imported.tree))
+    if result is None:
         return None
-    sink.report_all(both[1].faults)
-    return None if sink.has_errors else both[1].robot
+    sink.report_all(result[1].faults)
+    return None if sink.has_errors else result[1].robot
 
 
 def _judge_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Checked]:
-    """Return what compiles a tree as that of a spec, by itself; of all that it is asked for, each mesh is read once."""
+    """Return a function that compiles the tree of a spec; it reads each mesh once for all its calls."""
     meshes = MeshSolids(loader.budget)
     return lambda tree: check_alone(meshes, replace(spec, tree=tree), loader)
 
@@ -161,17 +160,17 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     if found is None or (srdf and semantic is None):
         return None
     file, robot = found
-    # Before it is judged: of what is too large for a spec no more is to be known.
+    # Before compiling: a robot that is too large for a spec is not compiled.
     charge_entries(robot.tree, 1, Budget())
     text = None if semantic else _spec_text(robot, sink)
     judge = _judge_of(SpecFile(file, robot.tree, urdf.path.parent), loader)
     both = with_srdf(robot, semantic.text, judge, sink, semantic.moved) if semantic else (robot, judge(robot.tree))
     if both is None:
         return None
-    # The tree has the spans of the files, so what is wrong with the robot is told there.
+    # The tree has the spans of the files, so faults of the robot are reported there.
     whole, compiled = both
     sink.report_all(compiled.faults)
-    # A robot with an error has what stands in for that, which is in neither of its documents.
+    # A robot with an error contains replacement values, which are in neither of its documents.
     if compiled.robot is not None and not sink.has_errors:
         sink.report_all(check_written_twice(doubtful_parts_of_urdf(compiled.robot).with_extras))
         sink.report_all(_losses(whole, compiled.robot, sink.places_of(LOSSES)))
@@ -183,11 +182,13 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
 
 
 def _spec_text(imported: Imported, sink: Diagnostics) -> str:
-    """Return the text of a spec; report what that does not say, and raise BeyondLimitError where none can be so large.
+    """Return the text of a spec; report what it loses.
 
-    What is too large is told at the robot, for nobody sees the text.
+    Raises:
+        BeyondLimitError: if the spec is too large, at the robot, because the text is not shown.
+
     """
-    from linkforge_compile.importers.losses import unread
+    from linkforge_compile.importers.losses import text_losses
     from linkforge_compile.syntax.writer import write
 
     budget = Budget()
@@ -197,7 +198,7 @@ def _spec_text(imported: Imported, sink: Diagnostics) -> str:
         again = read(SourceFile("<spec>", text), Diagnostics(), budget)
     except BeyondLimitError:
         raise budget.beyond(Limit.VALUES, imported.tree.span) from None
-    sink.report_all(unread(imported.tree, again))
+    sink.report_all(text_losses(imported.tree, again))
     return text
 
 
@@ -208,13 +209,13 @@ def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnosti
     from linkforge_compile.expand.merge_srdf import open_semantic
     from linkforge_compile.expand.xacro_use import XacroUse
 
-    # Its user named it as he named the URDF, and a xacro of MoveIt includes what lies in a package of its own.
+    # The user named it like the URDF, and a xacro of MoveIt includes files from its own package.
     loader.roots = loader.roots.with_those_around(srdf)
     return open_semantic(XacroUse(srdf, ImportSite(str(srdf), None), arguments), loader, sink)
 
 
 _Taken = Collection[str] | None
-"""The names of arguments that the SRDF takes; None where nobody knows."""
+"""The names of the arguments that the SRDF declares; None if unknown."""
 
 
 def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
@@ -223,7 +224,7 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader,
     named, text = urdf
     file = loader.open_xml(named, sink) if text is None else loader.add_xml(str(named), text)
     robot = read_urdf(file, sink, keeps_refused=True) if file else None
-    # A xacro that is not named as one, and is told as that, would take them.
+    # Reported after reading: a xacro without that suffix could accept them, and is reported as such.
     if file and robot and taken is not None:
         for name, entry in arguments.without(taken).entries.items():
             note = Note("a URDF takes no arguments", file.whole)
@@ -241,12 +242,12 @@ def _read_xacro(xacro: Path, arguments: Arguments, taken: _Taken, loader: Loader
     return (expanded.file, expanded.imported) if expanded else None
 
 
-def _losses(imported: Imported, robot: Robot, told: Collection[Span]) -> Iterator[Diagnostic]:
-    """Yield what of its documents a robot does not say as they do, but for what is told already."""
+def _losses(imported: Imported, robot: Robot, reported: Collection[Span]) -> Iterator[Diagnostic]:
+    """Yield what the documents lose in the compiled robot, except at places with a report already."""
     from linkforge_compile.importers.losses import losses
     from linkforge_compile.importers.xml import read_xml
 
     for document, format_ in zip(imported.documents, _IMPORTED, strict=False):
-        again = read_xml(SourceFile("<compiled>", format_.text(robot)), Diagnostics(), is_ours=True)
-        assert again, "what we render is XML"
-        yield from (loss for loss in losses(document, again) if loss.span not in told)
+        compiled = read_xml(SourceFile("<compiled>", format_.text(robot)), Diagnostics(), is_ours=True)
+        assert compiled, "what we render is XML"
+        yield from (loss for loss in losses(document, compiled) if loss.span not in reported)

@@ -1,10 +1,10 @@
-"""Two robots against each other, in a robot's own terms: what is new, gone, renamed, moved, and changed by how much."""
+"""Compare two robots: which parts are new, gone, renamed or moved, and which values changed by how much."""
 
 from __future__ import annotations
 
 from linkforge_compile.compare.difference import Difference, Kind, Plain
-from linkforge_compile.compare.public import Vanished, vanished
+from linkforge_compile.compare.renames import RemovedName, removed_public_names
 from linkforge_compile.compare.robots import compare
 from linkforge_compile.compare.walk import TOLERANCE
 
-__all__ = ["TOLERANCE", "Difference", "Kind", "Plain", "Vanished", "compare", "vanished"]
+__all__ = ["TOLERANCE", "Difference", "Kind", "Plain", "RemovedName", "compare", "removed_public_names"]

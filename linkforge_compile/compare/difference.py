@@ -1,4 +1,4 @@
-"""One difference between two robots, as a value."""
+"""One difference between two robots."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from enum import StrEnum
 from typing import TypeAlias
 
 Plain: TypeAlias = "None | bool | int | float | str | list[Plain] | dict[str, Plain]"
-"""What JSON can hold; numbers are in SI units."""
+"""A value that JSON can hold; numbers are in SI units."""
 
 
 class Kind(StrEnum):
-    """What happened to a thing on the way from the robot before to the one after."""
+    """How a part or value of the robot before differs in the robot after."""
 
     ADDED = "added"
     REMOVED = "removed"
@@ -22,12 +22,12 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True)
 class Difference:
-    """What differs at one place.
+    """A difference at one place.
 
-    `path` is that of the language, with the names of the robot after (before, for what is gone), as `explain` takes
-    it: `("joints", "elbow", "limits", "upper")`. `before` and `after` are whole and exact, None for what is not there;
-    of what was renamed they are the names, of what was moved the links that it hangs on. `text` is for people: rounded,
-    with units, and by how much.
+    `path` is the path that `explain` accepts, such as `("joints", "elbow", "limits", "upper")`, with the names of the
+    robot after, or of the robot before for what was removed. `before` and `after` are the exact values, None where
+    there is none; they are names for a renamed part, and parent links for a moved one. `text` describes the
+    difference: rounded, with units and the amount of the change.
     """
 
     kind: Kind

@@ -1,48 +1,47 @@
-"""What differs in an order that means something; that of what has a name means nothing."""
+"""Compare the orders that have a meaning: ends of transmissions, shapes of a link, materials after links."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from itertools import count
 
 from linkforge_compile.compare.difference import Difference, Kind
-from linkforge_compile.compare.pairing import partners
-from linkforge_compile.compare.words import plain, shortened, told
+from linkforge_compile.compare.pairing import find_partners
+from linkforge_compile.compare.words import describe, shorten, to_plain
 from linkforge_compile.core.models.link import Link, Visual
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.models.shape_order import COLLISION, VISUAL, shown_colors
 from linkforge_compile.core.models.transmission import Transmission
 
-_LONGEST = 200
-"""Characters of each of two orders that are shown."""
+_MAX_ORDER = 200
+"""Characters shown of each of two orders."""
 
 
 def order_differences(path: tuple[str, ...], before: object, after: object) -> Iterator[Difference]:
-    """Yield in what orders two values of a place differ, which no field of theirs says."""
+    """Yield the differences in order between two values, which the comparison of their fields does not find."""
     match before, after:
         case (Transmission(), Transmission()):
-            yield from _ends(path, before, after)
+            yield from _reordered_ends(path, before, after)
         case (Link(), Link()):
-            yield from _recolored(path, before, after)
+            yield from _recolored_shapes(path, before, after)
         case (Material(), Material()) if path[0] == "materials" and before.after_links != after.after_links:
             was, now = ("behind the links" if one.after_links else "before the links" for one in (before, after))
             here = (*path, "after_links")
             yield Difference(Kind.CHANGED, here, before.after_links, after.after_links, f"{was} → {now}")
 
 
-def _ends(path: tuple[str, ...], before: Transmission, after: Transmission) -> Iterator[Difference]:
-    """Yield where the ends of a transmission changed places, which have different parts in it."""
-    for what, one, other in (
-        ("joints", before.joints, after.joints),
-        ("actuators", before.actuators, after.actuators),
-    ):
-        were, are = [end.name for end in one], [end.name for end in other]
-        if sorted(were) == sorted(are):
-            yield from _told((*path, what), were, are)
+def _reordered_ends(path: tuple[str, ...], before: Transmission, after: Transmission) -> Iterator[Difference]:
+    """Yield where joints or actuators of a transmission changed places; the place decides their role in it."""
+    for key, old, new in (("joints", before.joints, after.joints), ("actuators", before.actuators, after.actuators)):
+        were, are = [end.name for end in old], [end.name for end in new]
+        if were != are and sorted(were) == sorted(are):
+            was, now = (shorten(", ".join(names), _MAX_ORDER) for names in (were, are))
+            text = f"in the order {was} → {now}"
+            yield Difference(Kind.CHANGED, (*path, key), to_plain(were), to_plain(are), text)
 
 
-def _recolored(path: tuple[str, ...], before: Link, after: Link) -> Iterator[Difference]:
-    """Yield the shapes that MuJoCo shows in another color since another visual comes before them."""
+def _recolored_shapes(path: tuple[str, ...], before: Link, after: Link) -> Iterator[Difference]:
+    """Yield the shapes that MuJoCo shows in another color because another visual precedes them."""
     if before.shapes == after.shapes:
         return
     were, are = _own_colors(before), _own_colors(after)
@@ -52,21 +51,21 @@ def _recolored(path: tuple[str, ...], before: Link, after: Link) -> Iterator[Dif
             (VISUAL, before.visuals, after.visuals),
             (COLLISION, before.collisions, after.collisions),
         )
-        for now, was in partners(dict(enumerate(old)), dict(enumerate(new))).items()
+        for now, was in find_partners(dict(enumerate(old)), dict(enumerate(new))).items()
     }
-    # What a visual says of its own color is told there, so it counts as said of it before.
-    as_now = {**were, **{was: are[now] for now, was in same.items()}}
-    shown_before, shown_if_told, shown = map(_shown_colors, (were, as_now, are))
+    # A change of a visual's own color is reported at the visual, so assume that color before as well.
+    recolored = {**were, **{was: are[now] for now, was in same.items()}}
+    shown_before, shown_if_recolored, shown = map(_shown_colors, (were, recolored, are))
     for now, was in same.items():
         old_color, color = shown_before[was], shown[now]
-        if color not in (old_color, shown_if_told[was]):
+        if color not in (old_color, shown_if_recolored[was]):
             kind, place = now
-            text = f"color {told(old_color)} → {told(color)} in MuJoCo, that of the visual before it"
-            yield Difference(Kind.CHANGED, (*path, kind, str(place)), plain(old_color), plain(color), text)
+            text = f"color {describe(old_color)} → {describe(color)} in MuJoCo, that of the visual before it"
+            yield Difference(Kind.CHANGED, (*path, kind, str(place)), to_plain(old_color), to_plain(color), text)
 
 
 def _own_colors(link: Link) -> dict[tuple[str, int], Color | None]:
-    """Return the color that each shape says, by its kind and place there, in the order in which they are written."""
+    """Return the color that each shape states, by kind and index, in the order in which shapes are written."""
     places = {VISUAL: count(), COLLISION: count()}
     colors: dict[tuple[str, int], Color | None] = {}
     for shape in link.shapes:
@@ -77,9 +76,3 @@ def _own_colors(link: Link) -> dict[tuple[str, int], Color | None]:
 
 def _shown_colors(own: Mapping[tuple[str, int], Color | None]) -> dict[tuple[str, int], Color | None]:
     return dict(zip(own, shown_colors(own.values()), strict=True))
-
-
-def _told(path: tuple[str, ...], were: Sequence[str], are: Sequence[str]) -> Iterator[Difference]:
-    if were != are:
-        was, now = (shortened(", ".join(names), _LONGEST) for names in (were, are))
-        yield Difference(Kind.CHANGED, path, plain(were), plain(are), f"in the order {was} → {now}")

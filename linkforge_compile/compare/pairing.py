@@ -1,4 +1,4 @@
-"""Which member of a list before is which of the list after."""
+"""Pair the members of two lists: which one before corresponds to which one after."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ from collections import deque
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from linkforge_compile.compare.likeness import likeness
-from linkforge_compile.compare.raw_parts import RawElement
+from linkforge_compile.compare.fields import RawElement, match_key
 from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.link import Collision, Visual
@@ -16,15 +15,15 @@ from linkforge_compile.core.part import Inside
 
 
 class Pair(NamedTuple):
-    """A member of both lists, or of one; None for the list that lacks it. `key` says which, in a path."""
+    """A member of two lists, None for the list that lacks it; `key` identifies it in a path."""
 
     key: str
     before: object | None
     after: object | None
 
 
-def key_of(item: object) -> str:
-    """Return what tells a member of a list apart; "" for one that only its place does."""
+def key_of_member(item: object) -> str:
+    """Return the name that identifies a member of a list; empty where only its index does."""
     match item:
         case str():
             return str(item)
@@ -48,64 +47,63 @@ def key_of(item: object) -> str:
     return name or ""
 
 
-def paired(before: Iterable[object], after: Iterable[object]) -> Iterator[Pair]:
-    """Yield the members in the order after, then those that are gone.
+def pair_members(before: Iterable[object], after: Iterable[object]) -> Iterator[Pair]:
+    """Yield the members in the order after, then the removed ones.
 
-    Of those that have the same key, or none, equal ones belong together, then those of one name, then the nth ones.
+    Members with the same key are paired if they are equal, else by name, else by index.
     """
-    were, are = _by_key(before), _by_key(after)
+    were, are = _group_by_key(before), _group_by_key(after)
     for key, members in are.items():
-        yield from _pairs(key, were.get(key, {}), members)
+        yield from _pairs_of_key(key, were.get(key, {}), members)
     for key, members in were.items():
         if key not in are:
-            yield from _pairs(key, members, {})
+            yield from _pairs_of_key(key, members, {})
 
 
-def _by_key(items: Iterable[object]) -> dict[str, dict[int, object]]:
-    """Return the members of each key by their places: among all for those without a key, else among their likes."""
+def _group_by_key(items: Iterable[object]) -> dict[str, dict[int, object]]:
+    """Return the members of each key, by their index among them."""
     found: dict[str, dict[int, object]] = {}
     for item in items:
-        likes = found.setdefault(key_of(item), {})
-        likes[len(likes)] = item
+        members = found.setdefault(key_of_member(item), {})
+        members[len(members)] = item
     return found
 
 
-def _pairs(key: str, before: Mapping[int, object], after: Mapping[int, object]) -> Iterator[Pair]:
-    places = partners(before, after)
-    taken = set(places.values())
-    for place, item in after.items():
-        yield Pair(_shown(key, place), before.get(places.get(place, -1)), item)
-    for place, item in before.items():
-        if place not in taken:
-            yield Pair(_shown(key, place), item, None)
+def _pairs_of_key(key: str, before: Mapping[int, object], after: Mapping[int, object]) -> Iterator[Pair]:
+    partners = find_partners(before, after)
+    for index, item in after.items():
+        yield Pair(_path_key(key, index), before.get(partners.get(index, -1)), item)
+    paired = set(partners.values())
+    for index, item in before.items():
+        if index not in paired:
+            yield Pair(_path_key(key, index), item, None)
 
 
-def _shown(key: str, place: int) -> str:
-    return "/".join((*([key] if key else []), *([str(place)] if place or not key else [])))
+def _path_key(key: str, index: int) -> str:
+    return "/".join((*([key] if key else []), *([str(index)] if index or not key else [])))
 
 
-def partners(before: Mapping[int, object], after: Mapping[int, object]) -> dict[int, int]:
-    """Return by place after the place before, of members of one key."""
+def find_partners(before: Mapping[int, object], after: Mapping[int, object]) -> dict[int, int]:
+    """Return the indices before by the indices after, for members of the same key."""
     if len(before) == len(after) == 1:
         return {0: 0}
     found: dict[int, int] = {}
-    for trait_of in _TRAITS:
-        taken = set(found.values())
+    for criterion in _CRITERIA:
+        paired = set(found.values())
         free: dict[Hashable, deque[int]] = {}
-        for place, item in before.items():
-            if place not in taken:
-                free.setdefault(trait_of(item), deque()).append(place)
-        for place, item in after.items():
-            if place not in found and (places := free.get(trait_of(item))):
-                found[place] = places.popleft()
+        for index, item in before.items():
+            if index not in paired:
+                free.setdefault(criterion(item), deque()).append(index)
+        for index, item in after.items():
+            if index not in found and (candidates := free.get(criterion(item))):
+                found[index] = candidates.popleft()
     return found
 
 
-def _name_of(item: object) -> Hashable:
+def _name_or_identity(item: object) -> Hashable:
     name: str | None = getattr(item, "name", None)
-    # What has no name shares it with nobody.
     return id(item) if name is None else name
 
 
-_TRAITS: Sequence[Callable[[object], Hashable]] = (likeness, _name_of, lambda _: None)
-"""What members that belong together have in common, the closest tie first."""
+_CRITERIA: Sequence[Callable[[object], Hashable]] = (match_key, _name_or_identity, lambda _: None)
+"""What members must share to be paired, the strictest first."""

@@ -1,4 +1,4 @@
-"""Poses and inertia tensors: differences that mean something only as a whole."""
+"""Compare poses and inertia tensors as a whole: how far a pose moved and turned, which entries of a tensor changed."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 
 from linkforge_compile.compare.difference import Difference, Kind, Plain
-from linkforge_compile.compare.measures import ANGLE, Measure, change_told, distance_told, number_told
-from linkforge_compile.compare.words import plain
+from linkforge_compile.compare.numbers import ANGLE, BARE, describe_change, describe_distance, describe_number
+from linkforge_compile.compare.words import to_plain
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.models.link import InertiaTensor
 
@@ -17,29 +17,29 @@ _ENTRIES = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 def pose_differences(
     path: tuple[str, ...], before: Transform, after: Transform, tolerance: float
 ) -> Iterator[Difference]:
-    """Yield by how far a pose moved and turned, if by more than the tolerance [m], [rad]."""
-    shift = [after_ - before_ for before_, after_ in zip(before.xyz, after.xyz, strict=True)]
-    distance, angle = math.hypot(*shift), angle_between(before.rpy, after.rpy)
-    told = []
+    """Yield how far a pose moved [m] and turned [rad], if by more than the tolerance."""
+    shift = [new - old for old, new in zip(before.xyz, after.xyz, strict=True)]
+    distance, angle = math.hypot(*shift), _angle_between(before.rpy, after.rpy)
+    words = []
     if distance > tolerance:
         along = [
-            f"{axis} {'+' if by > 0 else '-'}{distance_told(abs(by))}"
+            f"{axis} {'+' if by > 0 else '-'}{describe_distance(abs(by))}"
             for axis, by in zip("xyz", shift, strict=True)
             if abs(by) > tolerance
         ]
-        told.append(f"moved by {distance_told(distance)}" + (f" ({', '.join(along)})" if along else ""))
+        words.append(f"moved by {describe_distance(distance)}" + (f" ({', '.join(along)})" if along else ""))
     if angle > tolerance:
-        told.append(f"turned by {number_told(angle, ANGLE, 4)}")
-    if told:
-        yield Difference(Kind.CHANGED, path, _pose(before), _pose(after), ", ".join(told))
+        words.append(f"turned by {describe_number(angle, ANGLE, 4)}")
+    if words:
+        yield Difference(Kind.CHANGED, path, _plain_pose(before), _plain_pose(after), ", ".join(words))
 
 
-def _pose(pose: Transform) -> dict[str, Plain]:
-    return {"xyz": plain(pose.xyz), "rpy": plain(pose.rpy)}
+def _plain_pose(pose: Transform) -> dict[str, Plain]:
+    return {"xyz": to_plain(pose.xyz), "rpy": to_plain(pose.rpy)}
 
 
-def angle_between(before: Vector3, after: Vector3) -> float:
-    """Return the angle of the rotation from one orientation to another, each given as rpy [rad]."""
+def _angle_between(before: Vector3, after: Vector3) -> float:
+    """Return the angle of the rotation between two orientations, given as rpy [rad]."""
     if before == after:
         return 0.0
     w, x, y, z = _quaternion(before)
@@ -52,7 +52,7 @@ def angle_between(before: Vector3, after: Vector3) -> float:
 
 
 def _quaternion(rpy: Vector3) -> tuple[float, float, float, float]:
-    """Return (w, x, y, z) of rotations about the fixed axes x, then y, then z."""
+    """Return (w, x, y, z) for rotations about the fixed axes x, y, z, in this order."""
     (cr, sr), (cp, sp), (cy, sy) = ((math.cos(angle / 2), math.sin(angle / 2)) for angle in rpy)
     return (
         cr * cp * cy + sr * sp * sy,
@@ -65,14 +65,14 @@ def _quaternion(rpy: Vector3) -> tuple[float, float, float, float]:
 def tensor_differences(
     path: tuple[str, ...], before: InertiaTensor, after: InertiaTensor, tolerance: float
 ) -> Iterator[Difference]:
-    """Yield which entries of a tensor differ by more than the tolerance, as a share of the tensor's largest one."""
+    """Yield the entries of a tensor that differ by more than the tolerance, relative to its largest entry."""
     pairs = {name: (getattr(before, name), getattr(after, name)) for name in _ENTRIES}
     largest = max(abs(entry) for pair in pairs.values() for entry in pair)
     changed = {name: pair for name, pair in pairs.items() if abs(pair[1] - pair[0]) > tolerance * largest}
     if changed:
-        told = ", ".join(f"{name} {change_told(*pair, Measure())}" for name, pair in changed.items())
-        yield Difference(Kind.CHANGED, path, _tensor(before), _tensor(after), f"{told} kg*m^2")
+        words = ", ".join(f"{name} {describe_change(*pair, BARE)}" for name, pair in changed.items())
+        yield Difference(Kind.CHANGED, path, _plain_tensor(before), _plain_tensor(after), f"{words} kg*m^2")
 
 
-def _tensor(tensor: InertiaTensor) -> dict[str, Plain]:
+def _plain_tensor(tensor: InertiaTensor) -> dict[str, Plain]:
     return {name: getattr(tensor, name) for name in _ENTRIES}

@@ -1,116 +1,160 @@
-"""Links, joints and states that are there under another name, and a robot with its references under the new one."""
+"""Find links, joints and states that have another name, and public names that a newer robot lacks."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
-from enum import Enum, auto
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.compare.likeness import likeness
-from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
-from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.compare.fields import match_key, specs_of
+from linkforge_compile.core.fields import Name, Reference, Spec
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import Joint, JointMimic
 from linkforge_compile.core.models.link import Collision, Link, Visual
-from linkforge_compile.core.models.planning import (
-    Chain,
-    EndEffector,
-    GroupState,
-    JointProperty,
-    PassiveJoint,
-    PlanningGroup,
-    VirtualJoint,
-)
+from linkforge_compile.core.models.planning import GroupState
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
-from linkforge_compile.core.models.sensor import Sensor
-from linkforge_compile.core.models.srdf import SemanticRobotDescription
-from linkforge_compile.core.models.transmission import TransmissionJoint
-from linkforge_compile.core.part import Inside
 
 
 class Renames(NamedTuple):
-    """The new names of links and joints by the old ones, and those of states by group and old name."""
+    """The new names of links and joints by the old ones, and of states by group and old name."""
 
     links: Mapping[str, str]
     joints: Mapping[str, str]
     states: Mapping[tuple[str, str], str] = {}
 
 
-def find_renames(before: Robot, after: Robot) -> Renames:
-    """Return what is surely the same under another name.
+class RemovedName(NamedTuple):
+    """A public name that a newer robot lacks; `now` is the new name of the same part, None if there is none."""
 
-    A link is where exactly one that is new hangs by the same joint on the same link (or that one's new name) and has
-    the same body, and no other that is gone has a claim to it; a root where also the same joints hang on it. A joint
-    is where it joins the same links in the same way. A state is where exactly one that is new has the same positions in
-    the same group.
+    kind: str
+    name: str
+    now: str | None
+
+
+class _PublicName(NamedTuple):
+    """A name that launch files, controllers and programs may use; `kind` is what it names."""
+
+    kind: str
+    name: str
+
+
+def removed_public_names(before: Robot, after: Robot, *, semantic: bool = True) -> tuple[RemovedName, ...]:
+    """Return the public names of a robot that a newer one lacks, in the order of the robot before.
+
+    Public are the names of links, joints, sensors and their topics, of hardware and its interfaces and, if
+    `semantic`, of groups, their states and end effectors.
     """
-    links = _renamed_links(before, after)
+    renames = find_renames(before, after)
+    present = frozenset(_public_names(after, semantic=semantic))
+    removed = [name for name in dict.fromkeys(_public_names(before, semantic=semantic)) if name not in present]
+    return tuple(RemovedName(*name, _new_name(name, renames, present)) for name in removed)
+
+
+def _new_name(name: _PublicName, renames: Renames, present: Collection[_PublicName]) -> str | None:
+    if name.kind == "link":
+        return renames.links.get(name.name)
+    if name.kind == "group state":
+        states = {f"{group}/{was}": f"{group}/{now}" for (group, was), now in renames.states.items()}
+        return states.get(name.name)
+    if name.kind not in ("joint", "command interface", "state interface"):
+        return None
+    owner, slash, interface = name.name.rpartition("/")
+    joint = renames.joints.get(owner if slash else name.name)
+    new = _PublicName(name.kind, f"{joint}/{interface}" if slash else f"{joint}")
+    return new.name if new in present else None
+
+
+def _public_names(robot: Robot, *, semantic: bool) -> Iterator[_PublicName]:
+    yield from (_PublicName("link", link.name) for link in robot.links)
+    yield from (_PublicName("joint", joint.name) for joint in robot.joints)
+    for sensor in robot.sensors:
+        yield _PublicName("sensor", sensor.name)
+        if sensor.topic:
+            yield _PublicName("topic", sensor.topic)
+    for hardware in robot.ros2_controls:
+        yield _PublicName("hardware", hardware.name)
+        for commanded in (*hardware.joints, *hardware.gpios):
+            for interface in commanded.command_interfaces:
+                yield _PublicName("command interface", f"{commanded.name}/{interface}")
+            for interface in commanded.state_interfaces:
+                yield _PublicName("state interface", f"{commanded.name}/{interface}")
+        for read in hardware.sensors:
+            yield from (_PublicName("state interface", f"{read.name}/{one}") for one in read.state_interfaces)
+    if semantic:
+        yield from (_PublicName("group", group.name) for group in robot.semantic.groups)
+        yield from (_PublicName("group state", f"{state.group}/{state.name}") for state in robot.semantic.group_states)
+        yield from (_PublicName("end effector", end.name) for end in robot.semantic.end_effectors)
+
+
+def find_renames(before: Robot, after: Robot) -> Renames:
+    """Find the parts that are certainly the same under another name.
+
+    A link is renamed to the only new link that the same joint attaches to the same parent (or to its new name) with
+    the same body, if no other removed link matches it; a root needs the same child joints instead. A joint is renamed
+    to a new joint that connects the same links in the same way. A state is renamed to the only new state with the same
+    positions in the same group.
+    """
+    links = _find_renamed_links(before, after)
     ends = {(joint.parent, joint.child): joint for joint in after.joints if joint.name not in before.joints}
     joints = {}
     for joint in before.joints:
         other = ends.get((links.get(joint.parent, joint.parent), links.get(joint.child, joint.child)))
-        if joint.name not in after.joints and other and likeness(joint, _NAMES) == likeness(other, _NAMES):
+        if joint.name not in after.joints and other and match_key(joint, _NAMES) == match_key(other, _NAMES):
             joints[joint.name] = other.name
     renames = Renames(links, joints)
-    held = (under_new_names(state, renames) for state in before.semantic.group_states)
-    were = [state for state in held if isinstance(state, GroupState)]
-    return renames._replace(states=_renamed_states(were, after.semantic.group_states))
+    renamed = (apply_renames(state, renames) for state in before.semantic.group_states)
+    states = [state for state in renamed if isinstance(state, GroupState)]
+    return renames._replace(states=_find_renamed_states(states, after.semantic.group_states))
 
 
-def _renamed_states(before: Iterable[GroupState], after: Iterable[GroupState]) -> dict[tuple[str, str], str]:
-    gone, new = _states_alike(before, without=after), _states_alike(after, without=before)
-    renamed = ((rivals, new.get(alike, [])) for alike, rivals in gone.items())
-    return {rivals[0]: heirs[0][1] for rivals, heirs in renamed if len(rivals) == len(heirs) == 1}
+def _find_renamed_states(before: Iterable[GroupState], after: Iterable[GroupState]) -> dict[tuple[str, str], str]:
+    removed, added = _states_by_match_key(before, without=after), _states_by_match_key(after, without=before)
+    pairs = ((old, added.get(key, [])) for key, old in removed.items())
+    return {old[0]: new[0][1] for old, new in pairs if len(old) == len(new) == 1}
 
 
-def _states_alike(
+def _states_by_match_key(
     states: Iterable[GroupState], *, without: Iterable[GroupState]
 ) -> Mapping[Hashable, Sequence[tuple[str, str]]]:
-    """Return by what they are, their names aside, the groups and names of the states that the others do not have."""
+    """Return the groups and names of the states that the other robot lacks, by their match keys."""
     others = {(state.group, state.name) for state in without}
     found: dict[Hashable, list[tuple[str, str]]] = {}
     for state in states:
         if (state.group, state.name) not in others:
-            found.setdefault(likeness(state, _NAMES), []).append((state.group, state.name))
+            found.setdefault(match_key(state, _NAMES), []).append((state.group, state.name))
     return found
 
 
-_Alike: TypeAlias = dict[Hashable, list[str]]
-"""The names of links by how they hang and what their bodies are, all names in it left aside."""
+_LinksByKey: TypeAlias = dict[Hashable, list[str]]
+"""Names of links by the match key of the link and the joint above it."""
 
 
-def _renamed_links(before: Robot, after: Robot) -> dict[str, str]:
+def _find_renamed_links(before: Robot, after: Robot) -> dict[str, str]:
     renamed: dict[str, str] = {}
-    new = _by_parent(after, without=before)
-    gone = _by_parent(before, without=after)
+    added = _links_by_parent(after, without=before)
+    removed = _links_by_parent(before, without=after)
     for parent in (None, *_parents_first(before)):
-        under = renamed.get(parent, parent) if parent is not None else None
-        for alike, rivals in gone.get(parent, {}).items():
-            heirs = new.get(under, {}).get(alike, ())
-            if len(heirs) == len(rivals) == 1:
-                renamed[rivals[0]] = heirs[0]
+        new_parent = renamed.get(parent, parent) if parent is not None else None
+        for key, old in removed.get(parent, {}).items():
+            new = added.get(new_parent, {}).get(key, ())
+            if len(new) == len(old) == 1:
+                renamed[old[0]] = new[0]
     return renamed
 
 
-def _by_parent(robot: Robot, *, without: Robot) -> dict[str | None, _Alike]:
-    """Return the links that the other robot does not have, by the names of their parents; None for roots."""
-    found: dict[str | None, _Alike] = {}
+def _links_by_parent(robot: Robot, *, without: Robot) -> dict[str | None, _LinksByKey]:
+    """Return the links that the other robot lacks, by the names of their parents; None for roots."""
+    found: dict[str | None, _LinksByKey] = {}
     for link in robot.links:
         if link.name not in without.links:
             joint = robot.get_parent_joint(link.name)
-            alike = likeness((joint or _hanging(robot, link), link), _NAMES)
-            found.setdefault(joint.parent if joint else None, {}).setdefault(alike, []).append(link.name)
+            key = match_key((joint or tuple(robot.get_child_joints(link.name)), link), _NAMES)
+            found.setdefault(joint.parent if joint else None, {}).setdefault(key, []).append(link.name)
     return found
 
 
-def _hanging(robot: Robot, root: Link) -> Sequence[Joint]:
-    return tuple(robot.get_child_joints(root.name))
-
-
 def _parents_first(robot: Robot) -> Iterator[str]:
-    """Yield the links from the roots down, without those of a cycle that no root leads to."""
+    """Yield the links from the roots down, without cycles that no root leads to."""
     above = parent_joints(robot.joints)
     roots = [link.name for link in robot.links if link.name not in above]
     yield from roots
@@ -125,76 +169,53 @@ _NAMES: Mapping[type, Collection[str]] = {
     Collision: ("name",),
     GroupState: ("name",),
 }
-"""The fields of links, joints and states that say not what these do, but what they and others are called."""
+"""Fields of links, joints and states to ignore when looking for the same part under another name."""
 
 
-class _Names(Enum):
-    """Whose names a field holds."""
-
-    LINKS = auto()
-    JOINTS = auto()
-    BOTH = auto()
-
-
-_LINKS, _JOINTS, _BOTH = _Names
-
-REFERENCES: Mapping[type, Mapping[str, _Names]] = {
-    Link: {"name": _LINKS},
-    Joint: {"name": _JOINTS, "parent": _LINKS, "child": _LINKS},
-    JointMimic: {"joint": _JOINTS},
-    GazeboElement: {"reference": _BOTH},
-    Sensor: {"link_name": _LINKS, "frame": _LINKS},
-    TransmissionJoint: {"name": _JOINTS},
-    Ros2ControlJoint: {"name": _JOINTS},
-    VirtualJoint: {"child_link": _LINKS},
-    PlanningGroup: {"links": _LINKS, "joints": _JOINTS},
-    Chain: {"base_link": _LINKS, "tip_link": _LINKS},
-    GroupState: {"joint_values": _JOINTS},
-    EndEffector: {"parent_link": _LINKS},
-    PassiveJoint: {"name": _JOINTS},
-    CollisionPair: {"link1": _LINKS, "link2": _LINKS},
-    LinkSphereApproximation: {"link": _LINKS},
-    JointProperty: {"joint_name": _JOINTS},
-    SemanticRobotDescription: {"no_default_collision_links": _LINKS},
-    Inside: {"name": _BOTH},
-}
-"""The fields that hold names of links and joints."""
-
-
-def under_new_names(value: object, renames: Renames) -> object:
-    """Return a value in which every name of a renamed link or joint is the new one."""
+def apply_renames(value: object, renames: Renames) -> object:
+    """Return a value in which every renamed link, joint and state has its new name."""
     if not any(renames):
         return value
     if isinstance(value, tuple):
-        return tuple(under_new_names(one, renames) for one in value)
+        return tuple(apply_renames(item, renames) for item in value)
     if not is_dataclass(value) or isinstance(value, type):
         return value
-    references = REFERENCES.get(type(value), {})
+    specs = specs_of(type(value))
     changes: dict[str, object] = {}
     for field in fields(value):
-        held: object = getattr(value, field.name)
-        names = references.get(field.name)
-        new = under_new_names(held, renames) if names is None else _renamed(held, _table(names, renames))
-        if new is not held and new != held:
+        old: object = getattr(value, field.name)
+        new_names = _new_names(type(value), specs.get(field.name), renames)
+        new = apply_renames(old, renames) if new_names is None else _rename(old, new_names)
+        if new is not old and new != old:
             changes[field.name] = new
     if isinstance(value, GroupState) and (name := renames.states.get((value.group, value.name))):
         changes["name"] = name
     return replace(value, **changes) if changes else value
 
 
-def _table(names: _Names, renames: Renames) -> Mapping[str, str]:
-    if names is _BOTH:
-        return {**renames.joints, **renames.links}
-    return renames.links if names is _LINKS else renames.joints
+def _new_names(kind: type, spec: Spec | None, renames: Renames) -> Mapping[str, str] | None:
+    """Return the new names for a field of a class; None for a field without names of links or joints."""
+    match spec:
+        case Reference(to="link" | "frame"):
+            return renames.links
+        case Reference(to="joint"):
+            return renames.joints
+        case Reference(to="part"):
+            return {**renames.joints, **renames.links}
+        case Name() if kind is Link:
+            return renames.links
+        case Name() if kind is Joint:
+            return renames.joints
+    return None
 
 
-def _renamed(held: object, new_names: Mapping[str, str]) -> object:
-    """Return a name, names, or a mapping by names with the new ones."""
-    match held:
+def _rename(value: object, new_names: Mapping[str, str]) -> object:
+    """Return a name, a tuple of names or a mapping by names with the new names."""
+    match value:
         case str():
-            return new_names.get(held, held)
+            return new_names.get(value, value)
         case tuple():
-            return tuple(_renamed(name, new_names) for name in held)
+            return tuple(_rename(name, new_names) for name in value)
         case Mapping():
-            return {new_names.get(name, name): value for name, value in held.items()}
-    return held
+            return {new_names.get(name, name): item for name, item in value.items()}
+    return value

@@ -1,4 +1,4 @@
-"""Two robots compared, section by section."""
+"""Compare two robots, section by section."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from linkforge_compile.compare.difference import Difference, Kind
-from linkforge_compile.compare.renames import Renames, find_renames, under_new_names
-from linkforge_compile.compare.said import key_of_field, said_fields, said_value
-from linkforge_compile.compare.walk import TOLERANCE, How, stated_differences, walk
+from linkforge_compile.compare.fields import compared_fields, compared_value, key_of_field
+from linkforge_compile.compare.renames import Renames, apply_renames, find_renames
+from linkforge_compile.compare.walk import TOLERANCE, CompareContext, stated_differences, walk
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 
@@ -16,26 +16,28 @@ from linkforge_compile.core.models.robot import Robot
 def compare(
     before: Robot, after: Robot, *, tolerance: float = TOLERANCE, semantic: bool = True
 ) -> tuple[Difference, ...]:
-    """Return what differs between two robots, in the order of the robot after.
+    """Return the differences between two robots, in the order of the robot after.
 
-    The order of what has a name is no difference. `tolerance` is what poses may differ by [m], [rad], and other
-    numbers as a share. Without `semantic`, that part is left out.
+    The order of named parts is not compared. `tolerance` is absolute for poses [m], [rad], and relative for other
+    numbers. The semantic part is compared only if `semantic`.
     """
     renames = find_renames(before, after)
-    slid, slides = (
+    were_prismatic, are_prismatic = (
         {joint.name for joint in robot.joints if joint.type is JointType.PRISMATIC} for robot in (before, after)
     )
-    slid = {renames.joints.get(name, name) for name in slid}
-    how = How(tolerance, (slid, slides), (before.materials, after.materials))
-    return tuple(_sections(before, after, renames, how, semantic=semantic))
+    were_prismatic = {renames.joints.get(name, name) for name in were_prismatic}
+    context = CompareContext(tolerance, (were_prismatic, are_prismatic), (before.materials, after.materials))
+    return tuple(_compare_sections(before, after, renames, context, semantic=semantic))
 
 
-def _sections(before: Robot, after: Robot, renames: Renames, how: How, *, semantic: bool) -> Iterator[Difference]:
-    for field in said_fields(after):
+def _compare_sections(
+    before: Robot, after: Robot, renames: Renames, context: CompareContext, *, semantic: bool
+) -> Iterator[Difference]:
+    for field in compared_fields(after):
         if field == "semantic" and not semantic:
             continue
         if field in {"links", "joints"}:
-            yield from _renamed(field, renames.links if field == "links" else renames.joints)
+            yield from _renamed_parts(field, renames.links if field == "links" else renames.joints)
         if field == "links":
             yield from _moved_links(before, after, renames)
         if field == "semantic":
@@ -43,43 +45,40 @@ def _sections(before: Robot, after: Robot, renames: Renames, how: How, *, semant
                 path = ("semantic", "group_states", f"{group}/{now}")
                 yield Difference(Kind.RENAMED, path, was, now, f"was '{was}'")
         old, new = _section(before, field, renames), _section(after, field, Renames({}, {}))
-        yield from walk((key_of_field(field),), old, new, how.about_field(field))
+        yield from walk((key_of_field(Robot, field),), old, new, context.for_section(field))
         if field == "version":
-            yield from stated_differences((), before, after, how)
+            yield from stated_differences((), before, after, context)
 
 
 def _section(robot: Robot, field: str, renames: Renames) -> object:
     if field == "semantic":
-        said = robot.semantic
-        # It bears the robot's name, which is told once.
-        nameless = replace(said, robot_name="") if said.robot_name == robot.name else said
-        return under_new_names(nameless, renames)
-    held = said_value(robot, field)
-    return under_new_names(tuple(held), renames) if isinstance(held, tuple) else held
+        semantic = robot.semantic
+        # It repeats the robot's name, whose change is reported once.
+        is_repeated = semantic.robot_name == robot.name
+        return apply_renames(replace(semantic, robot_name="") if is_repeated else semantic, renames)
+    section = compared_value(robot, field)
+    return apply_renames(tuple(section), renames) if isinstance(section, tuple) else section
 
 
-def _renamed(section: str, names: Mapping[str, str]) -> Iterator[Difference]:
+def _renamed_parts(section: str, names: Mapping[str, str]) -> Iterator[Difference]:
     for old, new in names.items():
         yield Difference(Kind.RENAMED, (section, new), old, new, f"was '{old}'")
 
 
 def _moved_links(before: Robot, after: Robot, renames: Renames) -> Iterator[Difference]:
-    """Yield the links that hang on another link by another joint; where the joint is the same, it tells that itself."""
+    """Yield the links with another parent by another joint; the same joint reports its new parent itself."""
     old_names = {new: old for old, new in renames.links.items()}
     for link in after.links:
         if (old := old_names.get(link.name, link.name)) not in before.links:
             continue
         was, now = before.get_parent_joint(old), after.get_parent_joint(link.name)
         parent, other = renames.links.get(was.parent, was.parent) if was else None, now.parent if now else None
-        is_told = was and now and renames.joints.get(was.name, was.name) == now.name
-        if parent != other and not is_told:
-            text = f"hangs on {_place(other)}, was on {_place(parent)}" if was and now else _uprooted(parent, other)
-            yield Difference(Kind.MOVED, ("links", link.name), parent, other, text)
+        is_same_joint = was and now and renames.joints.get(was.name, was.name) == now.name
+        if parent != other and not is_same_joint:
+            yield Difference(Kind.MOVED, ("links", link.name), parent, other, _describe_move(parent, other))
 
 
-def _place(parent: str | None) -> str:
-    return f"'{parent}'"
-
-
-def _uprooted(before: str | None, after: str | None) -> str:
-    return f"hangs on '{after}', was the root" if before is None else f"is the root, was on '{before}'"
+def _describe_move(before: str | None, after: str | None) -> str:
+    if before is None:
+        return f"hangs on '{after}', was the root"
+    return f"is the root, was on '{before}'" if after is None else f"hangs on '{after}', was on '{before}'"

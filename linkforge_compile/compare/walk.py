@@ -1,4 +1,4 @@
-"""Two values of the same place, walked down to what differs: every field that a part has, so that none is forgotten."""
+"""Compare two values of the same place, field by field, down to the numbers and texts that differ."""
 
 from __future__ import annotations
 
@@ -6,14 +6,21 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.compare.difference import Difference, Kind
-from linkforge_compile.compare.measures import BARE, Measure, change_told, is_near, measure_of, position_measure
+from linkforge_compile.compare.fields import RawElement, compared_fields, compared_value, is_part, key_of_field
+from linkforge_compile.compare.numbers import (
+    BARE,
+    Measure,
+    describe_change,
+    is_near,
+    measure_of,
+    position_measure,
+    spell_same_numbers,
+    xml_number,
+)
 from linkforge_compile.compare.orders import order_differences
-from linkforge_compile.compare.pairing import key_of, paired
+from linkforge_compile.compare.pairing import key_of_member, pair_members
 from linkforge_compile.compare.poses import pose_differences, tensor_differences
-from linkforge_compile.compare.raw_parts import RawElement, by_tag
-from linkforge_compile.compare.said import is_part, key_of_field, said_fields, said_value
-from linkforge_compile.compare.words import as_json, plain, shortened, texts_told, told
-from linkforge_compile.compare.xml_numbers import number_in, say_the_same
+from linkforge_compile.compare.words import describe, describe_texts, shorten, to_json, to_plain
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.models.interface import Interface
@@ -32,212 +39,239 @@ from linkforge_compile.core.models.sensor import SensorNoise
 from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
 
 TOLERANCE = 1e-6
-"""Below which a difference is not told, unless said: of poses in metres and radians, of other numbers as a share."""
+"""Default tolerance: in metres and radians for poses, relative for other numbers."""
 
 _DIGITS = (6, 9, 13, 17)
-"""How many of a number are shown, the more the less it changed."""
+"""Significant digits to try until two numbers look different."""
 
-_LONGEST_STATE = 200
-"""Characters of the positions of a state that come or go as a whole."""
+_MAX_STATE = 200
+"""Characters shown of a group state that was added or removed."""
 
-_IN_XML = frozenset({"parameters", "properties", "extra_attributes", "extra_elements"})
-"""The fields whose texts are those of an author's XML."""
+_XML_FIELDS = frozenset({"parameters", "properties", "extra_attributes", "extra_elements"})
+"""Fields whose texts an author wrote as XML."""
 
-_OF_STRANGERS = (GazeboPlugin, Ros2Control, Ros2ControlJoint, Ros2ControlGpio, Ros2ControlSensor)
-"""Parts whose parameters a plugin reads as it likes: to its driver, firmware 1.10 is another one than 1.1."""
+_WITH_PLUGIN_PARAMETERS = (GazeboPlugin, Ros2Control, Ros2ControlJoint, Ros2ControlGpio, Ros2ControlSensor)
+"""Parts whose `parameters` a plugin reads as text: to a driver, firmware 1.10 is not 1.1."""
 
 Path: TypeAlias = tuple[str, ...]
 
 
-class How(NamedTuple):
-    """What a place inherits from those around it.
+class CompareContext(NamedTuple):
+    """What the comparison of a value depends on.
 
-    Of each pair, one is of the robot before and one of that after: `sliding` are the names of the prismatic joints,
-    `slides` whether the values at hand are about one of them, `measures` what these measure, `palettes` the materials
-    that the robots declare, whose differences are told at their declaration. `in_xml` is whether texts are those of an
-    author's XML, in which numbers are spelt in many ways; `as_spelt` whether each spelling is another text.
+    Each pair is for the robot before and the robot after: `prismatic_joints` their names, `slides` whether the value
+    is about one of them, `measures` what the value measures, `palettes` the materials that the robots declare.
+    In an author's XML, `in_xml`, numbers have several spellings, unless each is another text, `as_spelt`.
     """
 
     tolerance: float = TOLERANCE
-    sliding: tuple[Collection[str], Collection[str]] = ((), ())
+    prismatic_joints: tuple[Collection[str], Collection[str]] = ((), ())
     palettes: tuple[Mapping[str, Material], Mapping[str, Material]] = ({}, {})
     slides: tuple[bool, bool] = (False, False)
     measures: tuple[Measure, Measure] = (BARE, BARE)
     in_xml: bool = False
     as_spelt: bool = False
 
-    def told(self, before: object, after: object) -> tuple[str, str]:
-        """Return two different values at hand in a few words each, with as much as shows that they differ."""
+    def describe(self, before: object, after: object) -> tuple[str, str]:
+        """Return two different values in a few words each, with enough digits to show the difference."""
         if type(before) is str and type(after) is str:
-            return texts_told(before, after)
+            return describe_texts(before, after)
         if isinstance(before or after, GroupState):
-            return self._state_told(before, self.sliding[0]), self._state_told(after, self.sliding[1])
+            prismatic_before, prismatic_after = self.prismatic_joints
+            return _describe_state(before, prismatic_before), _describe_state(after, prismatic_after)
         both = tuple(zip((before, after), self.measures, self.slides, strict=True))
         for digits in _DIGITS:
-            one, other = (told(value, measure, slides=slides, digits=digits) for value, measure, slides in both)
+            one, other = (describe(value, measure, slides=slides, digits=digits) for value, measure, slides in both)
             if one != other:
                 return one, other
-        return as_json(before), as_json(after)
+        return to_json(before), to_json(after)
 
-    def _state_told(self, state: object, sliding: Collection[str]) -> str:
-        if not isinstance(state, GroupState):
-            return told(state)
-        positions = (
-            f"{joint} {told(values, position_measure(slides=joint in sliding))}"
-            for joint, values in state.joint_values.items()
-        )
-        return shortened(", ".join(positions), _LONGEST_STATE) or told(state)
-
-    def about_joint(self, name: str) -> How:
-        """Return the same for values about the joint of a name."""
-        before, after = (name in sliding for sliding in self.sliding)
+    def for_joint(self, name: str) -> CompareContext:
+        """Return the context of values about a joint."""
+        before, after = (name in joints for joints in self.prismatic_joints)
         return self._replace(slides=(before, after))
 
-    def about_field(self, field: str) -> How:
-        """Return the same for what is in a field."""
-        return self._replace(in_xml=True) if field in _IN_XML else self
+    def for_section(self, field: str) -> CompareContext:
+        """Return the context of a field whose numbers have no unit."""
+        return self._replace(in_xml=True) if field in _XML_FIELDS else self
 
-    def about_tag(self, tag: str) -> How:
-        """Return the same for what is in an element of an author's XML."""
+    def for_field(self, part: object, field: str) -> CompareContext:
+        """Return the context of a field of a part."""
+        before, after = (measure_of(type(part), field, slides=slides) for slides in self.slides)
+        as_spelt = self.as_spelt or (field == "parameters" and isinstance(part, _WITH_PLUGIN_PARAMETERS))
+        return self.for_section(field)._replace(measures=(before, after), as_spelt=as_spelt)
+
+    def for_tag(self, tag: str) -> CompareContext:
+        """Return the context of what is in an element of an author's XML."""
         return self._replace(as_spelt=True) if tag == "plugin" else self
 
 
-def walk(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
-    """Yield what differs between the values at a path."""
+def _describe_state(state: object, prismatic: Collection[str]) -> str:
+    if not isinstance(state, GroupState):
+        return describe(state)
+    positions = (
+        f"{joint} {describe(values, position_measure(slides=joint in prismatic))}"
+        for joint, values in state.joint_values.items()
+    )
+    return shorten(", ".join(positions), _MAX_STATE) or describe(state)
+
+
+def walk(path: Path, before: object, after: object, context: CompareContext) -> Iterator[Difference]:
+    """Yield the differences between two values at a path."""
     match before, after:
         case (bool(), _) | (_, bool()):
-            yield from _leaf(path, before, after, how)
+            yield from _compare_leaves(path, before, after, context)
         case (int() | float(), int() | float()):
-            if not is_near(before, after, how.tolerance):
-                yield Difference(Kind.CHANGED, path, before, after, _number_told(before, after, how))
+            if not is_near(before, after, context.tolerance):
+                text = _describe_numbers(before, after, context)
+                yield Difference(Kind.CHANGED, path, before, after, text)
         case (Transform(), Transform()):
-            yield from pose_differences(path, before, after, how.tolerance)
-            yield from _fields(path, before, after, how, ("xyz", "rpy"))
+            yield from pose_differences(path, before, after, context.tolerance)
+            yield from _compare_fields(path, before, after, context, ("xyz", "rpy"))
         case (InertiaTensor(), InertiaTensor()):
-            yield from tensor_differences(path, before, after, how.tolerance)
-            yield from _fields(path, before, after, how, ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
+            yield from tensor_differences(path, before, after, context.tolerance)
+            yield from _compare_fields(path, before, after, context, ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
         case (Vector3() | Color(), Vector3() | Color()):
-            yield from _vectors(path, before, after, how)
+            yield from _compare_vectors(path, before, after, context)
         case (Interface(), Interface()):
-            yield from _fields(path, before, after, how)
+            yield from _compare_fields(path, before, after, context)
         case (Mapping(), Mapping()):
-            yield from _mappings(path, before, after, how)
+            yield from _compare_mappings(path, before, after, context)
         case (str(), _) | (_, str()):
-            yield from _leaf(path, before, after, how)
+            yield from _compare_leaves(path, before, after, context)
         case (tuple() | list(), tuple() | list()):
-            yield from _members(path, before, after, how)
+            yield from _compare_members(path, before, after, context)
         case _ if type(before) is type(after) and is_part(before):
-            yield from _part(path, before, after, how)
+            yield from _compare_parts(path, before, after, context)
         case _:
-            yield from _leaf(path, before, after, how)
+            yield from _compare_leaves(path, before, after, context)
 
 
-def _leaf(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
+def _compare_leaves(path: Path, before: object, after: object, context: CompareContext) -> Iterator[Difference]:
     if before == after and isinstance(before, bool) == isinstance(after, bool):
         return
-    if _is_other_spelling(before, after, how):
+    if _is_same_in_xml(before, after, context):
         return
-    was, now = how.told(before, after)
-    kind, text = Kind.CHANGED, _numbers_in_xml_told(before, after, how) or f"{was} → {now}"
+    was, now = context.describe(before, after)
+    kind, text = Kind.CHANGED, _describe_xml_numbers(before, after, context) or f"{was} → {now}"
     if before is None:
         kind, text = Kind.ADDED, now
     elif after is None:
         kind, text = Kind.REMOVED, was
     elif path[0] == "joints" and path[2:] == ("parent",):
         kind = Kind.MOVED
-    yield Difference(kind, path, plain(before), plain(after), text)
+    yield Difference(kind, path, to_plain(before), to_plain(after), text)
 
 
-def _is_other_spelling(before: object, after: object, how: How) -> bool:
-    if not how.in_xml or how.as_spelt or not isinstance(before, str) or not isinstance(after, str):
+def _is_same_in_xml(before: object, after: object, context: CompareContext) -> bool:
+    if not context.in_xml or context.as_spelt or not isinstance(before, str) or not isinstance(after, str):
         return False
-    return say_the_same(before, after, how.tolerance)
+    return spell_same_numbers(before, after, context.tolerance)
 
 
-def _numbers_in_xml_told(before: object, after: object, how: How) -> str:
-    """Return how a number that is a text in XML changed, "" for what is none or the same number, spelt otherwise."""
-    numbers = [number_in(text) for text in (before, after) if how.in_xml and isinstance(text, str)]
+def _describe_xml_numbers(before: object, after: object, context: CompareContext) -> str:
+    """Return the change between two different numbers that are texts in XML; empty for other texts."""
+    numbers = [xml_number(text) for text in (before, after) if context.in_xml and isinstance(text, str)]
     match numbers:
         case [float() as one, float() as other] if one != other:
-            return change_told(one, other, BARE)
+            return describe_change(one, other, BARE)
     return ""
 
 
-def _elements(path: Path, before: RawElement, after: RawElement, how: How) -> Iterator[Difference]:
-    """Yield what differs in an element of raw XML; those of one tag have an order, which others need not keep."""
-    how = how.about_tag(after.tag)
-    yield from _mappings(path, before.attributes, after.attributes, how)
+def _describe_numbers(before: float, after: float, context: CompareContext) -> str:
+    was, now = context.measures
+    # Between an angle and a length there is no meaningful difference.
+    return describe_change(before, after, now) if was == now else " → ".join(context.describe(before, after))
+
+
+def _compare_raw_elements(
+    path: Path, before: RawElement, after: RawElement, context: CompareContext
+) -> Iterator[Difference]:
+    """Yield the differences in an element of raw XML; only the order of elements of the same tag matters."""
+    context = context.for_tag(after.tag)
+    yield from _compare_mappings(path, before.attributes, after.attributes, context)
     if len(before.texts) == len(after.texts):
         for one, other in zip(before.texts, after.texts, strict=True):
-            yield from _leaf(path, one, other, how)
+            yield from _compare_leaves(path, one, other, context)
     else:
-        yield from _leaf(path, before.texts, after.texts, how)
-    were, are = by_tag(before.inside), by_tag(after.inside)
+        yield from _compare_leaves(path, before.texts, after.texts, context)
+    were, are = _group_by_tag(before.children), _group_by_tag(after.children)
     for tag in dict.fromkeys((*are, *were)):
-        yield from _of_one_tag(path, were.get(tag, ()), are.get(tag, ()), how)
+        yield from _compare_same_tag(path, were.get(tag, ()), are.get(tag, ()), context)
 
 
-def _of_one_tag(
-    path: Path, before: Sequence[RawElement], after: Sequence[RawElement], how: How
+def _group_by_tag(elements: Sequence[RawElement]) -> Mapping[str, Sequence[RawElement]]:
+    found: dict[str, list[RawElement]] = {}
+    for element in elements:
+        found.setdefault(element.tag, []).append(element)
+    return found
+
+
+def _compare_same_tag(
+    path: Path, before: Sequence[RawElement], after: Sequence[RawElement], context: CompareContext
 ) -> Iterator[Difference]:
-    """Yield what differs in the elements of one tag: by their names where each of several has one, else in order."""
+    """Yield the differences in the elements of one tag, paired by their names if all have one, else by order."""
     has_names = len(after) > 1 and all(one.name for one in (*before, *after))
     if len(before) != len(after) or has_names:
-        yield from _members(path, before, after, how)
+        yield from _compare_members(path, before, after, context)
         return
-    for place, (one, other) in enumerate(zip(before, after, strict=True)):
-        key = key_of(other) if key_of(one) == key_of(other) else other.tag
-        yield from walk((*path, key, *([str(place)] if len(after) > 1 and key == other.tag else [])), one, other, how)
+    for index, (one, other) in enumerate(zip(before, after, strict=True)):
+        key = key_of_member(other) if key_of_member(one) == key_of_member(other) else other.tag
+        suffix = [str(index)] if len(after) > 1 and key == other.tag else []
+        yield from walk((*path, key, *suffix), one, other, context)
 
 
-def _part(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
+def _compare_parts(path: Path, before: object, after: object, context: CompareContext) -> Iterator[Difference]:
     match before, after:
         case (Joint(), Joint()):
-            how = how._replace(slides=(before.type is JointType.PRISMATIC, after.type is JointType.PRISMATIC))
+            slides = before.type is JointType.PRISMATIC, after.type is JointType.PRISMATIC
+            context = context._replace(slides=slides)
         case (TransmissionJoint(), TransmissionJoint()):
-            how = how.about_joint(after.name)
-        case (Material(), Material()) if path[0] != "materials" and _is_declared(before, after, how):
-            return
+            context = context.for_joint(after.name)
+        case (Material(), Material()) if path[0] != "materials" and _is_declared(before, after, context):
+            return  # reported at the declaration
         case (RawElement(), RawElement()):
-            yield from _elements(path, before, after, how)
+            yield from _compare_raw_elements(path, before, after, context)
             return
         case (GroupState(), GroupState()):
-            yield from _positions(path, before, after, how)
-            yield from _fields(path, before, after, how, ("joint_values",))
+            yield from _compare_positions(path, before, after, context)
+            yield from _compare_fields(path, before, after, context, ("joint_values",))
             return
     yield from order_differences(path, before, after)
-    yield from _fields(path, before, after, how)
+    yield from _compare_fields(path, before, after, context)
 
 
-def _is_declared(before: Material, after: Material, how: How) -> bool:
-    declared = tuple(palette.get(before.name) for palette in how.palettes)
+def _is_declared(before: Material, after: Material, context: CompareContext) -> bool:
+    declared = tuple(palette.get(before.name) for palette in context.palettes)
     return before.name == after.name and declared == (before, after)
 
 
-def _fields(path: Path, before: object, after: object, how: How, without: tuple[str, ...] = ()) -> Iterator[Difference]:
-    for name in said_fields(before):
+def _compare_fields(
+    path: Path, before: object, after: object, context: CompareContext, without: tuple[str, ...] = ()
+) -> Iterator[Difference]:
+    for name in compared_fields(before):
         if name in without:
             continue
-        here = _about_field(how, before, name)
-        old, new = said_value(before, name), said_value(after, name)
-        yield from walk((*path, _key(name, old, new)), old, new, here)
-    yield from stated_differences(path, before, after, how)
+        old, new = compared_value(before, name), compared_value(after, name)
+        # A shape stands under its own tag, unless that has changed.
+        is_same_shape = name == "geometry" and type(old) is type(new)
+        key = str(getattr(old, "type", name)) if is_same_shape else key_of_field(type(before), name)
+        yield from walk((*path, key), old, new, context.for_field(before, name))
+    yield from stated_differences(path, before, after, context)
 
 
-def stated_differences(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
-    """Yield the fields that one of two parts states while the other leaves it at that, their default."""
-    were, are = _stated(before), _stated(after)
+def stated_differences(path: Path, before: object, after: object, context: CompareContext) -> Iterator[Difference]:
+    """Yield the fields with default values that only one of two parts writes out."""
+    were, are = _stated_fields(before), _stated_fields(after)
     for name in dict.fromkeys((*are, *were)):
         old, new = getattr(before, name, None), getattr(after, name, None)
         if (name in were) != (name in are) and old == new:
-            here = (*path, key_of_field(name))
-            yield from walk(
-                here, old if name in were else None, new if name in are else None, _about_field(how, before, name)
-            )
+            here, about_field = (*path, key_of_field(type(before), name)), context.for_field(before, name)
+            yield from walk(here, old if name in were else None, new if name in are else None, about_field)
 
 
-def _stated(part: object) -> tuple[str, ...]:
-    """Return the fields that are written although they have their default, and may be others that are written."""
+def _stated_fields(part: object) -> tuple[str, ...]:
+    """Return the fields that a part writes out although they have their default, and perhaps other written ones."""
     match part:
         case LinkPhysics() | SensorNoise():
             return tuple(part.stated)
@@ -248,74 +282,65 @@ def _stated(part: object) -> tuple[str, ...]:
     return ()
 
 
-def _about_field(how: How, part: object, field: str) -> How:
-    before, after = (measure_of(type(part), field, slides=slides) for slides in how.slides)
-    as_spelt = how.as_spelt or (field == "parameters" and isinstance(part, _OF_STRANGERS))
-    return how.about_field(field)._replace(measures=(before, after), as_spelt=as_spelt)
-
-
-def _number_told(before: float, after: float, how: How) -> str:
-    was, now = how.measures
-    # What turned and slides now has no share of itself left.
-    return change_told(before, after, now) if was == now else " → ".join(how.told(before, after))
-
-
-def _key(field: str, before: object, after: object) -> str:
-    """Return the key of a field: of a shape, its own tag where both have the same."""
-    if field == "geometry" and type(before) is type(after):
-        return str(getattr(before, "type", field))
-    return key_of_field(field)
-
-
-def _members(path: Path, before: Sequence[object], after: Sequence[object], how: How) -> Iterator[Difference]:
-    for key, one, other in paired(before, after):
-        # A mere name, or raw XML, says at its list what it is.
-        is_word = isinstance(one or other, str) and not isinstance(one or other, Interface)
-        here = path if is_word else (*path, key)
+def _compare_members(
+    path: Path, before: Sequence[object], after: Sequence[object], context: CompareContext
+) -> Iterator[Difference]:
+    for key, one, other in pair_members(before, after):
+        # A plain name or a raw text is shown at the list itself.
+        is_text = isinstance(one or other, str) and not isinstance(one or other, Interface)
+        here = path if is_text else (*path, key)
         if one is None or other is None:
-            yield from _leaf(here, one, other, how)
+            yield from _compare_leaves(here, one, other, context)
         else:
-            yield from walk(here, one, other, how)
+            yield from walk(here, one, other, context)
 
 
-def _mappings(path: Path, before: Mapping[str, object], after: Mapping[str, object], how: How) -> Iterator[Difference]:
+def _compare_mappings(
+    path: Path, before: Mapping[str, object], after: Mapping[str, object], context: CompareContext
+) -> Iterator[Difference]:
     for name in dict.fromkeys((*after, *before)):
         here = (*path, str(name))
         if name not in before:
-            yield Difference(Kind.ADDED, here, None, plain(after[name]), told(after[name]))
+            yield Difference(Kind.ADDED, here, None, to_plain(after[name]), describe(after[name]))
         elif name not in after:
-            yield Difference(Kind.REMOVED, here, plain(before[name]), None, told(before[name]))
+            yield Difference(Kind.REMOVED, here, to_plain(before[name]), None, describe(before[name]))
         else:
-            yield from _held(here, before[name], after[name], how.about_tag(name))
+            yield from _compare_items(here, before[name], after[name], context.for_tag(name))
 
 
-def _held(path: Path, before: object, after: object, how: How) -> Iterator[Difference]:
-    """Yield what differs between two values of a mapping; the order of a list in one means something."""
+def _compare_items(path: Path, before: object, after: object, context: CompareContext) -> Iterator[Difference]:
+    """Yield the differences between two values of a mapping, where the order of a list matters."""
     match before, after:
         case (list() | tuple(), list() | tuple()) if len(before) == len(after):
-            for place, (one, other) in enumerate(zip(before, after, strict=True)):
-                yield from _held((*path, str(place)), one, other, how)
+            for index, (one, other) in enumerate(zip(before, after, strict=True)):
+                yield from _compare_items((*path, str(index)), one, other, context)
         case (list() | tuple(), _) | (_, list() | tuple()):
-            yield from _leaf(path, before, after, how)
+            yield from _compare_leaves(path, before, after, context)
         case _:
-            yield from walk(path, before, after, how)
+            yield from walk(path, before, after, context)
 
 
-def _vectors(path: Path, before: Vector3 | Color, after: Vector3 | Color, how: How) -> Iterator[Difference]:
+def _compare_vectors(
+    path: Path, before: Vector3 | Color, after: Vector3 | Color, context: CompareContext
+) -> Iterator[Difference]:
     pairs = zip(before.to_tuple(), after.to_tuple(), strict=True)
-    if not all(is_near(one, other, how.tolerance) for one, other in pairs):
-        yield Difference(Kind.CHANGED, path, plain(before), plain(after), " → ".join(how.told(before, after)))
-    yield from _fields(path, before, after, how, tuple("xyzrgba"))
+    if not all(is_near(one, other, context.tolerance) for one, other in pairs):
+        text = " → ".join(context.describe(before, after))
+        yield Difference(Kind.CHANGED, path, to_plain(before), to_plain(after), text)
+    yield from _compare_fields(path, before, after, context, tuple("xyzrgba"))
 
 
-def _positions(path: Path, before: GroupState, after: GroupState, how: How) -> Iterator[Difference]:
-    """Yield what differs in a pose of a group: the positions of its joints."""
+def _compare_positions(
+    path: Path, before: GroupState, after: GroupState, context: CompareContext
+) -> Iterator[Difference]:
+    """Yield the differences between the joint positions of two group states."""
     for joint in dict.fromkeys((*after.joint_values, *before.joint_values)):
-        before_, after_ = (position_measure(slides=slides) for slides in how.about_joint(joint).slides)
-        here = how._replace(measures=(before_, after_))
-        one, other = before.joint_values.get(joint), after.joint_values.get(joint)
-        if one is None or other is None or len(one) != len(other):
-            yield from _leaf((*path, joint), one, other, here)
+        was, now = (position_measure(slides=slides) for slides in context.for_joint(joint).slides)
+        here = context._replace(measures=(was, now))
+        old, new = before.joint_values.get(joint), after.joint_values.get(joint)
+        if old is None or new is None or len(old) != len(new):
+            yield from _compare_leaves((*path, joint), old, new, here)
         else:
-            for place, positions in enumerate(zip(one, other, strict=True)):
-                yield from walk((*path, joint, *([str(place)] if len(one) > 1 else [])), *positions, here)
+            for index, positions in enumerate(zip(old, new, strict=True)):
+                suffix = [str(index)] if len(old) > 1 else []
+                yield from walk((*path, joint, *suffix), *positions, here)

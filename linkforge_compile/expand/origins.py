@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand.values import describe
-from linkforge_compile.expressions import FAULT, Scope, Template, forgotten_expression, handed_on
+from linkforge_compile.expressions import FAULT, Scope, Template, forgotten_expression, passed_on
 from linkforge_compile.source import Key, Origin, TracedSpan
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 
@@ -147,7 +147,7 @@ def _written(node: YamlNode, tree: Evaluation | None, path: Path) -> _Written:
             node, tree, path = computed[0].scalar, computed[0].tree, (*computed[1], *path)
         elif isinstance(node, YamlScalar) and tree and has_expression(node.text):
             template = tree.template(node, Diagnostics())
-            taken = handed_on(template, tree.scope_of(node)) if template else None
+            taken = passed_on(template, tree.scope_of(node)) if template else None
             setting = tree.settings.get(taken[0]) if taken else None
             if taken is None or setting is None or setting.is_made:
                 break

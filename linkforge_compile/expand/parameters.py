@@ -33,7 +33,7 @@ from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_express
 from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
-from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
+from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS
 from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, unit_text
 
 _STEPS_PER_INSTRUCTION = 4
@@ -127,7 +127,7 @@ class Parameter:
         """Return what to write for a text that looks like a value of another type, else ""."""
         if not isinstance(value, str):
             return ""
-        if self.type.name == "boolean" and (truth := TRUTHS_OF_YAML_1_1.get(value.lower())):
+        if self.type.name == "boolean" and (truth := YAML_1_1_BOOLEANS.get(value.lower())):
             return f"; write {truth}"
         expression = forgotten_expression(value, where, names)
         return f"; write '{expression}'" if expression else ""

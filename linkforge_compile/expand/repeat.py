@@ -25,7 +25,7 @@ from linkforge_compile.schema.repetition import WORDS
 from linkforge_compile.schema.shapes import Shape
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, has_expression
-from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
+from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS
 
 Occurrence: TypeAlias = tuple[Evaluator, YamlNode]
 """A node without its `for` and `when`, and an evaluator that knows the `for` names."""
@@ -126,7 +126,7 @@ def _holds(condition: YamlNode | None, evaluator: Evaluator) -> bool | Fault:
 def _no_condition(value: Value, condition: YamlNode, evaluator: Evaluator) -> Diagnostic:
     """Return the diagnostic for a condition that is neither true nor false, with a correction if there is one."""
     place = evaluator.place(condition)
-    if isinstance(value, str) and (truth := TRUTHS_OF_YAML_1_1.get(value.lower())):
+    if isinstance(value, str) and (truth := YAML_1_1_BOOLEANS.get(value.lower())):
         return TRUTH_AS_TEXT.at(place, name=value, meant=truth)
     text = condition.text if isinstance(condition, YamlScalar) else ""
     expression = as_one_expression(text, condition.span, evaluator.scope)

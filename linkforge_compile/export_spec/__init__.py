@@ -1,11 +1,11 @@
-"""A robot written back as a spec, and how each of its values came to be."""
+"""Write a robot as a spec, and explain where its values come from."""
 
 from __future__ import annotations
 
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.computed_inertia import ComputedFrom
 from linkforge_compile.export_spec.explain import Explanation, UnknownPathError, explain
-from linkforge_compile.export_spec.pen import Pen
 from linkforge_compile.export_spec.provenance import compiled_folder, origin_of
 from linkforge_compile.export_spec.robot import spec_of
 from linkforge_compile.syntax.writer import write
@@ -13,7 +13,7 @@ from linkforge_compile.syntax.writer import write
 __all__ = [
     "ComputedFrom",
     "Explanation",
-    "Pen",
+    "SpecBuilder",
     "UnknownPathError",
     "explain",
     "spec_of",
@@ -24,16 +24,16 @@ __all__ = [
 def write_spec(robot: Robot, *, banner: str | None = None, origins: bool = False) -> str:
     """Return a robot as a flat spec; compiled, it gives an equal robot and the same URDF and SRDF (see `spec_of`).
 
-    `banner` becomes a comment at the top, None for none. With `origins`, each part of a robot that was compiled is
-    preceded by a comment that says where it was written.
+    `banner` becomes a comment at the top. With `origins`, a comment above each part of a compiled robot shows where
+    it was written.
 
     Raises:
-        RobotGeneratorError: for two parts of one name where a spec can hold only one.
+        RobotGeneratorError: for two parts with the same name where a spec can hold only one.
 
     """
-    pen = Pen()
-    tree = spec_of(robot, pen)
+    builder = SpecBuilder()
+    tree = spec_of(robot, builder)
     folder = compiled_folder(robot)
-    comments = {key: origin_of(source, folder) for key, source in pen.parts.items()} if origins else {}
+    comments = {key: origin_of(source, folder) for key, source in builder.parts.items()} if origins else {}
     heading = "".join(f"# {line}\n" for line in (banner or "").splitlines())
     return heading + write(tree, comments)

@@ -1,4 +1,4 @@
-"""What a link's inertial was computed from, where its spec says no tensor."""
+"""Find what a link's inertial was computed from, where its spec has no tensor."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from linkforge_compile.source import Span
 from linkforge_compile.source.provenance import Provenance
 from linkforge_compile.syntax import YamlMap
 
-_MADE = ("origin", "inertia")
+_COMPUTED = ("origin", "inertia")
 
 
 class Shape(NamedTuple):
-    """A shape of the link: its path there, such as `collision/0`, what it is, and where it was written."""
+    """A shape of the link: its path, such as `collision/0`, its geometry, and where it was written."""
 
     path: str
     geometry: str
@@ -24,7 +24,7 @@ class Shape(NamedTuple):
 
 
 class ComputedFrom(NamedTuple):
-    """The quantity, `mass` or `density`, where it was written, and the shapes that it is of."""
+    """The quantity, `mass` or `density`, where it was written, and the shapes that it is distributed over."""
 
     quantity: str
     place: Provenance
@@ -32,7 +32,7 @@ class ComputedFrom(NamedTuple):
 
 
 def computed_from(robot: Robot, path: Sequence[str]) -> ComputedFrom | None:
-    """Return what the value at a path of a full spec was computed from; None where it is of no computed inertial."""
+    """Return what the value at a path of a full spec was computed from; None unless it is part of such an inertial."""
     match path:
         case ("links", name, "inertial", *rest) if name in robot.links:
             link, field = robot.link(name), rest[0] if rest else None
@@ -44,8 +44,8 @@ def computed_from(robot: Robot, path: Sequence[str]) -> ComputedFrom | None:
         return None
     quantity = "mass" if node.get("mass") is not None else "density"
     spread = node.get(quantity)
-    is_made = field in {None, *_MADE} or (field == "mass" and quantity == "density")
-    if spread is None or not is_made:
+    is_computed = field in {None, *_COMPUTED} or (field == "mass" and quantity == "density")
+    if spread is None or not is_computed:
         return None
     kind = "collision" if link.collisions else "visual"
     bodies: Sequence[Visual | Collision] = link.collisions or link.visuals

@@ -1,63 +1,175 @@
-"""Elements written as their class describes them."""
+"""Write an element of a robot as an object of a spec, as the specs of its class describe it."""
 
 from __future__ import annotations
 
-from linkforge_compile.core.fields import Choice, Flag, Noise, Number, Spec, Text, field_specs
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any
+
+from linkforge_compile.core.fields import (
+    Child,
+    Children,
+    Colour,
+    Flag,
+    Name,
+    Noise,
+    Number,
+    Parameters,
+    Pose,
+    Reference,
+    Spec,
+    Vector,
+    field_specs,
+)
+from linkforge_compile.core.models.gazebo import GazeboPlugin
+from linkforge_compile.core.models.geometry import Transform, Vector3
+from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.material import Color
+from linkforge_compile.core.models.ros2_control import Ros2Control
+from linkforge_compile.core.models.sensor import Sensor
 from linkforge_compile.core.part import Element, Part
-from linkforge_compile.export_spec.pen import Pen
+from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import Dimension, FieldUnit, Motion
 
+_ZERO = Vector3(0.0, 0.0, 0.0)
 
-def written_element(
-    pen: Pen,
+_FIRST_FIELDS: Mapping[type, tuple[str, ...]] = {
+    Sensor: ("type", "link_name", "origin", "update_rate", "always_on", "visualize", "topic", "frame", "plugin"),
+    Ros2Control: ("type", "hardware_plugin", "parameters"),
+}
+"""Fields that a spec writes first, for classes whose constructors have another order."""
+
+
+def export_element(
+    builder: SpecBuilder,
     part: Element,
     motion: Motion = Motion.OTHER,
     unit: FieldUnit | None = None,
     /,
     **entries: YamlNode | None,
 ) -> YamlMap:
-    """Return the object of a part: these entries, then its fields without those that have their implied value.
+    """Return the object of an element.
 
-    `unit` is that of its numbers, where they are the noise on a value; None for the units that the class describes.
+    `entries` take the place of the fields with their keys; those with other keys follow. Numbers are in the units of
+    `motion`, or in `unit` if they are the noise on a value.
     """
-    stated: tuple[str, ...] = getattr(part, "stated", ())
-    return pen.element(part, **entries, **written_fields(pen, part, motion, unit, stated=stated))
+    return builder.element(part, **{**export_fields(builder, part, motion, unit, given=entries), **entries})
 
 
-def written_fields(
-    pen: Pen,
+def export_fields(
+    builder: SpecBuilder,
     part: Part,
     motion: Motion = Motion.OTHER,
     unit: FieldUnit | None = None,
     /,
     *,
-    stated: tuple[str, ...] = (),
+    given: Mapping[str, YamlNode | None] = MappingProxyType({}),
+    without: Sequence[str] = (),
 ) -> dict[str, YamlNode | None]:
-    """Return the fields of a part that its class describes; those that are `stated` may have their implied value."""
-    written: dict[str, YamlNode | None] = {}
-    for name, spec in field_specs(type(part)).items():
-        value = getattr(part, name)
-        if not isinstance(spec, _WRITTEN):
+    """Return the entries of an element by key, except the keys `without`; None for defaults, unless stated.
+
+    Entries that are `given` take their places in the order of the class.
+    """
+    specs, first = field_specs(type(part)), _FIRST_FIELDS.get(type(part), ())
+    stated: Sequence[str] = getattr(part, "stated", ())
+    entries: dict[str, YamlNode | None] = {}
+    for name in dict.fromkeys((*first, *specs)):
+        spec, value = specs[name], getattr(part, name)
+        if not spec.key or spec.key in without:
             continue
-        is_implied = not isinstance(spec, Noise) and value == spec.implied and name not in stated
-        if value is not None and (pen.full or not is_implied):
-            dimension = (unit or spec.unit).dimension(motion) if isinstance(spec, Number) else None
-            written[name] = _written(pen, value, spec, dimension)
-    return written
+        is_default = not isinstance(spec, Child) and value == spec.implied and name not in stated
+        if spec.key in given:
+            entries[spec.key] = given[spec.key]
+        elif value is None or (is_default and not builder.full):
+            entries[spec.key] = None
+        else:
+            entries[spec.key] = _export(builder, value, spec, motion, unit)
+    return entries
 
 
-_WRITTEN = (Number, Noise, Text, Flag, Choice)
+def _export(
+    builder: SpecBuilder,
+    value: Any,  # of the type that the spec annotates
+    spec: Spec,
+    motion: Motion,
+    unit: FieldUnit | None,
+) -> YamlNode | None:
+    match spec:
+        case Number():
+            return builder.quantity(value, (unit or spec.unit).dimension(motion))
+        case Vector():
+            return builder.numbers(value, spec.unit.dimension(motion))
+        case Flag():
+            return builder.flag(value)
+        case Noise():
+            return export_element(builder, value, Motion.UNKNOWN, spec.unit)
+        case Pose():
+            return _export_pose(builder, value)
+        case Colour():
+            return _export_color(builder, value)
+        case Children(kinds=(kind,)) if kind is Interface:
+            return _export_interfaces(builder, value)
+        case Children():
+            return _export_children(builder, value)
+        case Child(kinds=(kind,)) if kind is GazeboPlugin:
+            return export_plugin(builder, value, is_named=True)
+        case Child():
+            return export_element(builder, value, motion)
+        case Parameters():
+            return builder.free_map(value)
+    return builder.texts(value) if spec.container else builder.text(value)
 
 
-def _written(pen: Pen, value: object, spec: Spec, dimension: Dimension | None) -> YamlNode | None:
-    match spec, value:
-        case Number(), int() | float():
-            return pen.quantity(value, dimension)
-        case ((Text() | Choice()), str()):
-            return pen.text(value)
-        case Flag(), _:
-            return pen.flag(bool(value))
-        case Noise(), Element():
-            return written_element(pen, value, Motion.UNKNOWN, spec.unit)
-    raise TypeError(f"{type(value).__name__} is not a value of {type(spec).__name__}")
+def _export_pose(builder: SpecBuilder, pose: Transform) -> YamlNode | None:
+    """Return `[x, y, z]` for a pose without rotation, None for the identity."""
+    if not (pose.is_written or builder.full):
+        return None
+    entries = export_fields(builder, pose)
+    if builder.full:
+        return builder.element(pose, **entries)
+    if pose.rpy == _ZERO and not (pose.extra_elements or pose.extra_attributes):
+        return builder.numbers(pose.xyz, Dimension.LENGTH)
+    return builder.element(pose, **entries)
+
+
+def _export_color(builder: SpecBuilder, color: Color) -> YamlNode:
+    rgba = color.to_tuple()
+    numbers = builder.numbers(rgba[:3] if color.a == 1 and not builder.full else rgba)
+    return builder.alone(builder.element(color, rgba=numbers), "rgba")
+
+
+def _export_interfaces(builder: SpecBuilder, names: Sequence[str]) -> YamlNode | None:
+    """Return a list of names, or a map where an interface has parameters or extras."""
+    interfaces = [Interface.of(name) for name in names]
+    if not any(one.parameters or one.extra_attributes or one.extra_elements or one.extra_inside for one in interfaces):
+        return builder.texts(interfaces)
+    nodes = (
+        (str(one), builder.element(one, **{name: builder.free(text) for name, text in one.parameters.items()}))
+        for one in interfaces
+    )
+    return builder.named("interface", nodes, with_origins=False)
+
+
+def _export_children(builder: SpecBuilder, parts: Sequence[Element]) -> YamlNode | None:
+    """Return a map of elements by name, or a list where they have none."""
+    nodes = [export_element(builder, part) for part in parts]
+    if not parts or not (key := _key_field(type(parts[0]))):
+        return builder.list_of(nodes) if nodes else None
+    names = [str(getattr(part, key)) for part in parts]
+    return builder.named(type(parts[0]).TAG.replace("_", " "), zip(names, nodes, strict=True), with_origins=False)
+
+
+def _key_field(kind: type) -> str | None:
+    """Return the field of a class that is the key of its elements."""
+    specs = field_specs(kind).items()
+    return next((name for name, spec in specs if isinstance(spec, Name | Reference) and not spec.key), None)
+
+
+def export_plugin(builder: SpecBuilder, plugin: GazeboPlugin, *, is_named: bool) -> YamlMap:
+    """Return a plugin, with its name if it `is_named` by no key; content that was read as XML becomes `extra`."""
+    if plugin.raw_xml is not None:
+        plugin = replace(plugin, parameters={}, extra_elements=(plugin.raw_xml, *plugin.extra_elements))
+    name = {"name": builder.text(plugin.name)} if is_named else {}
+    return builder.element(plugin, **name, **export_fields(builder, plugin))

@@ -9,8 +9,8 @@ from typing import NamedTuple
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.expand.defaults import is_default
 from linkforge_compile.expand.origins import NameOrigin, names_behind
+from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.computed_inertia import ComputedFrom, computed_from
-from linkforge_compile.export_spec.pen import Pen
 from linkforge_compile.export_spec.provenance import place_of
 from linkforge_compile.export_spec.robot import spec_of
 from linkforge_compile.source import SourceRef, Span
@@ -73,14 +73,14 @@ def explain(robot: Robot, path: str) -> Explanation:
         RobotGeneratorError: for two parts of one name.
 
     """
-    pen = Pen(full=True)
-    whole = spec_of(robot, pen)
+    builder = SpecBuilder(full=True)
+    whole = spec_of(robot, builder)
     steps = (_Step("", whole), *_steps(whole, path.strip("/"), ""))
-    text = _text("/".join(step.key for step in steps[1:]), steps[-1].node, pen)
-    last = max((place for place, step in enumerate(steps) if step.node in pen.written), default=None)
+    text = _text("/".join(step.key for step in steps[1:]), steps[-1].node, builder)
+    last = max((place for place, step in enumerate(steps) if step.node in builder.written), default=None)
     if last is None:
         return Explanation(text)
-    source, field = pen.written[steps[last].node]
+    source, field = builder.written[steps[last].node]
     keys = (*field, *(step.key for step in steps[last + 1 :]))
     node, is_written = _deepest(source.node, steps[last].key, keys)
     computed = computed_from(robot, [step.key for step in steps[1:]])
@@ -221,7 +221,7 @@ def _expression(place: Span) -> str | None:
     return text if text and "$(" in text.replace("$$(", "") else None
 
 
-def _text(path: str, node: YamlNode, pen: Pen) -> str:
+def _text(path: str, node: YamlNode, builder: SpecBuilder) -> str:
     """Return `path: value` as a spec would write it, with the unit of a number or of the numbers in a list."""
     key = YamlScalar(path, path, node.span)
     if not path:
@@ -229,5 +229,5 @@ def _text(path: str, node: YamlNode, pen: Pen) -> str:
         return write(node).rstrip("\n")
     text = write(YamlMap({path: YamlEntry(key, node)}, node.span)).rstrip("\n")
     number = node.items[0] if isinstance(node, YamlList) and len(node) else node
-    unit = pen.units.get(number)
+    unit = builder.units.get(number)
     return text if unit is None else f"{text} {unit.si_unit}"

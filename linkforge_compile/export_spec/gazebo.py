@@ -1,15 +1,15 @@
-"""What a simulator is told, as a spec writes it: beside what it is about, or at the end of the robot."""
+"""Write Gazebo blocks at the link or joint that they are about, or at the end of the robot."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
+from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.link import PHYSICS_TAGS, LinkPhysics
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.export_spec.pen import Pen
+from linkforge_compile.export_spec.builder import SpecBuilder
+from linkforge_compile.export_spec.elements import export_fields, export_plugin
 from linkforge_compile.syntax import YamlMap, YamlNode, scalar_value
 from linkforge_compile.units import is_in_full, number_text
 
@@ -18,17 +18,17 @@ if TYPE_CHECKING:
 
 
 class GazeboPlaces(NamedTuple):
-    """Where each block stands: beside a link, beside a joint, or at the robot, where it says its reference itself."""
+    """The blocks to write at each link, at each joint, and at the robot, where they state their reference."""
 
     links: dict[str, list[GazeboElement]]
     joints: dict[str, list[GazeboElement]]
     robot: list[GazeboElement]
 
 
-def gazebo_places(robot: Robot) -> GazeboPlaces:
-    """Return where each block stands so that their order is kept: the links' come out first, then the joints'.
+def find_gazebo_places(robot: Robot) -> GazeboPlaces:
+    """Return where to write each block so that the order of the output stays: links' first, then joints'.
 
-    A block that repeats its link's physics cannot stand beside them.
+    A block that repeats a tag of its link's physics cannot stand at the link.
     """
     places = GazeboPlaces({}, {}, [])
     links = {name: (0, place) for place, name in enumerate(robot.links.names)}
@@ -46,65 +46,50 @@ def gazebo_places(robot: Robot) -> GazeboPlaces:
 
 
 def _repeats(physics: LinkPhysics, element: GazeboElement) -> bool:
-    """Whether a block says a tag that the physics of its link say, which no entry may do."""
+    """Whether a block has a tag that the physics of its link write, which a spec refuses."""
     return any(tag in element.properties and physics.is_written(field) for field, tag in PHYSICS_TAGS.items())
 
 
-def written_blocks(pen: Pen, blocks: Iterable[GazeboElement], *, beside: bool = True) -> YamlNode | None:
-    """Return one block or a list of them, None for none; those `beside` what they are about do not name it."""
-    nodes = [_block(pen, block, beside) for block in blocks]
+def export_blocks(
+    builder: SpecBuilder, blocks: Iterable[GazeboElement], *, with_reference: bool = False
+) -> YamlNode | None:
+    """Return one block or a list of them, None for none."""
+    nodes = [_export_block(builder, block, with_reference=with_reference) for block in blocks]
     if not nodes:
         return None
-    return nodes[0] if len(nodes) == 1 and not pen.full else pen.list_of(nodes)
+    return nodes[0] if len(nodes) == 1 and not builder.full else builder.list_of(nodes)
 
 
-def written_plugin(pen: Pen, plugin: GazeboPlugin, *, named: bool) -> YamlMap:
-    """Return a plugin, which says its name itself where it is `named`; content that was read as XML is its `extra`."""
-    if plugin.raw_xml is not None:
-        plugin = replace(plugin, parameters={}, extra_elements=(plugin.raw_xml, *plugin.extra_elements))
-    return pen.element(
-        plugin,
-        name=pen.text(plugin.name) if named else None,
-        filename=pen.text(plugin.filename),
-        parameters=pen.free_map(plugin.parameters),
-    )
-
-
-def _block(pen: Pen, block: GazeboElement, beside: bool) -> YamlMap:
+def _export_block(builder: SpecBuilder, block: GazeboElement, *, with_reference: bool) -> YamlMap:
     tags = _leading_tags(block.properties)
     rest = {tag: part for tag, part in block.properties.items() if tag not in tags}
-    return pen.element(
+    return builder.element(
         block,
-        reference=None if beside else pen.text(block.reference),
-        material=pen.text(block.material),
-        static=pen.flag(block.static),
-        stop_cfm=pen.number(block.stop_cfm),
-        stop_erp=pen.number(block.stop_erp),
-        provide_feedback=pen.flag(block.provide_feedback),
-        implicit_spring_damper=pen.flag(block.implicit_spring_damper),
-        **{tag: pen.free(part) for tag, part in tags.items()},
-        properties=pen.free_map(rest),
-        plugins=_plugins(pen, block),
+        reference=builder.text(block.reference) if with_reference else None,
+        **export_fields(builder, block, without=("reference", "properties", "plugins")),
+        **{tag: builder.free(part) for tag, part in tags.items()},
+        properties=builder.free_map(rest),
+        plugins=_export_plugins(builder, block),
     )
 
 
-def _plugins(pen: Pen, block: GazeboElement) -> YamlNode | None:
-    """Return the plugins by their names, or as a list where a name repeats."""
+def _export_plugins(builder: SpecBuilder, block: GazeboElement) -> YamlNode | None:
+    """Return the plugins by name, or as a list where a name repeats."""
     names = [plugin.name for plugin in block.plugins]
     if len(set(names)) < len(names):
-        return pen.list_of(written_plugin(pen, plugin, named=True) for plugin in block.plugins)
-    return pen.named("plugin", ((one.name, written_plugin(pen, one, named=False)) for one in block.plugins))
+        return builder.list_of(export_plugin(builder, plugin, is_named=True) for plugin in block.plugins)
+    return builder.named("plugin", ((one.name, export_plugin(builder, one, is_named=False)) for one in block.plugins))
 
 
 def _leading_tags(properties: Mapping[str, FreePart]) -> dict[str, FreePart]:
-    """Return the properties that may stand as keys of their own, which come out before all others.
+    """Return the properties before the others that can be keys of the block.
 
-    A key reads its value and spells it anew, so a property keeps its text only if that is how it would be spelled.
+    Compiling a key normalizes its text, so only a property that is in normal form already can be one.
     """
     tags: dict[str, FreePart] = {}
     for tag, part in properties.items():
-        spelled_so = _SPELLED_SO.get(tag)
-        if spelled_so is None or not isinstance(part, str) or not spelled_so(part):
+        is_normal = _IS_NORMAL.get(tag)
+        if is_normal is None or not isinstance(part, str) or not is_normal(part):
             break
         tags[tag] = part
     return tags
@@ -125,11 +110,11 @@ def _is_flag(text: str) -> bool:
     return text in ("true", "false")
 
 
-_SPELLED_SO: Mapping[str, Callable[[str], bool]] = {
+_IS_NORMAL: Mapping[str, Callable[[str], bool]] = {
     **dict.fromkeys(("mu1", "mu2", "kp", "kd", "maxVel", "minDepth", "dampingFactor", "laserRetro"), _is_number),
     **dict.fromkeys(("springStiffness", "springReference", "fudgeFactor"), _is_number),
     "maxContacts": _is_whole_number,
     **dict.fromkeys(("selfCollide", "gravity", "turnGravityOff"), _is_flag),
     **dict.fromkeys(("preserveFixedJoint", "disableFixedJointLumping"), _is_flag),
 }
-"""The tags that are keys of a block under their own names, and how their text must be spelled to come back."""
+"""The tags that are keys of a block, and the test whether a text is in normal form."""

@@ -1,75 +1,74 @@
-"""A whole robot as a spec: one flat file, its sections in the language's order."""
+"""Write a whole robot as one flat spec, its sections in the order of the language."""
 
 from __future__ import annotations
 
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.export_spec.frames import frames_of, written_frame
-from linkforge_compile.export_spec.gazebo import GazeboPlaces, gazebo_places, written_blocks
-from linkforge_compile.export_spec.joint import written_joint
-from linkforge_compile.export_spec.link import written_link
-from linkforge_compile.export_spec.material import written_material
-from linkforge_compile.export_spec.pen import Pen
-from linkforge_compile.export_spec.ros2_control import written_ros2_control
-from linkforge_compile.export_spec.sensor import written_sensor
-from linkforge_compile.export_spec.srdf import written_semantic
-from linkforge_compile.export_spec.transmission import written_transmission
+from linkforge_compile.export_spec.builder import SpecBuilder
+from linkforge_compile.export_spec.elements import export_element
+from linkforge_compile.export_spec.gazebo import GazeboPlaces, export_blocks, find_gazebo_places
+from linkforge_compile.export_spec.joint import export_joint
+from linkforge_compile.export_spec.link import export_frame, export_link, find_frames
+from linkforge_compile.export_spec.srdf import export_semantic
+from linkforge_compile.export_spec.transmission import export_transmission
 from linkforge_compile.syntax import YamlMap, YamlScalar
 
 _LANGUAGE_VERSION = 1
 
 
-def spec_of(robot: Robot, pen: Pen) -> YamlMap:
+def spec_of(robot: Robot, builder: SpecBuilder) -> YamlMap:
     """Return a robot as the tree of a spec without modules, parameters and expressions.
 
-    Compiled, it gives an equal robot and the same URDF and SRDF; only states of one group, collision pairs of one
-    first link and properties of one joint come together where others stood between them.
+    Compiled, it gives an equal robot and the same URDF and SRDF, except that the states of a group, the collision
+    pairs of a first link and the properties of a joint are written together.
 
     Raises:
-        RobotGeneratorError: for two parts of one name where a spec can hold only one.
+        RobotGeneratorError: for two parts with the same name where a spec can hold only one.
 
     """
-    gazebo = gazebo_places(robot)
-    return pen.element(
+    gazebo = find_gazebo_places(robot)
+    transmissions = ((one.name, export_transmission(builder, one)) for one in robot.transmissions)
+    return builder.element(
         robot,
-        linkforge=pen.number(_LANGUAGE_VERSION),
-        name=pen.text(robot.name),
-        version=pen.text(robot.version) if robot.version_stated else None,
-        description=_description(pen, robot),
-        metadata=pen.data(robot.metadata) if robot.metadata else None,
-        materials=pen.named("material", ((name, written_material(pen, one)) for name, one in robot.materials.items())),
-        **_tree_sections(pen, robot, gazebo),
-        sensors=pen.named("sensor", ((sensor.name, written_sensor(pen, sensor)) for sensor in robot.sensors)),
-        transmissions=pen.named(
-            "transmission", ((one.name, written_transmission(pen, one)) for one in robot.transmissions)
+        linkforge=builder.number(_LANGUAGE_VERSION),
+        name=builder.text(robot.name),
+        version=builder.text(robot.version) if robot.version_stated else None,
+        description=_description(builder, robot),
+        metadata=builder.data(robot.metadata) if robot.metadata else None,
+        materials=builder.named(
+            "material", ((name, export_element(builder, one)) for name, one in robot.materials.items())
         ),
-        ros2_control=pen.named(
-            "ros2_control", ((one.name, written_ros2_control(pen, one)) for one in robot.ros2_controls)
+        **_tree_sections(builder, robot, gazebo),
+        sensors=builder.named("sensor", ((one.name, export_element(builder, one)) for one in robot.sensors)),
+        transmissions=builder.named("transmission", transmissions),
+        ros2_control=builder.named(
+            "ros2_control", ((one.name, export_element(builder, one)) for one in robot.ros2_controls)
         ),
-        gazebo=written_blocks(pen, gazebo.robot, beside=False),
-        semantic=written_semantic(pen, robot.semantic, robot.joints) if robot.has_semantic else None,
+        gazebo=export_blocks(builder, gazebo.robot, with_reference=True),
+        semantic=export_semantic(builder, robot.semantic, robot.joints) if robot.has_semantic else None,
     )
 
 
-def _description(pen: Pen, robot: Robot) -> YamlScalar | None:
-    """Return what a spec says of its robot to people; a Robot has no field for it, its source does."""
-    said = robot.source.node.child("description") if robot.source else None
-    return pen.text(said.text) if isinstance(said, YamlScalar) and said.text else None
+def _description(builder: SpecBuilder, robot: Robot) -> YamlScalar | None:
+    """Return the description in the robot's source; Robot has no field for it."""
+    description = robot.source.node.child("description") if robot.source else None
+    return builder.text(description.text) if isinstance(description, YamlScalar) and description.text else None
 
 
-def _tree_sections(pen: Pen, robot: Robot, gazebo: GazeboPlaces) -> dict[str, YamlMap | None]:
-    """Return links, joints and frames, with what a simulator is told about each beside it."""
-    frames = [] if pen.full else frames_of(robot)
+def _tree_sections(builder: SpecBuilder, robot: Robot, gazebo: GazeboPlaces) -> dict[str, YamlMap | None]:
+    """Return links, joints and frames, with the Gazebo blocks about each."""
+    frames = [] if builder.full else find_frames(robot)
     links, joints = robot.links[: len(robot.links) - len(frames)], robot.joints[: len(robot.joints) - len(frames)]
-    written_links = (
-        (one.name, written_link(pen, one, robot.materials, written_blocks(pen, gazebo.links.get(one.name, ()))))
+    link_nodes = (
+        (one.name, export_link(builder, one, robot.materials, export_blocks(builder, gazebo.links.get(one.name, ()))))
         for one in links
     )
-    written_joints = (
-        (one.name, written_joint(pen, one, written_blocks(pen, gazebo.joints.get(one.name, ())))) for one in joints
+    joint_nodes = (
+        (one.name, export_joint(builder, one, export_blocks(builder, gazebo.joints.get(one.name, ()))))
+        for one in joints
     )
-    written_frames = ((link.name, written_frame(pen, link, joint)) for link, joint in frames)
+    frame_nodes = ((link.name, export_frame(builder, link, joint)) for link, joint in frames)
     return {
-        "links": pen.named("link", written_links),
-        "joints": pen.named("joint", written_joints),
-        "frames": pen.named("frame", written_frames),
+        "links": builder.named("link", link_nodes),
+        "joints": builder.named("joint", joint_nodes),
+        "frames": builder.named("frame", frame_nodes),
     }

@@ -1,175 +1,144 @@
-"""The semantic part as a spec writes it."""
+"""Write the semantic part of a robot, with the short forms of its sections."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
 from typing import TypeAlias
 
+from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.named_table import NamedTable
-from linkforge_compile.core.models.srdf import (
-    Chain,
-    CollisionPair,
-    EndEffector,
-    GroupState,
-    JointProperty,
-    LinkSphereApproximation,
-    PassiveJoint,
-    PlanningGroup,
-    SemanticRobotDescription,
-    SrdfSphere,
-    VirtualJoint,
-)
+from linkforge_compile.core.models.planning import GroupState, JointProperty, PassiveJoint, PlanningGroup
+from linkforge_compile.core.models.srdf import SemanticRobotDescription
 from linkforge_compile.core.part import Element
-from linkforge_compile.export_spec.joint import position_dimension
-from linkforge_compile.export_spec.pen import Pen
+from linkforge_compile.export_spec.builder import SpecBuilder
+from linkforge_compile.export_spec.elements import export_element
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
-from linkforge_compile.units import Dimension
-
-
-def written_semantic(pen: Pen, semantic: SemanticRobotDescription, joints: NamedTable[Joint]) -> YamlMap | None:
-    """Return the semantic part of a robot with these joints, None where it says nothing.
-
-    States of one group stand together, as pairs do of one first link and properties of one joint: where others
-    came between them, that order is lost.
-    """
-    states = {(state.group, state.name): state for state in semantic.group_states}
-    node = pen.element(
-        semantic,
-        virtual_joints=pen.named("virtual joint", ((one.name, _virtual(pen, one)) for one in semantic.virtual_joints)),
-        groups=pen.named("planning group", ((group.name, _group(pen, group)) for group in semantic.groups)),
-        group_states=pen.nested(
-            "state", ((state.group, state.name, _state(pen, state, joints, states)) for state in semantic.group_states)
-        ),
-        end_effectors=pen.named("end effector", ((one.name, _effector(pen, one)) for one in semantic.end_effectors)),
-        passive_joints=_passive(pen, semantic.passive_joints),
-        disabled_collisions=_pairs(pen, semantic.disabled_collisions),
-        enabled_collisions=_pairs(pen, semantic.enabled_collisions),
-        no_default_collision_links=pen.texts(semantic.no_default_collision_links),
-        joint_properties=pen.nested("property", map(partial(_remark, pen), semantic.joint_properties), told_once=True),
-        link_sphere_approximations=pen.named(
-            "sphere approximation", ((one.link, _spheres(pen, one)) for one in semantic.link_sphere_approximations)
-        ),
-    )
-    return node if len(node) else None
-
-
-def _passive(pen: Pen, joints: Sequence[PassiveJoint]) -> YamlNode | None:
-    """Return a list of names, or a map where one of them has more to say."""
-    if all(map(_says_no_more, joints)):
-        return pen.texts([joint.name for joint in joints])
-    return pen.named("passive joint", ((joint.name, pen.element(joint)) for joint in joints))
-
-
-def _virtual(pen: Pen, joint: VirtualJoint) -> YamlMap:
-    return pen.element(
-        joint,
-        type=pen.text(joint.type),
-        parent_frame=pen.text(joint.parent_frame),
-        child_link=pen.text(joint.child_link),
-    )
-
-
-def _group(pen: Pen, group: PlanningGroup) -> YamlMap:
-    chains = [_chain(pen, chain) for chain in group.chains]
-    return pen.element(
-        group,
-        chain=chains[0] if len(chains) == 1 else None,
-        chains=pen.list_of(chains) if len(chains) > 1 else None,
-        links=pen.texts(group.links),
-        joints=pen.texts(group.joints),
-        subgroups=pen.texts(group.subgroups),
-    )
-
-
-def _chain(pen: Pen, chain: Chain) -> YamlMap:
-    return pen.element(chain, base_link=pen.text(chain.base_link), tip_link=pen.text(chain.tip_link))
-
+from linkforge_compile.units import POSITION, Dimension
 
 _States: TypeAlias = Mapping[tuple[str, str], GroupState]
 """The states of a robot, by group and name."""
 
+_MAX_INHERITED = 100
+"""Number of states to search for where the positions of one were written; inheritance may be endless."""
 
-def _state(pen: Pen, state: GroupState, joints: NamedTable[Joint], states: _States) -> YamlMap:
-    """Return the positions by joint: a number, or a list of them for several degrees of freedom."""
+
+def export_semantic(
+    builder: SpecBuilder, semantic: SemanticRobotDescription, joints: NamedTable[Joint]
+) -> YamlMap | None:
+    """Return the semantic part of a robot with these joints, None where it is empty.
+
+    The states of a group are written together, as are the pairs of a first link and the properties of a joint.
+    """
+    states = {(state.group, state.name): state for state in semantic.group_states}
+    spheres = ((one.link, _spheres(builder, one)) for one in semantic.link_sphere_approximations)
+    properties = ((one.joint_name, one.property_name, _property(builder, one)) for one in semantic.joint_properties)
+    node = builder.element(
+        semantic,
+        virtual_joints=builder.named(
+            "virtual joint", ((one.name, export_element(builder, one)) for one in semantic.virtual_joints)
+        ),
+        groups=builder.named("planning group", ((one.name, _group(builder, one)) for one in semantic.groups)),
+        group_states=builder.nested(
+            "state", ((one.group, one.name, _state(builder, one, joints, states)) for one in semantic.group_states)
+        ),
+        end_effectors=builder.named(
+            "end effector", ((one.name, export_element(builder, one)) for one in semantic.end_effectors)
+        ),
+        passive_joints=_passive_joints(builder, semantic.passive_joints),
+        disabled_collisions=_pairs(builder, semantic.disabled_collisions),
+        enabled_collisions=_pairs(builder, semantic.enabled_collisions),
+        no_default_collision_links=builder.texts(semantic.no_default_collision_links),
+        joint_properties=builder.nested("property", properties, first_origin_only=True),
+        link_sphere_approximations=builder.named("sphere approximation", spheres),
+    )
+    return node if len(node) else None
+
+
+def _passive_joints(builder: SpecBuilder, joints: Sequence[PassiveJoint]) -> YamlNode | None:
+    """Return a list of names, or a map where one of them has extras."""
+    if not any(map(_has_extras, joints)):
+        return builder.texts([joint.name for joint in joints])
+    return builder.named("passive joint", ((joint.name, export_element(builder, joint)) for joint in joints))
+
+
+def _group(builder: SpecBuilder, group: PlanningGroup) -> YamlMap:
+    chains = [export_element(builder, chain) for chain in group.chains]
+    return builder.element(
+        group,
+        chain=chains[0] if len(chains) == 1 else None,
+        chains=builder.list_of(chains) if len(chains) > 1 else None,
+        links=builder.texts(group.links),
+        joints=builder.texts(group.joints),
+        subgroups=builder.texts(group.subgroups),
+    )
+
+
+def _state(builder: SpecBuilder, state: GroupState, joints: NamedTable[Joint], states: _States) -> YamlMap:
+    """Return the positions by joint: a number, or a list for several degrees of freedom."""
     positions = {}
-    written = dict(_written_positions(state, states))
+    sources = dict(_position_sources(state, states))
     for name, values in state.joint_values.items():
         joint = joints.get(name)
-        unit = position_dimension(joint) if joint else None
-        node: YamlNode = pen.quantity(values[0], unit) if len(values) == 1 else pen.numbers(values, unit)
-        source, field = written.get(name, (state.source, name.removeprefix(_prefix_of(state))))
-        positions[name] = pen.located(node, source, field)
-    return pen.element(state, **positions)
+        unit = POSITION.dimension(joint.type.motion) if joint else None
+        node: YamlNode = builder.quantity(values[0], unit) if len(values) == 1 else builder.numbers(values, unit)
+        source, field = sources.get(name, (state.source, name.removeprefix(_prefix_of(state))))
+        positions[name] = builder.located(node, source, field)
+    return builder.element(state, **positions)
 
 
-_MOST_TAKEN_OVER = 100
-"""How many states are looked into for where the positions of one were written: a chain of them has no end."""
-
-
-def _written_positions(state: GroupState, states: _States) -> Iterator[tuple[str, tuple[SourceRef, str]]]:
-    """Yield where each position was written and under which name: in the state, or in those that it takes over."""
-    left, seen = [state], {(state.group, state.name)}
-    while left:
-        writer = left.pop()
+def _position_sources(state: GroupState, states: _States) -> Iterator[tuple[str, tuple[SourceRef, str]]]:
+    """Yield the object and key in which each position was written: in the state, or in one that it inherits from."""
+    stack, seen = [state], {(state.group, state.name)}
+    while stack:
+        writer = stack.pop()
         prefix = _prefix_of(writer)
         for entry in writer.source.node if writer.source and isinstance(writer.source.node, YamlMap) else ():
             text = entry.value.text if isinstance(entry.value, YamlScalar) else ""
-            taken = (prefix + entry.name, prefix + text)
+            inherited = (prefix + entry.name, prefix + text)
             if writer.source and prefix + entry.name in writer.joint_values:
                 yield prefix + entry.name, (writer.source, entry.name)
-            elif taken in states and taken not in seen and len(seen) < _MOST_TAKEN_OVER:
-                seen.add(taken)
-                left.append(states[taken])
+            elif inherited in states and inherited not in seen and len(seen) < _MAX_INHERITED:
+                seen.add(inherited)
+                stack.append(states[inherited])
 
 
 def _prefix_of(state: GroupState) -> str:
-    """Return the prefixes that the names of a state got since its file wrote them, which the group's has as well."""
+    """Return the prefix that the names of a state got since its file was written, as the name of its group did."""
     group = state.source.node.child("group") if state.source else None
     return state.group.removesuffix(group.text) if isinstance(group, YamlScalar) else ""
 
 
-def _effector(pen: Pen, effector: EndEffector) -> YamlMap:
-    return pen.element(
-        effector,
-        group=pen.text(effector.group),
-        parent_link=pen.text(effector.parent_link),
-        parent_group=pen.text(effector.parent_group),
-    )
-
-
-def _pairs(pen: Pen, pairs: Sequence[CollisionPair]) -> YamlMap | None:
+def _pairs(builder: SpecBuilder, pairs: Sequence[CollisionPair]) -> YamlMap | None:
     """Return the reasons by the first link and the second."""
-    return pen.nested("collision pair", ((one.link1, one.link2, _reason(pen, one)) for one in pairs), told_once=True)
+    nodes = ((one.link1, one.link2, _pair(builder, one)) for one in pairs)
+    return builder.nested("collision pair", nodes, first_origin_only=True)
 
 
-def _reason(pen: Pen, pair: CollisionPair) -> YamlNode:
-    if _says_no_more(pair):
-        return pen.located(pen.word(pair.reason), pair.source, "reason")
-    return pen.element(pair, reason=pen.text(pair.reason))
+def _pair(builder: SpecBuilder, pair: CollisionPair) -> YamlNode:
+    if _has_extras(pair):
+        return export_element(builder, pair)
+    return builder.located(builder.word(pair.reason), pair.source, "reason")
 
 
-def _says_no_more(part: Element) -> bool:
-    """Whether a part has nothing to say beside its fields, so that its short form will do."""
-    return not (part.extra_elements or part.extra_attributes or part.extra_inside)
+def _property(builder: SpecBuilder, one: JointProperty) -> YamlNode:
+    value = builder.located(builder.free(one.value), one.source, "value")
+    return builder.element(one, value=value) if _has_extras(one) else value
 
 
-def _remark(pen: Pen, remark: JointProperty) -> tuple[str, str, YamlNode]:
-    value = pen.located(pen.free(remark.value), remark.source, "value")
-    return remark.joint_name, remark.property_name, value if _says_no_more(remark) else pen.element(remark, value=value)
+def _spheres(builder: SpecBuilder, approximation: LinkSphereApproximation) -> YamlNode:
+    spheres = builder.list_of(_sphere(builder, sphere) for sphere in approximation.spheres)
+    if _has_extras(approximation):
+        return builder.element(approximation, spheres=spheres)
+    return builder.located(spheres, approximation.source, "spheres")
 
 
-def _spheres(pen: Pen, approximation: LinkSphereApproximation) -> YamlNode:
-    spheres = pen.list_of(_sphere(pen, sphere) for sphere in approximation.spheres)
-    if _says_no_more(approximation):
-        return pen.located(spheres, approximation.source, "spheres")
-    return pen.element(approximation, spheres=spheres)
+def _sphere(builder: SpecBuilder, sphere: SrdfSphere) -> YamlMap:
+    center = builder.numbers((sphere.center_x, sphere.center_y, sphere.center_z), Dimension.LENGTH)
+    return builder.element(sphere, center=center, radius=builder.number(sphere.radius, Dimension.LENGTH))
 
 
-def _sphere(pen: Pen, sphere: SrdfSphere) -> YamlMap:
-    center = (sphere.center_x, sphere.center_y, sphere.center_z)
-    return pen.element(
-        sphere, center=pen.numbers(center, Dimension.LENGTH), radius=pen.number(sphere.radius, Dimension.LENGTH)
-    )
+def _has_extras(part: Element) -> bool:
+    """Whether a part has extras, for which its short form has no place."""
+    return bool(part.extra_elements or part.extra_attributes or part.extra_inside)

@@ -1,32 +1,33 @@
-"""Transmissions as a spec writes them."""
+"""Write transmissions, whose ends state their interfaces and reduction by rules of their own."""
 
 from __future__ import annotations
 
 from linkforge_compile.core.constants import HW_IF_POSITION
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
-from linkforge_compile.export_spec.pen import Pen
+from linkforge_compile.export_spec.builder import SpecBuilder
+from linkforge_compile.export_spec.elements import export_element
 from linkforge_compile.syntax import YamlMap
 
 
-def written_transmission(pen: Pen, transmission: Transmission) -> YamlMap:
-    joints = ((joint.name, _end(pen, joint)) for joint in transmission.joints)
-    actuators = ((actuator.name, _end(pen, actuator)) for actuator in transmission.actuators)
-    return pen.element(
+def export_transmission(builder: SpecBuilder, transmission: Transmission) -> YamlMap:
+    """Return a transmission."""
+    joints = ((joint.name, _end(builder, joint)) for joint in transmission.joints)
+    actuators = ((actuator.name, _end(builder, actuator)) for actuator in transmission.actuators)
+    return export_element(
+        builder,
         transmission,
-        type=pen.text(transmission.type),
-        joints=pen.named("transmission joint", joints, told=False),
-        actuators=pen.named("actuator", actuators, told=False),
-        parameters=pen.free_map(transmission.parameters),
+        joints=builder.named("transmission joint", joints, with_origins=False),
+        actuators=builder.named("actuator", actuators, with_origins=False),
     )
 
 
-def _end(pen: Pen, end: TransmissionJoint | TransmissionActuator) -> YamlMap:
-    usual = tuple(end.hardware_interfaces) == (HW_IF_POSITION,) and not pen.full
-    interfaces = None if usual else pen.texts(end.hardware_interfaces)
-    return pen.element(
+def _end(builder: SpecBuilder, end: TransmissionJoint | TransmissionActuator) -> YamlMap:
+    is_default = tuple(end.hardware_interfaces) == (HW_IF_POSITION,) and not builder.full
+    interfaces = None if is_default else builder.texts(end.hardware_interfaces)
+    return export_element(
+        builder,
         end,
-        hardware_interfaces=interfaces if end.interfaces_stated else pen.list_of(()),
-        # A reduction of 1 is written as well: what is not said is none, and an actuator without one has no default.
-        mechanical_reduction=pen.number(end.mechanical_reduction),
-        offset=pen.number(end.offset, default=None if end.is_written("offset") else 0),
+        hardware_interfaces=interfaces if end.interfaces_stated else builder.list_of(()),
+        # Written even if it is 1: without it there is no reduction in the URDF.
+        mechanical_reduction=builder.number(end.mechanical_reduction),
     )

@@ -1,6 +1,6 @@
 """Expressions `$(...)`: parsed with Python's `ast`, checked against an allow-list and computed here."""
 
-from linkforge_compile.expressions.evaluate import evaluate, handed_on
+from linkforge_compile.expressions.evaluate import evaluate, passed_on
 from linkforge_compile.expressions.functions import RESERVED_NAMES
 from linkforge_compile.expressions.parse import as_one_expression, forgotten_expression, parse_template
 from linkforge_compile.expressions.scope import FileFunction, Lazy, Scope
@@ -31,8 +31,8 @@ __all__ = [
     "as_text",
     "evaluate",
     "forgotten_expression",
-    "handed_on",
     "kind_name",
     "parse_template",
+    "passed_on",
     "seen_from_compiled",
 ]

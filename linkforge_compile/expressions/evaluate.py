@@ -84,7 +84,7 @@ def evaluate(
     return text
 
 
-def handed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, ...]] | None:
+def passed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, ...]] | None:
     """Return the name whose value a template passes on unchanged, and the keys to the part that it passes on.
 
     None for a template that computes a new value.
@@ -164,7 +164,7 @@ class _Evaluation:
             return FAULT
 
     def passed_on(self, node: ast.expr) -> tuple[str, tuple[str | int, ...]] | None:
-        """Return what `handed_on` does for a part of the expression."""
+        """Return what the function `passed_on` does, for a part of the expression."""
         match node:
             case ast.Name(id=name):
                 return None if name in CONSTANTS else (name, ())

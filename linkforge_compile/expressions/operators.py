@@ -19,8 +19,8 @@ from linkforge_compile.expressions.types import (
     kind_name,
     seen_from_compiled,
 )
-from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
-from linkforge_compile.units import UNITS, Dimension, Quantity, parse_quantity, unit_meant, unit_text
+from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS
+from linkforge_compile.units import UNITS, Dimension, Quantity, parse_quantity, suggested_unit, unit_text
 
 Number: TypeAlias = int | float
 
@@ -57,7 +57,7 @@ def _unit_hint(value: Value) -> str:
     unit = unit_text(value) if isinstance(value, str) else None
     if unit is None or not isinstance(value, str) or parse_quantity(value):
         return ""
-    intended = unit_meant(unit)
+    intended = suggested_unit(unit)
     hint = f"; did you mean '{intended.name}'?" if intended else did_you_mean(unit, UNITS)
     return f"; there is no unit '{unit}'{hint}"
 
@@ -173,10 +173,10 @@ def signed(sign: ast.unaryop, value: Value) -> Value:
 
 
 def truth(value: Value, taker: str, operand: int | None = None) -> bool:
-    """Return a boolean; reject other values, such as the text 'false', which Python takes as true."""
+    """Return a boolean; reject other values, such as the text 'false', which is true in Python."""
     if isinstance(value, bool):
         return value
-    if isinstance(value, str) and (intended := TRUTHS_OF_YAML_1_1.get(value.lower())):
+    if isinstance(value, str) and (intended := YAML_1_1_BOOLEANS.get(value.lower())):
         raise RefusedError(codes.TRUTH_AS_TEXT, operand=operand, name=value, meant=intended)
     raise wrong_kind(taker, "true or false", value, operand)
 

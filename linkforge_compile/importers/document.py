@@ -1,4 +1,4 @@
-"""What a file must be before it is read as a robot: `<robot name='...'>`, expanded, be it URDF or SRDF."""
+"""Read the document of a URDF or SRDF: a named `<robot>` without xacro."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from linkforge_compile.source.xml_tree import XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlMap
 
 Move = Callable[[XmlDocument], XmlDocument]
-"""Gives the elements of a document other places."""
+"""Gives the elements of a document the places where they were written."""
 
 
 class Imported(NamedTuple):
-    """A robot that was written elsewhere: the tree of its spec, with the spans of its documents, and its comments."""
+    """The spec of an imported robot: its tree, with the spans of the documents, and its comments."""
 
     tree: YamlMap
     comments: Comments
@@ -28,9 +28,9 @@ class Imported(NamedTuple):
 
 
 def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None) -> XmlDocument | None:
-    """Return a document of a named robot without xacro; None where the file is none, which is told.
+    """Return the document of a named robot; None if the file is none, which is reported.
 
-    What `moved` moves was expanded from a xacro.
+    `moved` is given for a document that was expanded from a xacro.
     """
     document = read_xml(file, sink)
     if document is None:
@@ -54,13 +54,13 @@ def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None
 
 
 def _first_of_xacro(root: XmlElement) -> XmlElement | None:
-    """Return the first element, at any depth, that xacro would have replaced."""
+    """Return the first element that xacro would have replaced, at any depth."""
     if "<xacro:" not in root.raw:
         return None
-    waiting = [root]
-    while waiting:
-        element = waiting.pop()
+    stack = [root]
+    while stack:
+        element = stack.pop()
         if element.tag.startswith("xacro:"):
             return element
-        waiting += reversed(element.children)
+        stack += reversed(element.children)
     return None

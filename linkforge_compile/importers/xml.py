@@ -1,4 +1,4 @@
-"""XML files as trees that import reads: refusing what a hostile file would try."""
+"""Parse XML files into trees with places, with limits on size and depth and without document types."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ from linkforge_compile.source.xml_tree import XmlDocument, document_of
 MOST_ELEMENTS = 250_000
 MOST_INSIDE = 100_000
 
-# Only the very start of a document may hold a declaration; generated files have comments and blank lines before it.
+# XML allows a declaration at the very start only; generated files have comments and blank lines before it.
 _DECLARATION = re.compile(r"(?:\s|<!--(?:(?!-->).)*-->)*(<\?xml\s(?:(?!\?>).)*\?>)", re.DOTALL)
 _DOCUMENT_TYPE = "<!DOCTYPE"
 _EMPTY_SECTION = "<![CDATA[]]>"
 
 
 def read_xml(file: SourceFile, sink: Diagnostics, *, is_ours: bool = False) -> XmlDocument | None:
-    """Parse a text; None where it is malformed or refused, which is reported with its place.
+    """Parse a text; None if it is malformed or refused, which is reported with its place.
 
-    A document type is refused, and with it every entity but the five of XML: nothing is expanded, nothing fetched.
-    What `is_ours`, made of a robot within its bounds, may hold more than a file: there is space between its tags.
+    A document type is refused, and with it all entities except the five of XML: nothing is expanded or fetched.
+    A text that `is_ours` was rendered from a robot within its limits, and may be larger than a file.
     """
     if found := FORBIDDEN_CHARACTER.search(file.counted):
         sink.report(NO_CHARACTER_OF_A_SPEC.at(file.between(*found.span()), character=code_point(found[0])))
@@ -56,12 +56,12 @@ def read_xml(file: SourceFile, sink: Diagnostics, *, is_ours: bool = False) -> X
 
 
 def _malformed(file: SourceFile, error: MalformedXmlError) -> Diagnostic:
-    begun = [Note("the element that is open begins here", file.between(*error.begun))] if error.begun else []
-    return MALFORMED_XML.at(file.between(error.at, error.at + 1), problem=error.problem, notes=begun)
+    notes = [Note("the element that is open begins here", file.between(*error.begun))] if error.begun else []
+    return MALFORMED_XML.at(file.between(error.at, error.at + 1), problem=error.problem, notes=notes)
 
 
 class _RefusedError(Exception):
-    """A text is refused at an offset, though it may be XML."""
+    """A text is refused at an offset, although it may be well-formed."""
 
     def __init__(self, at: int, diagnostic: Diagnostic) -> None:
         self.at, self.diagnostic = at, diagnostic
@@ -69,24 +69,24 @@ class _RefusedError(Exception):
 
 
 class _Bounds:
-    """The bounds of a document, which hold before a tree of it is made."""
+    """Checks the limits of a document before its tree is built."""
 
     def __init__(self, file: SourceFile, *, is_ours: bool) -> None:
         self.places = Places(_without_declaration(file.counted))
         self._instructions: list[re.Match[str]] = []
         self._file = file
-        self._most_elements, self._most_inside = (maxsize, maxsize) if is_ours else (MOST_ELEMENTS, MOST_INSIDE)
+        self._max_elements, self._max_inside = (maxsize, maxsize) if is_ours else (MOST_ELEMENTS, MOST_INSIDE)
         self._elements = 0
-        """How many there were, comments and processing instructions among them."""
+        """Number of elements, comments and processing instructions so far."""
         self._inside = [0] * (MAX_NESTED_ELEMENTS + 1)
-        """How many elements, comments and texts stand in the file, in its open element, in the open one in that..."""
+        """Number of elements, comments and texts in the file, in its open element, in the open one inside that, ..."""
         self._is_in_text = False
 
     def require(self) -> None:
         """Walk over the text.
 
         Raises:
-            _RefusedError: for a document type, and where a bound is passed.
+            _RefusedError: for a document type, and where a limit is exceeded.
             MalformedXmlError: where the text is malformed before that.
 
         """
@@ -99,20 +99,20 @@ class _Bounds:
                 place = self._span(piece, len(_DOCUMENT_TYPE))
                 raise fault_of(self.places.text) or _RefusedError(piece.start(), DOCUMENT_TYPE.at(place))
             if self._is_in_text and kind != "rest":
-                # What CDATA holds is one text with what stands around it, which ends here.
-                self._require_room(piece, 1)
+                # CDATA and the text around it are one text, which ends here.
+                self._count_inside(piece, 1)
                 self._is_in_text = False
             if kind == "start":
                 self._begin(piece)
             elif kind == "comment":
                 self._count(piece, len("<!--"))
-                self._require_room(piece, len("<!--"))
+                self._count_inside(piece, len("<!--"))
             elif kind == "instruction":
                 self._count(piece, len("<?"))
                 self._instructions.append(piece)
 
     def instructions_before(self, offset: int) -> Iterator[Diagnostic]:
-        """Yield a warning for each processing instruction that ends before an offset or at it."""
+        """Yield a warning for each processing instruction that ends at or before an offset."""
         for piece in self._instructions:
             if piece.end() <= offset:
                 target = piece["target"]
@@ -123,17 +123,17 @@ class _Bounds:
         if depth == MAX_NESTED_ELEMENTS:
             raise self._refused(piece, TOO_DEEP.at(self._span(piece, length), limit=MAX_NESTED_ELEMENTS))
         self._count(piece, length)
-        self._require_room(piece, length)
+        self._count_inside(piece, length)
         self._inside[depth + 1] = 0
 
     def _count(self, piece: re.Match[str], length: int) -> None:
         self._elements += 1
-        if self._elements > self._most_elements:
+        if self._elements > self._max_elements:
             raise self._refused(piece, TOO_MANY_ELEMENTS.at(self._span(piece, length), limit=MOST_ELEMENTS))
 
-    def _require_room(self, piece: re.Match[str], length: int) -> None:
+    def _count_inside(self, piece: re.Match[str], length: int) -> None:
         depth = len(self.places.open)
-        if self._inside[depth] >= self._most_inside:
+        if self._inside[depth] >= self._max_inside:
             around = MARKUP.match(self.places.text, self.places.begins[self.places.open[-1]]) if depth else None
             owner = f"<{around['tag']}>" if around else "the file"
             refused = TOO_MUCH_INSIDE.at(self._span(piece, length), owner=owner, limit=MOST_INSIDE)
@@ -141,7 +141,7 @@ class _Bounds:
         self._inside[depth] += 1
 
     def _refused(self, piece: re.Match[str], diagnostic: Diagnostic) -> Exception:
-        """Return why the text is refused at a piece: it may be malformed before the end of that."""
+        """Return the exception for a piece: it is malformed if the text up to its end is."""
         return fault_of(self.places.text[: piece.end()], is_whole=False) or _RefusedError(piece.start(), diagnostic)
 
     def _span(self, piece: re.Match[str], length: int) -> Span:
@@ -149,7 +149,7 @@ class _Bounds:
 
 
 def _without_declaration(text: str) -> str:
-    """Return the text with blanks for its XML declaration: it is decoded already, and a late one says no more."""
+    """Return the text with blanks in place of its XML declaration, because it is decoded already."""
     found = _DECLARATION.match(text)
     if found is None:
         return text

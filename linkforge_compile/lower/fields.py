@@ -26,7 +26,7 @@ from linkforge_compile.lower.object_context import ObjectContext
 from linkforge_compile.source import SourceRef
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
-from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1, xacro_facts
+from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS, xacro_facts
 
 T = TypeVar("T")
 Choice = TypeVar("Choice", bound=StrEnum)
@@ -74,7 +74,7 @@ class Fields(ObjectContext):
         node = self.node.get(key)
         if isinstance(node, YamlScalar) and isinstance(node.value, bool):
             return node.value
-        if isinstance(node, YamlScalar) and (truth := TRUTHS_OF_YAML_1_1.get(node.text.lower())):
+        if isinstance(node, YamlScalar) and (truth := YAML_1_1_BOOLEANS.get(node.text.lower())):
             self.report(TRUTH_AS_TEXT, node, name=node.text, meant=truth)
         elif node is not None:
             self.report_wrong_kind(node, key, "true or false")

@@ -29,7 +29,7 @@ from linkforge_compile.units import (
     Quantity,
     number_text,
     parse_quantity,
-    unit_meant,
+    suggested_unit,
     unit_text,
     units_of,
 )
@@ -213,7 +213,7 @@ def _no_number(node: YamlNode, accepted: NumberType) -> Refusal:
     if unit is None or not isinstance(node, YamlScalar) or not accepted.dimensions:
         return Refusal(WRONG_KIND, {"expected": accepted.words, "found": describe_node(node)})
     known = tuple(name for dimension in accepted.dimensions for name in units_of(dimension))
-    similar = unit_meant(unit)
+    similar = suggested_unit(unit)
     if similar and similar.dimension in accepted.dimensions:
         hint = f"; write '{node.text.strip().removesuffix(unit).rstrip()} {similar.name}'"
         return Refusal(UNKNOWN_UNIT, {"expected": accepted.words, "name": unit, "hint": hint})

@@ -1,6 +1,6 @@
 """Make the self-contained schema for editors: which parts may be empty, what is completed, and with which snippets.
 
-The validator ignores fields without a value and offers no completions; an editor knows only what the schema says.
+The validator ignores fields without a value and offers no completions; an editor knows only the schema.
 tests/editor holds the completions of yaml-language-server.
 """
 

@@ -23,7 +23,7 @@ def accepts(schema: LinkedSchema, node: YamlNode) -> bool:
     """Whether a node is valid by a part of the linked schema; jsonschema then finds no error in it either.
 
     False does not imply that an error is reported: faults and fields without a value are skipped, and only
-    jsonschema takes infinity for a number.
+    jsonschema accepts infinity as a number.
     """
     try:
         return _validator(schema).is_valid(plain(node))

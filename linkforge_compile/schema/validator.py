@@ -23,7 +23,7 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     """
     if _is_valid(tree, is_included) and not _may_lack_section_line(tree):
         return tree
-    # Imported here because jsonschema takes 90 ms.
+    # Imported here because importing jsonschema costs 90 ms.
     from linkforge_compile.schema.misplaced_sections import restore_sections
     from linkforge_compile.schema.report import report_mismatches
 

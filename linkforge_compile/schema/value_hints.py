@@ -21,7 +21,7 @@ from linkforge_compile.schema.number_hints import (
 from linkforge_compile.schema.shapes import FREE, Shape, shape_of, shapes
 from linkforge_compile.schema.words import expected, is_number, nested, shown, split_path
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
+from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS
 
 Path: TypeAlias = tuple[str | int, ...]
 
@@ -109,7 +109,7 @@ def _names_in_scope(path: Path, file: YamlMap) -> frozenset[str]:
 def _boolean(node: YamlScalar, mismatch: SchemaMismatch) -> str:
     """A boolean of YAML 1.1, such as `yes`."""
     accepts_boolean = expected(mismatch.schema).startswith(("true, false", "true or false"))
-    return TRUTHS_OF_YAML_1_1.get(node.text.lower(), "") if accepts_boolean else ""
+    return YAML_1_1_BOOLEANS.get(node.text.lower(), "") if accepts_boolean else ""
 
 
 def _color(node: YamlScalar, mismatch: SchemaMismatch) -> str:

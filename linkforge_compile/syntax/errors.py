@@ -39,12 +39,12 @@ def explain_cut_expression(event: ScalarEvent, marks: Marks) -> Diagnostic:
     assert event.start_mark is not None, "the parser marks every event"
     assert event.end_mark is not None, "the parser marks every event"
     opening = marks.text.rfind("$(", event.start_mark.index, event.end_mark.index)
-    if _closes(marks.text, opening + len("$(")):
+    if _is_closed(marks.text, opening + len("$(")):
         return codes.UNQUOTED_EXPRESSION.at(marks.scalar(event))
     return UNCLOSED_EXPRESSION.at(marks.part(opening, len("$(")))
 
 
-def _closes(text: str, start: int) -> bool:
+def _is_closed(text: str, start: int) -> bool:
     """Whether the parenthesis before `start` is closed, before anything that no expression contains."""
     closing = [")"]
     for token in _IN_EXPRESSION.finditer(text, start, start + _LONGEST_EXPRESSION):
@@ -85,12 +85,19 @@ class _Failure:
         here = self.here
         return here.file.line(here.line)[: here.column - 1]
 
-    def found(self, pattern: re.Pattern[str], line: int) -> Span | None:
+    def match_line(self, pattern: re.Pattern[str], line: int) -> Span | None:
         """Return the span of the first group of a pattern matched at the start of a line."""
         found = pattern.match(self.marks.file.line(line))
         return Span(self.marks.file, line, found.start(1) + 1, line, found.end(1) + 1) if found else None
 
-    def quoted_before(self) -> Span | None:
+    def missing_space(self, line: int, stuck_to_dash: re.Pattern[str]) -> Diagnostic | None:
+        """Return the error for a line without the space after its dash or its colon, None for other lines."""
+        for pattern, code in ((stuck_to_dash, codes.SPACE_AFTER_DASH), (_KEY_STUCK_TO_VALUE, codes.SPACE_AFTER_COLON)):
+            if stuck := self.match_line(pattern, line):
+                return code.at(stuck, text=stuck.text)
+        return None
+
+    def quoted_text_before(self) -> Span | None:
         """Return the span of a quoted text of several lines that ends just before the error."""
         last = self.last_scalar
         if last is None or last.style not in ("'", '"'):
@@ -99,7 +106,7 @@ class _Failure:
         is_just_before = span.end_line == self.here.line and not self.before[span.end_column - 1 :].strip()
         return span if is_just_before and span.line < span.end_line else None
 
-    def around(self) -> list[Note]:
+    def bracket_notes(self) -> list[Note]:
         """Return a note on the innermost open bracket, if it is on a line above: it may not be closed."""
         begins = [self.marks.begin(bracket) for bracket in self.brackets]
         # A pair in a list, `[a: 1]`, is a map without a bracket.
@@ -121,10 +128,10 @@ def _explain(
     at = min(error.problem_mark.index, end) if error.problem_mark else end
     began = error.context_mark.index if error.context_mark else at
     failure = _Failure(error.problem or "", error.context or "", at, began, marks, last_scalar, brackets)
-    if quoted := failure.quoted_before():
-        return _text_in_quotes_ended(failure, quoted)
+    if quoted := failure.quoted_text_before():
+        return _explain_after_quote(failure, quoted)
     for line in (failure.line_above(), failure.here.line):
-        if (like_space := failure.found(LIKE_SPACES, line)) and (character := like_space.text):
+        if (like_space := failure.match_line(LIKE_SPACES, line)) and (character := like_space.text):
             return codes.TAB_INDENTATION.at(like_space, found=f"{code_point(character)}, which looks like one")
     for pattern, explain in _EXPLANATIONS:
         if re.search(pattern, failure.problem):
@@ -167,48 +174,46 @@ def _strip_comment(line: str) -> str:
     return _COMMENT.sub("", line).strip()
 
 
-def _tab(failure: _Failure) -> Diagnostic:
+def _explain_tab(failure: _Failure) -> Diagnostic:
     return codes.TAB_INDENTATION.at(failure.here, found="a tab")
 
 
-def _reserved_character(failure: _Failure) -> Diagnostic:
+def _explain_reserved_character(failure: _Failure) -> Diagnostic:
     if failure.character == "\t":
-        return _tab(failure)
-    return codes.RESERVED_START.at(failure.here, character=failure.character, notes=failure.around())
+        return _explain_tab(failure)
+    return codes.RESERVED_START.at(failure.here, character=failure.character, notes=failure.bracket_notes())
 
 
-def _reserved_start(failure: _Failure) -> Diagnostic:
+def _explain_reserved_start(failure: _Failure) -> Diagnostic:
     return codes.RESERVED_START.at(failure.marks.part(failure.began, 1), character=failure.marks.text[failure.began])
 
 
-def _colon_not_expected(failure: _Failure) -> Diagnostic:
+def _explain_colon(failure: _Failure) -> Diagnostic:
     """Explain a colon: a second one on its line, or the first after a fault in the line above."""
     if re.search(r":\s", failure.before):
         keys = _TWO_KEYS.search(failure.before)
         or_map = f", or a map in braces: '{keys[1]}: {{{keys[2]}: …}}'" if keys else ""
         return codes.SECOND_COLON.at(failure.here, or_map=or_map)
-    if fault := _faulty_key_above(failure):
+    if fault := _find_fault_above(failure):
         return fault
     indentation = len(failure.before) - len(failure.before.lstrip())
     line = failure.here.line
     return codes.TOO_DEEPLY_INDENTED.at(Span(failure.marks.file, line, indentation + 1, line, failure.here.column))
 
 
-def _faulty_key_above(failure: _Failure) -> Diagnostic | None:
+def _find_fault_above(failure: _Failure) -> Diagnostic | None:
     above = failure.line_above()
     if not above:
         return None
-    if stuck := failure.found(_KEY_STUCK_TO_DASH, above):
-        return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
-    if stuck := failure.found(_KEY_STUCK_TO_VALUE, above):
-        return codes.SPACE_AFTER_COLON.at(stuck, text=stuck.text)
+    if fault := failure.missing_space(above, _KEY_STUCK_TO_DASH):
+        return fault
     content = _strip_comment(failure.marks.file.line(above))
     begins = _strip_comment(failure.marks.file.line(failure.line_above(above))).endswith(":")
     is_first = begins and _FIRST_WORD.match(content) and ": " not in content
-    return _missing_colon(failure, above) if is_first or _WORD.fullmatch(content) else None
+    return _report_missing_colon(failure, above) if is_first or _WORD.fullmatch(content) else None
 
 
-def _missing_colon(failure: _Failure, line: int) -> Diagnostic:
+def _report_missing_colon(failure: _Failure, line: int) -> Diagnostic:
     """Report a key without a colon: the whole line, or its first word if nothing is indented below it."""
     written = failure.marks.file.line(line)
     content = _strip_comment(written)
@@ -219,16 +224,12 @@ def _missing_colon(failure: _Failure, line: int) -> Diagnostic:
     return codes.MISSING_COLON.at(Span(failure.marks.file, line, begin, line, begin + len(content)), text=content)
 
 
-def _colon_expected(failure: _Failure) -> Diagnostic:
+def _explain_missing_colon(failure: _Failure) -> Diagnostic:
     line = failure.marks.part(failure.began, 0).line
-    if stuck := failure.found(_ITEM_STUCK_TO_DASH, line):
-        return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
-    if stuck := failure.found(_KEY_STUCK_TO_VALUE, line):
-        return codes.SPACE_AFTER_COLON.at(stuck, text=stuck.text)
-    return _missing_colon(failure, line)
+    return failure.missing_space(line, _ITEM_STUCK_TO_DASH) or _report_missing_colon(failure, line)
 
 
-def _entry_expected(failure: _Failure) -> Diagnostic:
+def _explain_line(failure: _Failure) -> Diagnostic:
     """Explain why a line is no entry of the map or list around it."""
     here = failure.here
     if failure.before.strip():
@@ -237,9 +238,9 @@ def _entry_expected(failure: _Failure) -> Diagnostic:
         if failure.character == "," and failure.before.rstrip().endswith(("}", "]")):
             return codes.COMMA_AFTER_VALUE.at(here)
         return codes.TEXT_AFTER_VALUE.at(here)
-    if stuck := failure.found(_ITEM_STUCK_TO_DASH, here.line):
+    if stuck := failure.match_line(_ITEM_STUCK_TO_DASH, here.line):
         return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
-    if fault := _faulty_key_above(failure):
+    if fault := _find_fault_above(failure):
         return fault
     in_map = "mapping" in failure.construct
     if in_map and re.match(r"-\s", failure.marks.text[failure.at :]):
@@ -251,7 +252,7 @@ def _entry_expected(failure: _Failure) -> Diagnostic:
     return (codes.TOO_DEEPLY_INDENTED if deeper else codes.UNEVEN_INDENTATION).at(here)
 
 
-def _bracket_expected(failure: _Failure) -> Diagnostic:
+def _explain_bracket(failure: _Failure) -> Diagnostic:
     last, text = failure.last_scalar, failure.marks.text
     if last and not last.style and is_cut_expression(last.value):
         return explain_cut_expression(last, failure.marks)
@@ -260,12 +261,12 @@ def _bracket_expected(failure: _Failure) -> Diagnostic:
         return _xacro_expression(xacro, failure.marks)
     opening = failure.marks.part(failure.began, 1)
     closing = "]" if "sequence" in failure.construct else "}"
-    if comment := _comment_with(closing, failure):
+    if comment := _find_comment_with(closing, failure):
         return codes.COMMENT_TAKES_BRACKET.at(comment, text=comment.text, closing=closing)
     return codes.UNCLOSED_BRACKET.at(failure.here, closing=closing, notes=[Note("opened here", opening)])
 
 
-def _comment_with(closing: str, failure: _Failure) -> Span | None:
+def _find_comment_with(closing: str, failure: _Failure) -> Span | None:
     """Return the first word of a comment with a bracket in it that was intended as a value, such as #ff0000."""
     for comment in _COMMENT_AS_VALUE.finditer(failure.marks.text, failure.began, failure.at):
         span = failure.marks.part(comment.start(1), len(comment[1]))
@@ -275,11 +276,11 @@ def _comment_with(closing: str, failure: _Failure) -> Span | None:
     return None
 
 
-def _unclosed_quote(failure: _Failure) -> Diagnostic:
+def _explain_unclosed_quote(failure: _Failure) -> Diagnostic:
     return codes.UNCLOSED_QUOTE.at(failure.marks.part(failure.began, 1))
 
 
-def _text_in_quotes_ended(failure: _Failure, quoted: Span) -> Diagnostic:
+def _explain_after_quote(failure: _Failure, quoted: Span) -> Diagnostic:
     """Report a missing closing quote, whose text ends at the next quote lines below, or text after a closing quote."""
     opening = Span(quoted.file, quoted.line, quoted.column, quoted.line, quoted.column + 1)
     lines = range(quoted.line + 1, quoted.end_line + 1)
@@ -289,7 +290,7 @@ def _text_in_quotes_ended(failure: _Failure, quoted: Span) -> Diagnostic:
     return codes.TEXT_AFTER_VALUE.at(failure.here, notes=[Note("the text in quotes begins here", opening)])
 
 
-def _unknown_escape(failure: _Failure) -> Diagnostic:
+def _explain_escape(failure: _Failure) -> Diagnostic:
     text = failure.marks.text
     backslash = text.rfind("\\", failure.began, failure.at + 1)
     if escape := _ESCAPE_OF_NUMBER.match(text, backslash):
@@ -301,7 +302,7 @@ def _unknown_escape(failure: _Failure) -> Diagnostic:
     return codes.UNKNOWN_ESCAPE.at(span, text=span.text)
 
 
-def _broken_tag(failure: _Failure) -> Diagnostic:
+def _explain_tag(failure: _Failure) -> Diagnostic:
     """Report a tag with a broken escape, such as !caf%E9."""
     text = failure.marks.text
     start = max(text.rfind("!", 0, failure.at + 1), 0)
@@ -309,34 +310,34 @@ def _broken_tag(failure: _Failure) -> Diagnostic:
     return codes.TAG.at(failure.marks.part(start, max(len(tag), 1)), tag=tag)
 
 
-def _value_expected(failure: _Failure) -> Diagnostic:
+def _explain_missing_value(failure: _Failure) -> Diagnostic:
     found = f"'{failure.character}'" if failure.character.strip() else "the end of the file"
-    return codes.MISSING_VALUE.at(failure.here, found=found, notes=failure.around())
+    return codes.MISSING_VALUE.at(failure.here, found=found, notes=failure.bracket_notes())
 
 
-def _document_ended(failure: _Failure) -> Diagnostic:
-    """Report a second document, or a first line without a key, which the parser takes for a whole document."""
+def _explain_document_end(failure: _Failure) -> Diagnostic:
+    """Report a second document, or a first line without a key, which the parser reads as a whole document."""
     if _strip_comment(failure.marks.file.line(failure.line_above())) == "...":
         return codes.SEVERAL_DOCUMENTS.at(failure.here)
     if failure.character in ("}", "]"):
         return codes.BRACKET_TOO_MANY.at(failure.here, bracket=failure.character)
-    return _faulty_key_above(failure) or codes.TEXT_AFTER_VALUE.at(failure.here)
+    return _find_fault_above(failure) or codes.TEXT_AFTER_VALUE.at(failure.here)
 
 
 _EXPLANATIONS: tuple[tuple[str, Callable[[_Failure], Diagnostic]], ...] = (
-    (r"\btab\b", _tab),
-    (r"cannot start any token", _reserved_character),
-    (r"alphabetic or numeric|comment or (a )?line break|chomping", _reserved_start),
+    (r"\btab\b", _explain_tab),
+    (r"cannot start any token", _explain_reserved_character),
+    (r"alphabetic or numeric|comment or (a )?line break|chomping", _explain_reserved_start),
     (r"mapping keys are not allowed", lambda failure: codes.RESERVED_START.at(failure.here, character="?")),
-    (r"mapping values are not allowed", _colon_not_expected),
-    (r"could not find expected ':'", _colon_expected),
+    (r"mapping values are not allowed", _explain_colon),
+    (r"could not find expected ':'", _explain_missing_colon),
     (r"sequence entries are not allowed", lambda failure: codes.LIST_ON_KEY_LINE.at(failure.here)),
-    (r"expected key|expected '-' indicator|expected <block end>", _entry_expected),
-    (r"expected ',' or", _bracket_expected),
-    (r"unexpected (end of stream|document)", _unclosed_quote),
-    (r"URI|UTF-8 octet", _broken_tag),
-    (r"escape|hexdecimal|hexadecimal", _unknown_escape),
-    (r"node content", _value_expected),
-    (r"<document start>", _document_ended),
+    (r"expected key|expected '-' indicator|expected <block end>", _explain_line),
+    (r"expected ',' or", _explain_bracket),
+    (r"unexpected (end of stream|document)", _explain_unclosed_quote),
+    (r"URI|UTF-8 octet", _explain_tag),
+    (r"escape|hexdecimal|hexadecimal", _explain_escape),
+    (r"node content", _explain_missing_value),
+    (r"<document start>", _explain_document_end),
 )
 """Patterns of libyaml's and PyYAML's messages, and the functions that explain them; the first match wins."""

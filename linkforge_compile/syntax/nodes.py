@@ -183,7 +183,7 @@ Tags: TypeAlias = Mapping[str, Callable[[YamlScalar], YamlNode]]
 
 
 def fault_of(node: YamlNode) -> YamlFault:
-    """Return the YamlFault that takes the place of a faulty node."""
+    """Return the YamlFault that replaces a faulty node."""
     return node if isinstance(node, YamlFault) else YamlFault(node.span, frozenset(_keys_in(node)))
 
 

@@ -16,7 +16,7 @@ _WORDS: dict[str, ScalarValue] = {
     **dict.fromkeys((".nan", ".NaN", ".NAN"), math.nan),
 }
 
-TRUTHS_OF_YAML_1_1 = {"yes": "true", "on": "true", "no": "false", "off": "false"}
+YAML_1_1_BOOLEANS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
 """Words, in any case, that YAML 1.1 reads as booleans and YAML 1.2 as text, and what to write for each."""
 
 _NUMBER = re.compile(

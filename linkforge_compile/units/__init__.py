@@ -23,7 +23,7 @@ from linkforge_compile.units.field_unit import (
 )
 from linkforge_compile.units.numbers import double_text, is_in_full, number_text
 from linkforge_compile.units.quantity import WIDEST_ANGLE, Dimension, Quantity
-from linkforge_compile.units.table import UNITS, Unit, parse_quantity, spellings_of, unit_meant, unit_text, units_of
+from linkforge_compile.units.table import UNITS, Unit, parse_quantity, spellings_of, suggested_unit, unit_text, units_of
 
 __all__ = [
     "ANGLE",
@@ -54,7 +54,7 @@ __all__ = [
     "number_text",
     "parse_quantity",
     "spellings_of",
-    "unit_meant",
+    "suggested_unit",
     "unit_of",
     "unit_text",
     "units_of",

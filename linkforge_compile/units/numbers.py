@@ -18,7 +18,7 @@ def number_text(value: float) -> str:
     if not isinstance(value, float):
         try:
             return str(index(value))
-        except TypeError:  # not an integer; hasattr(__index__) would not tell, every array has it
+        except TypeError:  # not an integer; every array has __index__, too
             value = float(value)
     return double_text(value)
 

@@ -173,7 +173,7 @@ def parse_quantity(text: str) -> Quantity | None:
     return Quantity(unit.to_si(match[1]), unit.dimension, text.strip()) if unit else None
 
 
-def unit_meant(word: str) -> Unit | None:
+def suggested_unit(word: str) -> Unit | None:
     """Return the unit to suggest for a word that is not one: `deg` for `degrees`; None for any other word."""
     return _UNITS_BY_WORD.get(word.translate(_PLAIN).replace("**", "^"))
 

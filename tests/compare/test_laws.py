@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from linkforge_compile.compare import compare, vanished
-from linkforge_compile.compare.walk import How, walk
+from linkforge_compile.compare import compare, removed_public_names
+from linkforge_compile.compare.walk import CompareContext, walk
 from linkforge_compile.core import Robot
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import Sphere, Vector3
@@ -96,8 +96,8 @@ PARTS = list(parts(full()))
 def test_no_change_of_a_single_field_is_silent(part: object):
     for field, other in changed_parts(part):
         if other != part:
-            assert any(walk(("part",), part, other, How())), (field, other)
-            assert any(walk(("part",), other, part, How())), (field, other)
+            assert any(walk(("part",), part, other, CompareContext())), (field, other)
+            assert any(walk(("part",), other, part, CompareContext())), (field, other)
 
 
 def test_every_field_of_every_part_was_changed_by_that():
@@ -125,7 +125,7 @@ def test_no_field_of_a_robot_is_silent():
 @given(robots())
 def test_a_robot_is_like_itself(robot: Robot):
     assert compare(robot, robot.clone()) == ()
-    assert vanished(robot, robot.clone()) == ()
+    assert removed_public_names(robot, robot.clone()) == ()
 
 
 @settings(max_examples=15)

@@ -8,7 +8,7 @@ import time
 import pytest
 
 from linkforge_compile import compile_text
-from linkforge_compile.compare import Kind, compare, vanished
+from linkforge_compile.compare import Kind, compare, removed_public_names
 from linkforge_compile.core import (
     Joint,
     JointType,
@@ -394,7 +394,7 @@ def test_renamed_links_and_joints_are_told_as_such_and_nothing_that_names_them_i
         (Kind.RENAMED, ("joints", "shoulder_b"), "shoulder", "shoulder_b"),
         (Kind.RENAMED, ("joints", "axle_b"), "axle", "axle_b"),
     }
-    assert [tuple(name) for name in vanished(before, after)] == [
+    assert [tuple(name) for name in removed_public_names(before, after)] == [
         ("link", "finger", "finger_b"),
         ("joint", "axle", "axle_b"),
         ("joint", "shoulder", "shoulder_b"),
@@ -415,7 +415,7 @@ def test_a_renamed_state_is_told_as_such_unless_another_one_is_like_it():
         (Kind.RENAMED, "hinge"),
         (Kind.RENAMED, "arm/rest"),
     ]
-    assert ("group state", "arm/home", "arm/rest") in vanished(before, after)
+    assert ("group state", "arm/home", "arm/rest") in removed_public_names(before, after)
     twins = "arm: {rest: {elbow: 0, rail: 0}, zero: {elbow: 0, rail: 0}}"
     assert [text.split()[0] for text in told(old, twins)] == ["added", "added", "removed"]
 
@@ -429,5 +429,5 @@ def test_two_alike_are_no_rename():
 
 def test_the_semantic_part_can_be_left_out():
     before, after = robot_of(SPEC), robot_of(SPEC[: SPEC.index("semantic:")])
-    assert compare(before, after, semantic=False) == vanished(before, after, semantic=False) == ()
-    assert [name.name for name in vanished(before, after)] == ["arm", "arm/home"]
+    assert compare(before, after, semantic=False) == removed_public_names(before, after, semantic=False) == ()
+    assert [name.name for name in removed_public_names(before, after)] == ["arm", "arm/home"]

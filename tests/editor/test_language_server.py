@@ -280,7 +280,7 @@ HOVERS = {
         ["[rad] for revolute, [m] for prismatic", "-120 deg"],
     ),
     "an orientation": ("joints: {elbow: {origin: {r|py: [0, 0, 0]}}}", ["roll, pitch, yaw", "[rad]", "[0, 90 deg, 0]"]),
-    "a rate": ("sensors: {front: {update|_rate: 30}}", ["[Hz]", "30 Hz unless said", "100 Hz"]),
+    "a rate": ("sensors: {front: {update|_rate: 30}}", ["[Hz]", "30 Hz by default", "100 Hz"]),
     "a shape": (
         "links: {base: {visual: {cyl|inder: {}}}}",
         ["A cylinder along z, centred on its origin.", "radius: 40 mm"],

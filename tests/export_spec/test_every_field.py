@@ -37,7 +37,7 @@ from linkforge_compile.core.models.sensor import (
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.core.part import Inside
 from linkforge_compile.export_spec import write_spec
-from linkforge_compile.export_spec.gazebo import _SPELLED_SO
+from linkforge_compile.export_spec.gazebo import _IS_NORMAL
 from tests.conftest import ROOT
 from tests.export_spec.test_laws import compiled
 from tests.formats.everything import everything
@@ -86,7 +86,7 @@ def test_that_robot_has_something_in_every_field():
 def test_the_tags_that_may_be_keys_are_those_of_the_schema():
     schema = json.loads((ROOT / "schemas" / "gazebo.schema.json").read_text("utf-8"))
     keys = {key for block in schema["definitions"].values() for key in block.get("properties", ())}
-    assert set(_SPELLED_SO) <= keys
+    assert set(_IS_NORMAL) <= keys
 
 
 def is_part(kind: object) -> bool:

@@ -8,10 +8,10 @@ from linkforge_compile.source import SourceFile, Span
 
 
 class Computed(NamedTuple):
-    """A value, and each thing that was told as the text it is told of and the sentence."""
+    """A value, and each thing that was reported as the text it is reported of and the sentence."""
 
     value: Value | Fault
-    told: list[tuple[str | None, str]]
+    reported: list[tuple[str | None, str]]
 
 
 def compute(text: str, names: dict[str, Value | Fault | Lazy] | None = None) -> Computed:

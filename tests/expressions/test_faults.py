@@ -46,7 +46,7 @@ NAMES: dict[str, Value] = {
         ("$(find ur)/x", "find ur", "'$(find ...)' is xacro; write package://ur/..."),
     ],
 )
-def test_habits_from_elsewhere_are_told_what_is_written_here(text: str, place: str, problem: str):
+def test_habits_from_elsewhere_are_reported_what_is_written_here(text: str, place: str, problem: str):
     assert compute(text, dict(NAMES)) == (FAULT, [(place, f"cannot read this expression: {problem}")])
 
 
@@ -106,7 +106,7 @@ def test_habits_from_elsewhere_are_told_what_is_written_here(text: str, place: s
         ("arm_$(nothing)", "nothing", "null cannot stand inside text"),
     ],
 )
-def test_a_fault_is_told_at_its_own_characters(text: str, place: str, sentence: str):
+def test_a_fault_is_reported_at_its_own_characters(text: str, place: str, sentence: str):
     assert compute(text, dict(NAMES)) == (FAULT, [(place, sentence)])
 
 
@@ -143,13 +143,13 @@ def test_a_fault_is_told_at_its_own_characters(text: str, place: str, sentence: 
 def test_what_the_language_has_not_is_refused_with_what_to_write_instead(expression: str):
     result = compute(f"$({expression})", dict(NAMES))
     assert result.value is FAULT
-    assert result.told
-    assert all("cannot stand in an expression; " in sentence for _, sentence in result.told)
+    assert result.reported
+    assert all("cannot stand in an expression; " in sentence for _, sentence in result.reported)
 
 
 @pytest.mark.parametrize("expression", ["open('x')", "__import__('os')", "eval('1')", "print(1)"])
 def test_python_s_own_functions_are_unknown(expression: str):
-    ((_, sentence),) = compute(f"$({expression})").told
+    ((_, sentence),) = compute(f"$({expression})").reported
     assert sentence.startswith("no function named")
 
 
@@ -160,35 +160,37 @@ def test_python_s_own_functions_are_unknown(expression: str):
 def test_the_size_of_an_expression_is_bounded(expression: str):
     result = compute(f"$({expression})")
     assert result.value is FAULT
-    assert len(result.told) == 1
+    assert len(result.reported) == 1
 
 
 def test_text_does_not_grow_without_end():
     names: dict[str, Value] = {"long": "x" * 40_000}
-    assert compute("$(long + long)", dict(names)).told == [("long + long", "the text grows beyond 65,536 characters")]
-    assert compute("$(long)$(long)", dict(names)).told == [
+    assert compute("$(long + long)", dict(names)).reported == [
+        ("long + long", "the text grows beyond 65,536 characters")
+    ]
+    assert compute("$(long)$(long)", dict(names)).reported == [
         ("$(long)$(long)", "the text grows beyond 65,536 characters")
     ]
 
 
-def test_a_name_at_fault_is_not_told_again():
+def test_a_name_at_fault_is_not_reported_again():
     assert compute("$(broken + 1)", {"broken": FAULT}) == (FAULT, [])
     assert compute("arm_$(broken)", {"broken": FAULT}) == (FAULT, [])
 
 
-def test_every_unknown_name_of_a_text_is_told():
+def test_every_unknown_name_of_a_text_is_reported():
     result = compute("$(alpha + beta)_$(gamma)")
-    assert [place for place, _ in result.told] == ["alpha", "beta", "gamma"]
+    assert [place for place, _ in result.reported] == ["alpha", "beta", "gamma"]
 
 
-def test_a_fault_in_quotes_is_told_inside_the_quotes():
+def test_a_fault_in_quotes_is_reported_inside_the_quotes():
     file = SourceFile("x", 'size: "$(1 ^ 2)"')
     sink = Diagnostics()
     parse_template("$(1 ^ 2)", Span(file, 1, 7, 1, 17), sink)
     assert [str(one.span) for one in sink] == ["x:1:12"]
 
 
-def test_where_text_is_not_as_written_the_whole_scalar_is_told():
+def test_where_text_is_not_as_written_the_whole_scalar_is_reported():
     file = SourceFile("x", 'size: "\\x24(1 ^ 2)"')
     sink = Diagnostics()
     scalar = Span(file, 1, 7, 1, 20)
@@ -222,6 +224,6 @@ def test_no_text_breaks_an_expression_and_every_span_lies_in_the_text(text: str)
     span = whole(text)
     parse_template(text, span, sink)
     compute(text, dict(NAMES))
-    for told in sink:
-        assert told.span is not None
-        assert span.start <= told.span.start <= told.span.end <= span.end
+    for reported in sink:
+        assert reported.span is not None
+        assert span.start <= reported.span.start <= reported.span.end <= span.end

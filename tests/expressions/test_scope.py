@@ -23,7 +23,7 @@ class Variables:
         return self.scope.lookup(name, self.sink)
 
     @property
-    def told(self) -> list[str]:
+    def reported(self) -> list[str]:
         return [f"{one.span}: {one.message}" for one in self.sink]
 
     def _lazy(self, name: str, line: int) -> Lazy:
@@ -52,35 +52,35 @@ def test_variables_may_use_one_another_in_any_order_and_are_computed_once():
 def test_what_nobody_uses_is_not_computed():
     variables = Variables({"a": "$(1)", "b": "$(nope)"})
     assert variables["a"] == 1
-    assert variables.told == []
+    assert variables.reported == []
 
 
-def test_a_circle_is_told_once_as_the_path_round_it():
+def test_a_circle_is_reported_once_as_the_path_round_it():
     variables = Variables({"a": "$(b)", "b": "$(c + 1)", "c": "$(a)", "d": "$(b)"})
     assert [variables[name] for name in "abcd"] == [FAULT] * 4
-    assert variables.told == ["v:1:1: 'a' is computed from itself: a → b → c → a"]
+    assert variables.reported == ["v:1:1: 'a' is computed from itself: a → b → c → a"]
     (circle,) = variables.sink
     assert [str(note.span) for note in circle.notes] == ["v:2:1", "v:3:1"]
 
 
-def test_a_circle_is_told_at_its_own_first_name_not_at_who_led_into_it():
+def test_a_circle_is_reported_at_its_own_first_name_not_at_who_led_into_it():
     variables = Variables({"start": "$(a)", "a": "$(a)"})
     assert variables["start"] is FAULT
-    assert variables.told == ["v:2:1: 'a' is computed from itself: a → a"]
+    assert variables.reported == ["v:2:1: 'a' is computed from itself: a → a"]
 
 
-def test_a_fault_is_told_where_it_is_and_not_by_those_who_use_it():
+def test_a_fault_is_reported_where_it_is_and_not_by_those_who_use_it():
     variables = Variables({"a": "$(b + 1)", "b": "$(1 / 0)"})
     assert variables["a"] is FAULT
-    assert variables.told == ["v:2:10: '/' divides by zero"]
+    assert variables.reported == ["v:2:10: '/' divides by zero"]
 
 
-def test_a_chain_without_end_is_told_once():
+def test_a_chain_without_end_is_reported_once():
     texts = {f"v{number}": f"$(v{number + 1})" for number in range(2_000)}
     variables = Variables({**texts, "v2000": "$(1)"})
     assert variables["v0"] is FAULT
     assert variables["v1"] is FAULT
-    assert variables.told == ["v:1:1: 'v0' is computed through more than 64 other names"]
+    assert variables.reported == ["v:1:1: 'v0' is computed through more than 64 other names"]
     assert variables["v1990"] == 1
 
 

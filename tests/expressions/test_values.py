@@ -73,7 +73,7 @@ NAMES: dict[str, Value] = {
 )
 def test_an_expression_gives_a_value_of_its_own_type(text: str, value: Value):
     result = compute(text, dict(NAMES))
-    assert result.told == []
+    assert result.reported == []
     assert (result.value, type(result.value)) == (value, type(value))
 
 
@@ -153,7 +153,7 @@ REFUSED = ("divides by zero", "is not a finite number")
 def test_arithmetic_agrees_with_python(expression: str):
     result = compute(f"$({expression})")
     if result.value is FAULT:
-        ((_, sentence),) = result.told
+        ((_, sentence),) = result.reported
         assert sentence.endswith(REFUSED)
         return
     wanted = eval(expression)  # the judge: Python itself, on an expression that this test made

@@ -16,8 +16,8 @@ from linkforge_compile import Severity, compile_text, import_urdf, render_urdf
 from linkforge_compile.cli.main import main
 from linkforge_compile.diagnostics import Diagnostics, sink
 from linkforge_compile.formats import URDF
+from linkforge_compile.importers.element_reader import ElementReader
 from linkforge_compile.importers.losses import losses
-from linkforge_compile.importers.reading import Reading
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.xml_tree import XmlDocument
@@ -161,10 +161,10 @@ def test_one_of_two_alike_is_missed():
 def test_what_a_reader_forgets_is_a_loss_and_strict_fails(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ):
-    def forgetful(reading: Reading) -> dict[str, object]:
+    def forgetful(reader: ElementReader) -> dict[str, object]:
         return {}
 
-    monkeypatch.setattr(Reading, "rest", forgetful)
+    monkeypatch.setattr(ElementReader, "extras", forgetful)
     urdf = tmp_path / "r.urdf"
     urdf.write_text(ROBOT, "utf-8")
     assert [one.code.id for one in import_urdf(urdf).losses] == ["LF8190"]
@@ -195,11 +195,8 @@ def test_what_the_text_of_the_spec_does_not_say_is_a_loss(monkeypatch: pytest.Mo
 
 
 def test_an_srdf_is_compared_as_well(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
-    monkeypatch.setattr(
-        linkforge_compile.importing,
-        "_IMPORTED",
-        (URDF, SimpleNamespace(text=lambda robot: '<robot name="r"><group name="g"/></robot>')),
-    )
+    empty_group = SimpleNamespace(text=lambda robot: '<robot name="r"><group name="g"/></robot>')
+    monkeypatch.setattr(linkforge_compile.importing, "_IMPORTED", (URDF, empty_group))
     urdf, srdf = tmp_path / "r.urdf", tmp_path / "r.srdf"
     urdf.write_text(ROBOT, "utf-8")
     srdf.write_text('<robot name="r"><group name="g"><link name="a"/></group></robot>', "utf-8")

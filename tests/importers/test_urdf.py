@@ -671,7 +671,9 @@ def _leaving(left: int, limit: Limit) -> type[Budget]:
     return Spent
 
 
-@pytest.mark.parametrize(("limit", "room", "line"), [(Limit.VALUES, "draft", 12), (Limit.ENTRIES, "urdf.robot", 12)])
+@pytest.mark.parametrize(
+    ("limit", "room", "line"), [(Limit.VALUES, "spec_draft", 12), (Limit.ENTRIES, "urdf.robot", 12)]
+)
 def test_what_cannot_but_be_too_much_is_told_where_it_gets_there(
     limit: Limit, room: str, line: int, monkeypatch: pytest.MonkeyPatch
 ):
@@ -701,7 +703,7 @@ def test_what_the_short_forms_leave_out_of_a_robot_does_not_make_it_too_large(
     assert text
     read_yaml(SourceFile("spec", text), Diagnostics(), budget := Budget())
     values = Limit.VALUES.most - budget.left(Limit.VALUES)
-    for room in ("importing", "importers.draft"):
+    for room in ("importing", "importers.spec_draft"):
         monkeypatch.setattr(f"linkforge_compile.{room}.Budget", _leaving(values, Limit.VALUES))
     assert import_urdf("r.urdf", text=robot).text == text
     monkeypatch.setattr("linkforge_compile.importing.Budget", _leaving(values - 1, Limit.VALUES))

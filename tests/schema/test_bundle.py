@@ -63,7 +63,7 @@ def test_the_bundle_is_the_same_bytes_in_every_process():
         assert run.stdout.decode() == bundle_text()
 
 
-def told(**sections: object) -> list[list[object]]:
+def reported(**sections: object) -> list[list[object]]:
     """Where an editor sees a fault."""
     spec = {"linkforge": 1, "name": "arm", **sections}
     return [list(error.path) for error in Draft7Validator(bundle()).iter_errors(spec)]
@@ -78,20 +78,20 @@ SECTIONS = [
 
 @pytest.mark.parametrize("section", SECTIONS)
 def test_a_section_may_be_left_empty(section: str):
-    assert told(**{section: None}) == []
+    assert reported(**{section: None}) == []
 
 
 def test_what_holds_maps_may_be_left_empty_within_sections_too():
     empty = {"visual": None, "collision": None, "inertial": None, "physics": None}
     joint = {"type": "fixed", "limits": None, "dynamics": None, "origin": None}
-    assert told(parameters={"mode": {"type": "string", "enum": None}}) == []
-    assert told(links={"base": empty}, joints={"weld": joint}, semantic={"groups": None}, include=None) == []
+    assert reported(parameters={"mode": {"type": "string", "enum": None}}) == []
+    assert reported(links={"base": empty}, joints={"weld": joint}, semantic={"groups": None}, include=None) == []
 
 
 def test_a_scalar_and_the_items_of_a_list_may_not_be_left_empty():
-    assert told(description=None) == [["description"]]
-    assert told(links={"base": {"inertial": {"mass": None}}}) == [["links", "base", "inertial", "mass"]]
-    assert told(include=[None]) == [["include", 0]]
+    assert reported(description=None) == [["description"]]
+    assert reported(links={"base": {"inertial": {"mass": None}}}) == [["links", "base", "inertial", "mass"]]
+    assert reported(include=[None]) == [["include", 0]]
 
 
 def test_a_file_may_not_be_left_empty():

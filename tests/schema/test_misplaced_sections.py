@@ -10,7 +10,7 @@ from linkforge_compile.syntax import read
 HEADER = "linkforge: 1\nname: arm\n"
 
 
-def told(body: str) -> list[str]:
+def reported(body: str) -> list[str]:
     sink = Diagnostics()
     tree = read(SourceFile("arm.robot.yaml", HEADER + body), sink)
     assert tree is not None
@@ -39,8 +39,8 @@ RIGHT = {
 
 
 @pytest.mark.parametrize("body", RIGHT.values(), ids=RIGHT)
-def test_nothing_is_told_where(body: str):
-    assert told(body) == []
+def test_nothing_is_reported_where(body: str):
+    assert reported(body) == []
 
 
 MEANT_OTHERWISE = {
@@ -53,5 +53,5 @@ MEANT_OTHERWISE = {
 
 
 @pytest.mark.parametrize("body", MEANT_OTHERWISE.values(), ids=MEANT_OTHERWISE)
-def test_keys_are_told_one_by_one_where(body: str):
-    assert set(told(body)) == {"LF2101"}
+def test_keys_are_reported_one_by_one_where(body: str):
+    assert set(reported(body)) == {"LF2101"}

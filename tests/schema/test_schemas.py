@@ -114,7 +114,7 @@ def test_what_is_no_number_with_a_unit_is_no_quantity(text: str):
     assert not re.search(WHOLE["length"]["pattern"], text)
 
 
-def test_owners_are_told_apart_by_their_titles():
+def test_owners_are_reported_apart_by_their_titles():
     keys = {(schema["title"], *schema.get("properties", ())) for _, schema in OBJECTS}
     titles = [title for title, *known in keys if not set(known) <= set(WORDS)]
     assert len(titles) == len(set(titles))

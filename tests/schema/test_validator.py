@@ -19,9 +19,9 @@ def judged(text: str) -> tuple[YamlMap, list[str]]:
     assert tree is not None
     assert not list(sink), "the text itself is faulty"
     left = validate(tree, sink)
-    told = list(sink)
-    assert [fault.order for fault in told] == sorted(fault.order for fault in told)
-    return left, [f"{fault.span.line}:{fault.span.column} {fault.message}" for fault in told if fault.span]
+    reported = list(sink)
+    assert [fault.order for fault in reported] == sorted(fault.order for fault in reported)
+    return left, [f"{fault.span.line}:{fault.span.column} {fault.message}" for fault in reported if fault.span]
 
 
 def sentences(text: str) -> list[str]:
@@ -134,19 +134,19 @@ RIGHT = {
 
 
 @pytest.mark.parametrize("body", RIGHT.values(), ids=RIGHT)
-def test_nothing_is_said_where(body: str):
+def test_nothing_is_reported_where(body: str):
     assert sentences(body) == []
 
 
-def test_all_faults_are_told_at_once_each_at_its_place():
-    _, told = judged("""\
+def test_all_faults_are_reported_at_once_each_at_its_place():
+    _, reported = judged("""\
         linkforge: 1
         name: arm
         link: {}
         joints:
           elbow: {type: hinge, limits: {upper: far, efort: 3}}
     """)
-    assert told == [
+    assert reported == [
         "3:1 'link' is not a key of a robot; did you mean 'links'?",
         "5:17 'type' takes 'revolute', 'continuous', 'prismatic', 'fixed', 'floating' or 'planar', "
         "found 'hinge'; write 'revolute'",
@@ -155,9 +155,9 @@ def test_all_faults_are_told_at_once_each_at_its_place():
     ]
 
 
-def test_every_fault_within_the_meant_branch_of_a_union_is_told():
-    told = sentences("links: {arm: {visual: [{boxx: 1, box: [1]}, {origin: {rpz: 1, xyz: {}}}]}}")
-    assert told == [
+def test_every_fault_within_the_matching_branch_of_a_union_is_reported():
+    reported = sentences("links: {arm: {visual: [{boxx: 1, box: [1]}, {origin: {rpz: 1, xyz: {}}}]}}")
+    assert reported == [
         "'boxx' is not a key of a visual; did you mean 'box'?",
         "'box' takes three lengths, found 1",
         "'rpz' is not a key of an origin; its keys are xyz and rpy",
@@ -174,38 +174,38 @@ def test_every_fault_within_the_meant_branch_of_a_union_is_told():
         ("visual: {sphere: {radius: 1}}, collision: *v", "5:38"),
     ],
 )
-def test_what_an_alias_brings_in_is_told_with_the_place_that_uses_it(use: str, place: str):
+def test_what_an_alias_brings_in_is_reported_with_the_place_that_uses_it(use: str, place: str):
     sink = Diagnostics()
     text = HEADER + f"x-shape: &v {{color: red}}\nlinks:\n  a: {{{use}}}\n"
     tree = read(SourceFile("r", text), sink)
     assert tree is not None
     validate(tree, sink)
-    [told] = sink
-    assert str(told.span) == "r:3:14"
-    assert [(note.message, str(note.span)) for note in told.notes] == [("brought in here", f"r:{place}")]
+    [reported] = sink
+    assert str(reported.span) == "r:3:14"
+    assert [(note.message, str(note.span)) for note in reported.notes] == [("brought in here", f"r:{place}")]
 
 
-def test_of_several_uses_that_do_not_fit_the_first_in_the_file_is_told():
+def test_of_several_uses_that_do_not_fit_the_first_in_the_file_is_reported():
     sink = Diagnostics()
     uses = "".join(f"  {name}: {{visual: *v}}\n" for name in "hgfedcba")  # jsonschema takes them as a set has them
     tree = read(SourceFile("r", HEADER + f"x-shape: &v {{color: red}}\nlinks:\n{uses}"), sink)
     assert tree is not None
     validate(tree, sink)
-    assert [str(note.span) for told in sink for note in told.notes] == ["r:5:7"]
+    assert [str(note.span) for reported in sink for note in reported.notes] == ["r:5:7"]
 
 
 @pytest.mark.parametrize("text", ["name: arm\n", "name: arm\nlinkforge:\n"])
-def test_a_file_that_says_no_version_is_told_to_say_it_first(text: str):
-    _, told = judged(text)
-    assert told == ["1:1 write 'linkforge: 1' first: it says which version of the language the file is in"]
+def test_a_file_that_says_no_version_is_reported_to_say_it_first(text: str):
+    _, reported = judged(text)
+    assert reported == ["1:1 write 'linkforge: 1' first: it says which version of the language the file is in"]
 
 
-def test_another_version_is_told_at_its_number():
-    _, told = judged("linkforge: 2\nname: arm\n")
-    assert told == ["1:12 'linkforge' takes 1, the version of the language, found 2"]
+def test_another_version_is_reported_at_its_number():
+    _, reported = judged("linkforge: 2\nname: arm\n")
+    assert reported == ["1:12 'linkforge' takes 1, the version of the language, found 2"]
 
 
-def test_a_robot_without_a_name_is_told():
+def test_a_robot_without_a_name_is_reported():
     assert judged("linkforge: 1\n")[1] == [
         "1:1 a robot needs a 'name'; a file for 'include' is checked with the one that includes it"
     ]
@@ -242,7 +242,7 @@ def test_a_faultless_tree_is_returned_as_it_is():
     assert validate(tree, Diagnostics()) is tree
 
 
-def test_what_was_a_fault_before_is_not_judged_again():
+def test_what_was_a_fault_before_is_not_validated_again():
     sink = Diagnostics()
     text = HEADER + "links: {base: {visual: {box: [1, 1], origin: {xyz: 3, rpy: 4}}}}\n"
     tree = read(SourceFile("arm.robot.yaml", text), sink)

@@ -17,27 +17,27 @@ def read(text):
 
 @pytest.mark.parametrize(("text", "kind"), [("a: 1", YamlMap), ("- 1", YamlList), ("3 mm", YamlScalar)])
 def test_the_top_may_be_of_any_shape(text, kind):
-    node, told = read(text)
-    assert (type(node), told) == (kind, [])
+    node, reported = read(text)
+    assert (type(node), reported) == (kind, [])
 
 
 def test_a_known_tag_makes_what_the_caller_says():
-    node, told = read("a: !twice 3\nb: [!twice '4']\n")
-    assert told == []
+    node, reported = read("a: !twice 3\nb: [!twice '4']\n")
+    assert reported == []
     assert (node.get("a").value, node.get("b").items[0].value) == (6, 8)
 
 
-def test_other_tags_and_tags_on_maps_are_told_where_they_stand():
-    _, told = read("a: !half 3\nb: !twice {c: 1}\n")
+def test_other_tags_and_tags_on_maps_are_reported_where_they_stand():
+    _, reported = read("a: !half 3\nb: !twice {c: 1}\n")
     known = "of YAML's tags only !twice before a number are read here"
-    assert told == [
+    assert reported == [
         f"table.yaml:1:4: error: {known}, found '!half' [LF1113]",
         f"table.yaml:2:4: error: {known}, found '!twice' [LF1113]",
     ]
 
 
 @pytest.mark.parametrize("text", ["", "# nothing\n", "---\n", "null"])
-def test_an_empty_file_is_told(text):
+def test_an_empty_file_is_reported(text):
     assert read(text) == (None, ["table.yaml:1:1: error: the file is empty, so there is nothing to name [LF1114]"])
 
 

@@ -1,4 +1,4 @@
-"""Comments that ask not to be told something."""
+"""Comments that suppress diagnostics."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -48,7 +48,7 @@ def test_a_comment_is_placed_at_its_codes():
     assert [(span.column, span.text) for _, span in ignore.codes] == [(27, "LF6003"), (35, "LF6004")]
 
 
-def test_an_error_is_told_though_a_comment_ignores_it():
+def test_an_error_is_reported_though_a_comment_ignores_it():
     compile_yaml("""
         linkforge: 1
         name: case
@@ -59,7 +59,7 @@ def test_an_error_is_told_though_a_comment_ignores_it():
     """)
 
 
-def test_what_is_ignored_in_a_module_is_not_told_of_the_robot(tmp_path: Path):
+def test_what_is_ignored_in_a_module_is_not_reported_of_the_robot(tmp_path: Path):
     (tmp_path / "arm.robot.yaml").write_text(
         "linkforge: 1\nname: arm\nlinks:\n"
         "  base: {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 5}}}  # linkforge: ignore LF6003\n"
@@ -71,7 +71,7 @@ def test_what_is_ignored_in_a_module_is_not_told_of_the_robot(tmp_path: Path):
     assert compile_file(tmp_path / "cell.robot.yaml").diagnostics == ()
 
 
-def test_an_ignore_that_one_variant_needs_is_not_told(tmp_path: Path):
+def test_an_ignore_that_one_variant_needs_is_not_reported(tmp_path: Path):
     text = """\
 linkforge: 1
 name: arm
@@ -87,15 +87,15 @@ joints: {weld: {type: fixed, parent: base, child: tool}}
     (tmp_path / "arm.robot.yaml").write_text(text)
     runs = {str(name): one.diagnostics for name, one in check_variants(tmp_path / "arm.robot.yaml").items()}
     assert [one.code.id for one in runs["None"]] == ["LF1204", "LF1204"]
-    (told,) = told_once(runs)
-    assert told.message == "LF6004 is not told on line 9, so there is nothing to ignore"
+    (reported,) = told_once(runs)
+    assert reported.message == "LF6004 is not told on line 9, so there is nothing to ignore"
 
 
 def test_comments_are_counted_by_their_codes_and_end_the_compile_beyond_the_bound(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(Limit.IGNORED_CODES, "_value_", replace(Limit.IGNORED_CODES.value, most=3))
     spec = "linkforge: 1\nname: r\nlinks: {base: }\n# linkforge: ignore LF6003, LF6004\n"
     few = compile_text(spec + "# linkforge: ignore LF6005\n")
-    assert {told.code.id for told in few.diagnostics} == {"LF1204"}
-    (told,) = compile_text(spec + "# linkforge: ignore\n# linkforge: ignore\n").diagnostics
-    assert (told.code.id, told.span and told.span.line) == ("LF3301", 6)
-    assert "3 codes in comments" in told.message
+    assert {reported.code.id for reported in few.diagnostics} == {"LF1204"}
+    (reported,) = compile_text(spec + "# linkforge: ignore\n# linkforge: ignore\n").diagnostics
+    assert (reported.code.id, reported.span and reported.span.line) == ("LF3301", 6)
+    assert "3 codes in comments" in reported.message

@@ -1,4 +1,4 @@
-"""Reading: every key and value where it was written, what is no YAML of ours told in plain words, nothing lost."""
+"""Reading: every key and value where it was written, what is no YAML of ours reported in plain words, nothing lost."""
 
 import json
 from collections.abc import Iterator
@@ -33,12 +33,14 @@ UNCLOSED = UNCLOSED_EXPRESSION.message
 def read_text(text: str) -> tuple[YamlMap | None, list[str]]:
     sink = Diagnostics()
     tree = read(SourceFile("r", text), sink)
-    return tree, [f"{told.span.line}:{told.span.column} {told.message}" for told in sink.sorted() if told.span]
+    return tree, [
+        f"{reported.span.line}:{reported.span.column} {reported.message}" for reported in sink.sorted() if reported.span
+    ]
 
 
 def tree_of(text: str) -> YamlMap:
-    tree, told = read_text(text)
-    assert told == []
+    tree, reported = read_text(text)
+    assert reported == []
     assert tree is not None
     return tree
 
@@ -167,7 +169,7 @@ def test_merged_entries_keep_their_own_places():
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "reported"),
     [
         ("", "1:1 the file is empty; a spec begins with 'linkforge: 1'"),
         ("---\n# c\n", "1:1 the file is empty; a spec begins with 'linkforge: 1'"),
@@ -228,13 +230,13 @@ def test_merged_entries_keep_their_own_places():
         ("a: {b:, c: 1]\n", "1:13 expected ',' or '}' before this"),
     ],
 )
-def test_a_fault_is_told_once_at_its_place_in_plain_words(text: str, told: str):
-    assert read_text(text)[1] == [told]
+def test_a_fault_is_reported_once_at_its_place_in_plain_words(text: str, reported: str):
+    assert read_text(text)[1] == [reported]
 
 
 def test_a_field_of_a_flow_map_may_be_left_empty():
-    tree, told = read_text("a: 1\na: 2\nb: {mass:}\nc: {mass:, d: [{e:}]}\n")
-    assert told == ["2:1 the key 'a' is written twice"]
+    tree, reported = read_text("a: 1\na: 2\nb: {mass:}\nc: {mass:, d: [{e:}]}\n")
+    assert reported == ["2:1 the key 'a' is written twice"]
     assert tree is not None
     assert plain(tree) == {"a": "FAULT", "b": {"mass": None}, "c": {"mass": None, "d": [{"e": None}]}}
 
@@ -248,19 +250,19 @@ def test_only_a_file_of_common_size_is_read_by_the_slow_parser(monkeypatch: pyte
 
 
 def test_what_libyaml_alone_can_name_is_passed_on():
-    _, told = read_text("%YAML 2.0\n---\na: 1\n")
-    assert told[0].startswith("1:1 this is not YAML: found incompatible YAML document")
+    _, reported = read_text("%YAML 2.0\n---\na: 1\n")
+    assert reported[0].startswith("1:1 this is not YAML: found incompatible YAML document")
 
 
 def test_reading_goes_on_behind_a_fault():
-    tree, told = read_text("a: 1\na: 2\nb: !x 3\nc: [*y, 4]\nd: {e: $(f(1, 2)), g: 5}\nh: 6\n")
-    assert [line.split()[0] for line in told] == ["2:1", "3:4", "4:5", "5:8"]
+    tree, reported = read_text("a: 1\na: 2\nb: !x 3\nc: [*y, 4]\nd: {e: $(f(1, 2)), g: 5}\nh: 6\n")
+    assert [line.split()[0] for line in reported] == ["2:1", "3:4", "4:5", "5:8"]
     assert plain(tree) == {"a": "FAULT", "b": "FAULT", "c": ["FAULT", 4], "d": "FAULT", "h": 6}
 
 
 def test_two_sections_of_one_name_are_one_with_the_entries_of_both():
-    tree, told = read_text("a: {b: 1, c: 2}\nd: {e: {f: 1}, e: {g: 2}}\na: {c: 3, h: 4}\n")
-    assert [line.split()[0] for line in told] == ["2:16", "3:1", "3:5"]
+    tree, reported = read_text("a: {b: 1, c: 2}\nd: {e: {f: 1}, e: {g: 2}}\na: {c: 3, h: 4}\n")
+    assert [line.split()[0] for line in reported] == ["2:16", "3:1", "3:5"]
     assert plain(tree) == {"a": {"b": 1, "c": "FAULT", "h": 4}, "d": {"e": "FAULT"}}
 
 
@@ -276,8 +278,8 @@ def test_two_sections_of_one_name_are_one_with_the_entries_of_both():
 def test_the_other_place_is_shown_that_a_fault_is_about(text: str, notes: list[tuple[str, str]]):
     sink = Diagnostics()
     read(SourceFile("r", text), sink)
-    (told,) = sink
-    assert [(note.message, str(note.span)) for note in told.notes] == notes
+    (reported,) = sink
+    assert [(note.message, str(note.span)) for note in reported.notes] == notes
 
 
 def test_aliases_may_not_multiply_without_end():
@@ -299,9 +301,9 @@ def test_aliases_may_not_multiply_without_end():
     ids=["open", "flow", "block", "aliases"],
 )
 def test_nesting_has_a_limit(text: str):
-    tree, told = read_text(text)
+    tree, reported = read_text(text)
     assert tree is None
-    assert [line.partition(" ")[2] for line in told] == ["lists and maps are nested more than 100 deep"]
+    assert [line.partition(" ")[2] for line in reported] == ["lists and maps are nested more than 100 deep"]
 
 
 PIECES = [
@@ -327,7 +329,7 @@ def test_no_text_breaks_the_reader_and_every_span_lies_in_the_file(text: str):
     sink = Diagnostics()
     tree = read(file, sink)
     assert tree is not None or sink.has_errors
-    for span in [*(spans(tree) if tree else ()), *(told.span for told in sink)]:
+    for span in [*(spans(tree) if tree else ()), *(reported.span for reported in sink)]:
         assert span is not None
         assert (1, 1) <= span.start <= span.end
         for place in (span.start, span.end):

@@ -14,7 +14,7 @@ from linkforge_compile.units import (
     Quantity,
     number_text,
     parse_quantity,
-    unit_meant,
+    suggested_unit,
     unit_text,
     units_of,
 )
@@ -139,11 +139,11 @@ def test_an_integer_of_numpy_is_spelled_with_every_digit(kind):
 
 @pytest.mark.parametrize(("word", "unit"), [("degrees", "deg"), ("°/s", "deg/s"), ("nm", "N*m"), ("kg*m2", "kg*m^2")])
 def test_a_word_for_a_unit_is_known_and_not_taken(word: str, unit: str):
-    meant = unit_meant(word)
+    meant = suggested_unit(word)
     assert meant is not None
     assert meant.name == unit
     assert parse_quantity(f"1 {word}") is None
 
 
 def test_no_unit_is_a_word_for_another():
-    assert [unit for unit in UNITS if unit_meant(unit)] == []
+    assert [unit for unit in UNITS if suggested_unit(unit)] == []

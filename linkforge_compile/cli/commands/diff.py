@@ -16,7 +16,7 @@ from linkforge_compile.source.characters import on_one_line
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.compare import Difference, Vanished
+    from linkforge_compile.compare import Difference, RemovedName
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
 
@@ -133,7 +133,7 @@ class _Comparison(NamedTuple):
     is_semantic_missed: bool
     not_read_back: str | None
     differences: Sequence[Difference]
-    removed: Sequence[Vanished]
+    removed: Sequence[RemovedName]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -149,7 +149,7 @@ def run(arguments: argparse.Namespace) -> int:
         return NO_ROBOT
     (before, after), not_read_back = _as_urdfs(sides, (before, after), arguments)
     from linkforge_compile.cli.output import write_to_stdout
-    from linkforge_compile.compare import TOLERANCE, compare, vanished
+    from linkforge_compile.compare import TOLERANCE, compare, removed_public_names
 
     tolerance = TOLERANCE if arguments.tolerance is None else arguments.tolerance
     semantic = all(side.has_semantic for side in sides)
@@ -160,7 +160,7 @@ def run(arguments: argparse.Namespace) -> int:
         not semantic and (before.has_semantic or after.has_semantic),
         not_read_back,
         compare(before, after, tolerance=tolerance, semantic=semantic),
-        vanished(before, after, semantic=semantic),
+        removed_public_names(before, after, semantic=semantic),
     )
     write_to_stdout(_json_text(comparison) if arguments.json else "".join(f"{line}\n" for line in _lines(comparison)))
     return DIFFERENT if comparison.differences else OK
@@ -298,7 +298,7 @@ def _count(differences: Sequence[Difference]) -> str:
     return ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds), key=list(_SIGNS).index))
 
 
-def _removed_lines(removed: Sequence[Vanished]) -> Iterator[str]:
+def _removed_lines(removed: Sequence[RemovedName]) -> Iterator[str]:
     """Yield the kind and name of each removed name, and the interfaces of a joint in one line."""
     if not removed:
         return
@@ -312,7 +312,7 @@ def _removed_lines(removed: Sequence[Vanished]) -> Iterator[str]:
         yield f"  {kind:{width}}  {text}"
 
 
-def _owner(name: Vanished) -> tuple[str, str, str | None]:
+def _owner(name: RemovedName) -> tuple[str, str, str | None]:
     if not name.kind.endswith(_INTERFACE):
         return name.kind, name.name, name.now
     return name.kind, name.name.rpartition("/")[0], name.now.rpartition("/")[0] if name.now else None

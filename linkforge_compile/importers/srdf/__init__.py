@@ -1,5 +1,5 @@
-"""SRDF as the semantic part of a spec: an element a module where it has more than attributes."""
+"""Read an SRDF as the semantic part of a spec."""
 
-from linkforge_compile.importers.srdf.beside_urdf import with_srdf
+from linkforge_compile.importers.srdf.with_urdf import with_srdf
 
 __all__ = ["with_srdf"]

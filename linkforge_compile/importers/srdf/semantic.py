@@ -1,162 +1,312 @@
-"""An SRDF document as the semantic part of a spec, each of its sections in the order of the file."""
+"""Read an SRDF document as the semantic part of a spec, each section in the order of the file."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 
+from linkforge_compile.core.models.planning import Chain, EndEffector, VirtualJoint
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import OTHER_ROBOT
-from linkforge_compile.importers.comments import placed_comments
+from linkforge_compile.importers.comments import place_comments
 from linkforge_compile.importers.document import Imported
-from linkforge_compile.importers.draft import DeclinedError, Draft
-from linkforge_compile.importers.reading import Reading
-from linkforge_compile.importers.srdf.group import read_end_effector, read_group, read_state, subgroups_first
-from linkforge_compile.importers.srdf.known import Known
-from linkforge_compile.importers.srdf.nested import read_nested, read_pair, read_property
+from linkforge_compile.importers.element_reader import ElementReader, Named, read_named
+from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft
+from linkforge_compile.importers.urdf.elements import Names, read_element, read_reference
 from linkforge_compile.source import Span
-from linkforge_compile.source.xml_tree import XmlAttribute, XmlDocument
-from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+from linkforge_compile.source.xml_tree import XmlAttribute, XmlDocument, XmlElement
+from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import Dimension
 
-Named = dict[str, tuple[XmlAttribute, YamlNode]]
+_TURNING = ("revolute", "continuous")
+_RESERVED = frozenset(("extra", "extra_attributes", "extra_inside", "for", "when"))
+"""Keys of a group state, which joints in it cannot be named."""
+
+
+@dataclass
+class SemanticNames:
+    """The names that an SRDF may refer to, as the spec writes them; MoveIt skips what has others, so it stays raw."""
+
+    links: set[str]
+    joints: set[str]
+    turning: frozenset[str]
+    """The joints whose position is an angle."""
+    groups: set[str] = field(default_factory=set)
+    unread_groups: set[str] = field(default_factory=set)
+
+    @classmethod
+    def of(cls, tree: YamlMap) -> SemanticNames:
+        """Return the names of links and joints in the spec of a URDF."""
+        links, joints, frames = (tree.get(key) for key in ("links", "joints", "frames"))
+        names = cls(_keys(links), _keys(joints), frozenset(_turning_joints(joints)))
+        for frame in frames if isinstance(frames, YamlMap) else ():
+            names.links.add(frame.name)
+            joint = frame.value.child("joint")
+            names.joints.add(joint.text if isinstance(joint, YamlScalar) else f"{frame.name}_joint")
+        return names
+
+    @property
+    def by_kind(self) -> Names:
+        return {"link": self.links, "joint": self.joints, "group": self.groups}
+
+
+def _keys(section: object) -> set[str]:
+    return {entry.name for entry in section} if isinstance(section, YamlMap) else set()
+
+
+def _turning_joints(joints: object) -> Iterator[str]:
+    for entry in joints if isinstance(joints, YamlMap) else ():
+        kind = entry.value.child("type")
+        if isinstance(kind, YamlScalar) and kind.text in _TURNING:
+            yield entry.name
 
 
 def read_srdf(
-    document: XmlDocument, robot: YamlMap, sink: Diagnostics, refused: Mapping[Span, DeclinedError]
+    document: XmlDocument, robot: YamlMap, sink: Diagnostics, refused: Mapping[Span, CannotRepresentError]
 ) -> Imported:
-    """Read an SRDF document of the robot whose spec is given, as a tree of the one section `semantic`.
+    """Read an SRDF document for a robot's spec, as a tree with the section `semantic` only.
 
-    All that it says is there, in the language's own words or as raw XML, or it is told what is left out.
+    The tree has all of its content, in the language's words or as raw XML; what is left out is reported.
     """
-    draft, root = Draft(refused), document.root
-    reading = Reading(draft, root)
-    name, of = reading.name(), robot.get("name")
-    if isinstance(of, YamlScalar) and of.text != name.text:
-        draft.told.append(OTHER_ROBOT.at(name.span, name=name.text, robot=of.text))
-    semantic = _semantic(reading, Known.of(robot))
+    draft, root = SpecDraft(refused), document.root
+    reader = ElementReader(draft, root)
+    name, robot_name = reader.required_text("name"), robot.get("name")
+    if isinstance(robot_name, YamlScalar) and robot_name.text != name.text:
+        draft.diagnostics.append(OTHER_ROBOT.at(name.span, name=name.text, robot=robot_name.text))
+    semantic = _read_semantic(reader, SemanticNames.of(robot))
     draft.bodies[root] = semantic
     tree = draft.map_of({"semantic": semantic}, root.span)
-    draft.tell(sink)
-    return Imported(tree, placed_comments(document, draft, tree), (document,))
+    draft.report(sink)
+    return Imported(tree, place_comments(document, draft, tree), (document,))
 
 
-def _semantic(robot: Reading, known: Known) -> YamlMap:
+def _read_semantic(robot: ElementReader, names: SemanticNames) -> YamlMap:
     draft, span = robot.draft, robot.span
-    virtual_joints = _section(robot, "virtual_joint", lambda joint: _virtual_joint(joint, known))
-    known.joints.update(draft.text(name, span).text for name in virtual_joints)
-    groups = _groups(robot, known)
+
+    def element(kind: type[VirtualJoint | EndEffector]) -> YamlMap | None:
+        elements = read_named(robot, kind.TAG, lambda one: read_element(one, kind, names=names.by_kind))
+        if kind is VirtualJoint:
+            names.joints.update(draft.text(name, span).text for name in elements)
+        return draft.named(elements, span)
+
+    virtual_joints = element(VirtualJoint)
+    groups = _read_groups(robot, names)
     return robot.map(
-        virtual_joints=draft.named(virtual_joints, span),
+        virtual_joints=virtual_joints,
         groups=draft.named(groups, span),
-        group_states=read_nested(robot, "group_state", "group", "name", lambda state: _state(state, known)),
-        end_effectors=draft.named(
-            _section(robot, "end_effector", lambda effector: read_end_effector(effector, known)), span
+        group_states=_read_nested(robot, "group_state", ("group", "name"), lambda state: _state(state, names)),
+        end_effectors=element(EndEffector),
+        passive_joints=_passive_joints(robot, names),
+        disabled_collisions=_read_pairs(robot, "disable_collisions", names),
+        enabled_collisions=_read_pairs(robot, "enable_collisions", names),
+        no_default_collision_links=_read_references(robot, "disable_default_collisions", "link", "link", names),
+        joint_properties=_read_nested(
+            robot, "joint_property", ("joint_name", "property_name"), lambda one: _property(one, names)
         ),
-        passive_joints=_passive_joints(robot, known),
-        disabled_collisions=_pairs(robot, "disable_collisions", known),
-        enabled_collisions=_pairs(robot, "enable_collisions", known),
-        no_default_collision_links=_links(robot, "disable_default_collisions", known),
-        joint_properties=read_nested(
-            robot, "joint_property", "joint_name", "property_name", lambda remark: read_property(remark, known)
-        ),
-        link_sphere_approximations=draft.named(_sphere_approximations(robot, known), span),
+        link_sphere_approximations=draft.named(_sphere_approximations(robot, names), span),
     )
 
 
-def _section(robot: Reading, tag: str, read: Callable[[Reading], YamlNode], key: str = "name") -> Named:
-    """Read the children of a tag by their names; a name that is taken stays raw."""
-    section: Named = {}
-    for child in [child for child in robot.children() if child.tag == tag]:
-        robot.take(child, partial(_named, section, read, key))
-    return section
+def _read_references(
+    owner: ElementReader, tag: str, attribute: str, kind: str, names: SemanticNames
+) -> YamlList | None:
+    """Read the children of a tag that only refer to something, as a list of names."""
 
-
-def _groups(robot: Reading, known: Known) -> Named:
-    """Read the groups, each after those in it: one that goes takes along those that have nothing else."""
-    elements = subgroups_first(child for child in robot.children() if child.tag == "group")
-    known.unread.update(name for element in elements if (name := element.get("name")))
-    section: Named = {}
-
-    def read(group: Reading) -> YamlMap:
-        name = group.element.attributes["name"]
-        node = read_group(group, known)
-        known.groups.add(group.draft.text(name.value, name.span).text)
+    def read(reader: ElementReader) -> YamlNode:
+        if kind == "group" and reader.element.get(attribute) in names.unread_groups:
+            reference = reader.attribute(attribute)
+            reason = f"planning group '{reference.value}' contains the one that it stands in"
+            raise CannotRepresentError(reason, reference.span)
+        node = read_reference(reader, attribute, kind, names.by_kind)
+        reader.require_used_up()
         return node
 
-    for element in elements:
-        robot.take(element, partial(_named, section, read, "name"))
-        known.unread.discard(element.get("name") or "")
+    nodes = owner.children(tag, read)
+    return owner.draft.list_of(nodes, nodes[0].span) if nodes else None
+
+
+# Planning groups and their states
+
+
+def _read_groups(robot: ElementReader, names: SemanticNames) -> Named:
+    """Read the groups after those in them, because a group that stays raw cannot be a member of another."""
+    ordered = _subgroups_first(robot.remaining("group"))
+    names.unread_groups.update(name for group in ordered if (name := group.get("name")))
+    section: Named = {}
+
+    def read(group: ElementReader) -> YamlMap:
+        name = group.attribute("name")
+        if name.value in section:
+            raise CannotRepresentError(f"there is a group '{name.value}' already", name.span)
+        node = _group(group, names)
+        names.groups.add(group.draft.text(name.value, name).text)
+        section[name.value] = name, node
+        return node
+
+    for group in ordered:
+        robot.try_read(group, read)
+        names.unread_groups.discard(group.get("name") or "")
     return dict(sorted(section.items(), key=lambda named: named[1][0].span))
 
 
-def _named(section: Named, read: Callable[[Reading], YamlNode], key: str, part: Reading) -> YamlNode:
-    name = part.attribute(key)
-    if name.value in section:
-        raise DeclinedError(f"there is a {part.element.tag} '{name.value}' already", name.span)
-    node = read(part)
-    section[name.value] = name, node
-    return node
+def _subgroups_first(groups: Iterable[XmlElement]) -> list[XmlElement]:
+    """Sort groups after those in them, as far as there is no cycle; groups of the same name stay in order."""
+    from graphlib import CycleError, TopologicalSorter
+
+    by_name: dict[str, list[XmlElement]] = {}
+    for group in groups:
+        by_name.setdefault(group.get("name") or "", []).append(group)
+    members: dict[str, Iterable[str]] = {}
+    for name, same_name in by_name.items():
+        parts = (part.get("name") for group in same_name for part in group.children if part.tag == "group")
+        members[name] = [part for part in parts if part in by_name][::-1]
+    try:
+        order: Iterable[str] = tuple(TopologicalSorter(members).static_order())
+    except CycleError:
+        from networkx import DiGraph, dfs_postorder_nodes
+
+        order = dfs_postorder_nodes(DiGraph(members))
+    return [group for name in order for group in by_name[name]]
 
 
-def _virtual_joint(joint: Reading, known: Known) -> YamlMap:
-    return joint.map(
-        type=joint.name("type"), parent_frame=joint.name("parent_frame"), child_link=known.link(joint, "child_link")
+def _group(group: ElementReader, names: SemanticNames) -> YamlMap:
+    """Read a planning group whose name is taken."""
+    chains = group.children("chain", lambda chain: read_element(chain, Chain, names=names.by_kind))
+    links = _read_references(group, "link", "name", "link", names)
+    joints = _read_references(group, "joint", "name", "joint", names)
+    subgroups = _read_references(group, "group", "name", "group", names)
+    if not (chains or links or joints or subgroups):
+        raise group.cannot_represent("nothing in it is a member that the robot has")
+    return group.map(
+        **{"chain" if len(chains) == 1 else "chains": group.draft.one_or_list(chains)},
+        links=links,
+        joints=joints,
+        subgroups=subgroups,
     )
 
 
-def _state(state: Reading, known: Known) -> YamlMap:
-    known.group(state, "group")
+def _state(state: ElementReader, names: SemanticNames) -> YamlMap:
+    """Read a group state: positions by joint."""
+    read_reference(state, "group", "group", names.by_kind)
     state.attribute("name")
-    return read_state(state, known)
+    positions: dict[str, YamlNode | None] = {}
+
+    def read(joint: ElementReader) -> YamlNode:
+        name = read_reference(joint, "name", "joint", names.by_kind)
+        if name.text in positions:
+            raise CannotRepresentError(f"joint '{name.text}' has a value already", name.span)
+        if name.text in _RESERVED:
+            raise CannotRepresentError(f"'{name.text}' is a key of the language", name.span)
+        node = _position(joint, Dimension.ANGLE if name.text in names.turning else None)
+        joint.require_used_up()
+        positions[name.text] = node
+        return node
+
+    state.children("joint", read)
+    return state.map(**positions)
 
 
-def _pairs(robot: Reading, tag: str, known: Known) -> YamlMap | None:
-    return read_nested(robot, tag, "link1", "link2", lambda pair: read_pair(pair, known))
+def _position(joint: ElementReader, unit: Dimension | None) -> YamlNode:
+    """Read a position: one number, or a list of bare ones for several degrees of freedom."""
+    count = len((joint.element.get("value") or "").split())
+    if count == 1:
+        return joint.required_number("value", unit)
+    numbers = joint.required_numbers("value", count)
+    if not len(numbers):
+        raise CannotRepresentError("value is empty", numbers.span)
+    return numbers
 
 
-def _links(robot: Reading, tag: str, known: Known) -> YamlNode | None:
-    def read(part: Reading) -> YamlNode:
-        link = known.link(part, "link")
-        part.spent()
-        return link
+def _passive_joints(robot: ElementReader, names: SemanticNames) -> YamlNode | None:
+    """Return a list of names, or a map where one has extras."""
 
-    links = robot.each(tag, read)
-    return robot.draft.list_of(links, links[0].span) if links else None
-
-
-def _passive_joints(robot: Reading, known: Known) -> YamlNode | None:
-    """Return a list of names, or a map where one of them has more to say."""
-
-    def read(joint: Reading) -> YamlMap:
+    def read(joint: ElementReader) -> YamlMap:
         name = joint.element.attributes["name"]
-        if name.value not in known.joints:
-            raise DeclinedError(f"there is no joint named '{name.value}'", name.span)
+        if name.value not in names.joints:
+            raise CannotRepresentError(f"there is no joint named '{name.value}'", name.span)
         return joint.map()
 
-    joints = _section(robot, "passive_joint", read)
+    joints = read_named(robot, "passive_joint", read)
     if any(isinstance(node, YamlMap) and len(node) for _, node in joints.values()):
         return robot.draft.named(joints, robot.span)
-    names: list[YamlNode] = []
+    nodes: list[YamlNode] = []
     for attribute, node in joints.values():
-        names.append(robot.draft.text(attribute.value, attribute.span))
-        robot.draft.stands_for(names[-1], node)
-    return robot.draft.list_of(names, names[0].span) if names else None
+        nodes.append(robot.draft.text(attribute.value, attribute.span))
+        robot.draft.note_same_source(nodes[-1], node)
+    return robot.draft.list_of(nodes, nodes[0].span) if nodes else None
 
 
-def _sphere_approximations(robot: Reading, known: Known) -> Named:
-    def read(approximation: Reading) -> YamlNode:
+# Sections with two names: pairs of links, states of groups, properties of joints
+
+
+def _read_nested(
+    robot: ElementReader, tag: str, keys: tuple[str, str], read: Callable[[ElementReader], YamlNode]
+) -> YamlMap | None:
+    """Read the children of a tag by two attributes, as a map of maps.
+
+    Children with the same first name come together at the first of them; a pair of names that is taken stays raw.
+    """
+    groups: dict[str, tuple[XmlAttribute, Named]] = {}
+    first_elements: dict[str, XmlElement] = {}
+
+    def read_one(part: ElementReader) -> YamlNode:
+        outer, inner = (part.element.attributes.get(key) for key in keys)
+        node = read(part)
+        if outer is None or inner is None:
+            raise part.cannot_represent(f"it lacks '{keys[0]}' or '{keys[1]}'")
+        _, group = groups.setdefault(outer.value, (outer, {}))
+        if inner.value in group:
+            raise CannotRepresentError(f"'{outer.value}' and '{inner.value}' stand there already", inner.span)
+        group[inner.value] = inner, node
+        first_elements.setdefault(outer.value, part.element)
+        return node
+
+    for child in robot.remaining(tag):
+        robot.try_read(child, read_one)
+    section: Named = {}
+    for name, (attribute, group) in groups.items():
+        node = robot.draft.named(group, attribute.span)
+        if node is not None:
+            # Comments above the first element are about all of them.
+            robot.draft.note_source(node, first_elements[name])
+            section[name] = attribute, node
+    return robot.draft.named(section, robot.span)
+
+
+def _read_pairs(robot: ElementReader, tag: str, names: SemanticNames) -> YamlMap | None:
+    return _read_nested(robot, tag, ("link1", "link2"), lambda pair: _pair(pair, names))
+
+
+def _pair(pair: ElementReader, names: SemanticNames) -> YamlNode:
+    """Read a pair of links: its reason, null for none, or an object where it has extras."""
+    for end in ("link1", "link2"):
+        read_reference(pair, end, "link", names.by_kind)
+    reason = pair.attribute("reason") if pair.element.get("reason") is not None else None
+    if pair.is_used_up():
+        return pair.draft.word(reason.value, reason.span) if reason else YamlScalar("null", None, pair.span)
+    return pair.map(reason=pair.draft.text(reason.value, reason.span) if reason else None)
+
+
+def _property(one: ElementReader, names: SemanticNames) -> YamlNode:
+    """Read a property of a joint: its value, or an object where it has extras."""
+    read_reference(one, "joint_name", "joint", names.by_kind)
+    one.attribute("property_name")
+    attribute = one.attribute("value")
+    value = one.draft.word(attribute.value, attribute.span)
+    return value if one.is_used_up() else one.map(value=value)
+
+
+def _sphere_approximations(robot: ElementReader, names: SemanticNames) -> Named:
+    def read(approximation: ElementReader) -> YamlNode:
         link = approximation.element.attributes["link"]
-        if link.value not in known.links:
-            raise DeclinedError(f"there is no link named '{link.value}'", link.span)
-        spheres = approximation.each("sphere", _sphere)
-        listed = approximation.draft.list_of(spheres, approximation.span)
-        return listed if approximation.is_spent() else approximation.map(spheres=listed)
+        if link.value not in names.links:
+            raise CannotRepresentError(f"there is no link named '{link.value}'", link.span)
+        spheres = approximation.draft.list_of(approximation.children("sphere", _sphere), approximation.span)
+        return spheres if approximation.is_used_up() else approximation.map(spheres=spheres)
 
-    return _section(robot, "link_sphere_approximation", read, "link")
+    return read_named(robot, "link_sphere_approximation", read, "link")
 
 
-def _sphere(sphere: Reading) -> YamlMap:
-    center = sphere.numbers("center", 3)
-    if center is None:
-        raise sphere.declined("it has no 'center'")
+def _sphere(sphere: ElementReader) -> YamlMap:
+    center = sphere.required_numbers("center", 3)
     return sphere.map(center=center, radius=sphere.required_number("radius"))

@@ -1,4 +1,4 @@
-"""URDF as a tree of the language: an element a module, named as in every other stage."""
+"""Read a URDF as the tree of a spec."""
 
 from linkforge_compile.importers.urdf.robot import read_urdf
 

@@ -1,18 +1,21 @@
-"""Gazebo blocks of URDF, each beside the link or joint that it is about."""
+"""Read Gazebo blocks of URDF, for the links and joints that they are about."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
+from typing import NamedTuple
 
-from linkforge_compile.importers.draft import DeclinedError, number_of
-from linkforge_compile.importers.reading import Reading
+from linkforge_compile.core.fields import Bound, Flag, Number, Text, field_specs
+from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.importers.element_reader import ElementReader
+from linkforge_compile.importers.spec_draft import CannotRepresentError, number_of
 from linkforge_compile.importers.urdf.free_part import (
     exact_number,
-    free_children,
     has_free_children,
     read_word,
-    take_free,
+    take_children,
+    take_free_children,
 )
 from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode
@@ -20,46 +23,45 @@ from linkforge_compile.units import is_in_full, number_text
 
 
 class Blocks:
-    """The Gazebo blocks of a robot, until the entries beside which they stand take them."""
+    """The Gazebo blocks of a robot, until the links and joints that they are about take them."""
 
-    def __init__(self, robot: Reading) -> None:
-        """Take the blocks of a robot; one that is about nothing in it is left."""
-        self._robot = robot
+    def __init__(self, robot: ElementReader) -> None:
+        """Take the blocks of a robot, except those about an unknown part."""
+        self._draft = robot.draft
         self._blocks: list[tuple[str | None, YamlNode]] = []
         names = {child.get("name") for child in robot.element.children if child.tag in ("link", "joint")}
-        for child in [child for child in robot.children() if child.tag == "gazebo"]:
-            taken = robot.take(child, lambda block: _block(block, names))
-            if taken is not None and taken[0] is not None:
-                self._blocks.append((child.get("reference"), taken[0]))
+        for child in robot.remaining("gazebo"):
+            node = robot.try_read(child, lambda block: _read_block(block, names))
+            if node is not None:
+                self._blocks.append((child.get("reference"), node))
 
-    def beside(self, name: str) -> YamlNode | None:
-        """Return the blocks about a link or joint; nobody else gets them."""
+    def take(self, name: str) -> YamlNode | None:
+        """Return and remove the blocks about a link or joint."""
         nodes = [node for reference, node in self._blocks if reference == name]
         self._blocks = [block for block in self._blocks if block[0] != name]
-        return self._robot.draft.one_or_list(nodes)
+        return self._draft.one_or_list(nodes)
 
-    def rest(self) -> YamlNode | None:
-        """Return the blocks that nobody got, each with what it is about."""
-        draft, nodes = self._robot.draft, []
+    def take_rest(self) -> YamlNode | None:
+        """Return the blocks that were not taken, with their references."""
+        draft, nodes = self._draft, []
         for reference, block in self._blocks:
             node = block
-            if reference is not None and isinstance(node, YamlMap):
-                said = {entry.name: entry.value for entry in node}
-                whole = draft.map_of({"reference": draft.text(reference, node.span), **said}, node.span)
-                draft.stands_for(whole, block)
-                node = whole
+            if reference is not None and isinstance(block, YamlMap):
+                entries = {entry.name: entry.value for entry in block}
+                node = draft.map_of({"reference": draft.text(reference, block.span), **entries}, block.span)
+                draft.note_same_source(node, block)
             nodes.append(node)
         return draft.one_or_list(nodes)
 
 
-def _block(block: Reading, names: Collection[str | None]) -> YamlMap:
+def _read_block(block: ElementReader, names: Collection[str | None]) -> YamlMap:
     if "reference" in block.element.values:
         reference = block.attribute("reference")
         if reference.value not in names:
-            raise DeclinedError(f"there is no link or joint named '{reference.value}'", reference.span)
-    tags = _tags(block)
-    plugins = _plugins(block)
-    properties = take_free(block)
+            raise CannotRepresentError(f"there is no link or joint named '{reference.value}'", reference.span)
+    tags = _take_tags(block)
+    plugins = _take_plugins(block)
+    properties = take_free_children(block)
     return block.map(
         **tags,
         properties=block.draft.map_of(properties, block.span) if properties else None,
@@ -67,62 +69,56 @@ def _block(block: Reading, names: Collection[str | None]) -> YamlMap:
     )
 
 
-def _tags(block: Reading) -> dict[str, YamlNode | None]:
-    """Take the tags that are keys, where they come back as they are spelled."""
-    children = block.children()
-    times = Counter(child.tag for child in children)
-    said: dict[str, YamlNode | None] = {}
+def _take_tags(block: ElementReader) -> dict[str, YamlNode | None]:
+    """Take the tags that are keys, if their texts are in normal form."""
+    children = block.remaining()
+    counts = Counter(child.tag for child in children)
+    nodes: dict[str, YamlNode | None] = {}
     for child in children:
-        key, spelled_so, read = _KEYS.get(child.tag, _NO_KEY)
-        if times[child.tag] == 1 and spelled_so(child):
-            said[key] = block.within(child, read)
-    return said
+        tag = _TAGS.get(child.tag)
+        if tag and counts[child.tag] == 1 and tag.is_normal(child):
+            nodes[tag.key] = block.read(child, tag.read)
+    return nodes
 
 
-def _plugins(block: Reading) -> YamlNode | None:
-    """Take the plugins: by their names, or as a list where a name repeats."""
-    names = [child.get("name") for child in block.children() if child.tag == "plugin"]
-    are_listed = len(set(names)) < len(names)
+def _take_plugins(block: ElementReader) -> YamlNode | None:
+    """Take the plugins by name, or as a list where a name repeats."""
+    children = block.remaining("plugin")
+    names = [child.get("name") for child in children]
+    is_list = len(set(names)) < len(names)
     plugins: dict[str, YamlNode | None] = {}
     nodes: list[YamlNode] = []
-    for child in [child for child in block.children() if child.tag == "plugin"]:
-        taken = block.take(child, lambda plugin: _plugin(plugin, is_named=are_listed))
-        if taken is not None and taken[0] is not None:
-            nodes.append(taken[0])
-            plugins[child.get("name") or ""] = taken[0]
+    for child in children:
+        node = block.try_read(child, lambda plugin: _read_plugin(plugin, is_named=is_list))
+        if node is not None:
+            nodes.append(node)
+            plugins[child.get("name") or ""] = node
     if not nodes:
         return None
-    return block.draft.list_of(nodes, nodes[0].span) if are_listed else block.draft.map_of(plugins, block.span)
+    return block.draft.list_of(nodes, nodes[0].span) if is_list else block.draft.map_of(plugins, block.span)
 
 
-def _plugin(plugin: Reading, *, is_named: bool) -> YamlMap:
-    name, filename = plugin.name(), plugin.name("filename")
+def _read_plugin(plugin: ElementReader, *, is_named: bool) -> YamlMap:
+    name, filename = plugin.required_text("name"), plugin.required_text("filename")
     for attribute in (name, filename):
         if not attribute.text.strip():
-            raise DeclinedError("its name and its filename cannot be empty", attribute.span)
-    return plugin.map(name=name if is_named else None, filename=filename, parameters=_parameters(plugin))
+            raise CannotRepresentError("its name and its filename cannot be empty", attribute.span)
+    has_parameters = plugin.remaining() and has_free_children(plugin.element)
+    parameters = plugin.draft.map_of(take_children(plugin), plugin.span) if has_parameters else None
+    return plugin.map(name=name if is_named else None, filename=filename, parameters=parameters)
 
 
-def _parameters(plugin: Reading) -> YamlNode | None:
-    """Take all that a plugin is told, or nothing, where keys would tell it otherwise."""
-    if not plugin.children() or not has_free_children(plugin.element):
-        return None
-    return plugin.draft.map_of(free_children(plugin), plugin.span)
+def _is_text(child: XmlElement) -> bool:
+    return not child.values and not child.children and bool(child.text.strip())
+
+
+def _is_flag(child: XmlElement) -> bool:
+    return _is_text(child) and child.text.strip() in ("true", "false")
 
 
 def _is_number(child: XmlElement) -> bool:
-    is_in_full_here = _is_text(child) and is_in_full(child.text.strip()) and number_of(child.text) is not None
-    return exact_number(child) is not None or is_in_full_here
-
-
-def _is_share(child: XmlElement) -> bool:
-    value = exact_number(child)
-    return value is not None and 0 <= value <= 1
-
-
-def _is_not_negative(child: XmlElement) -> bool:
-    value = exact_number(child)
-    return value is not None and value >= 0
+    is_full = _is_text(child) and is_in_full(child.text.strip()) and number_of(child.text) is not None
+    return is_full or exact_number(child) is not None
 
 
 def _is_whole_number(child: XmlElement) -> bool:
@@ -130,12 +126,12 @@ def _is_whole_number(child: XmlElement) -> bool:
     return value is not None and value.is_integer() and child.text.strip().lstrip("-").isdigit()
 
 
-def _is_flag(child: XmlElement) -> bool:
-    return _is_text(child) and child.text.strip() in ("true", "false")
+def _is_bounded(bound: Bound) -> Callable[[XmlElement], bool]:
+    def is_bounded(child: XmlElement) -> bool:
+        value = exact_number(child)
+        return value is not None and bound.holds(value)
 
-
-def _is_text(child: XmlElement) -> bool:
-    return not child.values and not child.children and bool(child.text.strip())
+    return is_bounded
 
 
 def _is_vector(child: XmlElement) -> bool:
@@ -143,39 +139,39 @@ def _is_vector(child: XmlElement) -> bool:
     return len(values) == 3 and [None if one is None else number_text(one) for one in values] == child.text.split()
 
 
-def _never(_child: XmlElement) -> bool:
-    return False
+class _Tag(NamedTuple):
+    """A tag that is a key of a block: whether its text comes back as it is, and how to read it."""
+
+    key: str
+    is_normal: Callable[[XmlElement], bool]
+    read: Callable[[ElementReader], YamlNode]
 
 
-def _vector(child: Reading) -> YamlNode:
-    return child.text_numbers()
+def _tags_of_fields() -> Mapping[str, _Tag]:
+    """Return the tags that are fields of GazeboElement."""
+    tags: dict[str, _Tag] = {}
+    for key, spec in field_specs(GazeboElement).items():
+        tag = (spec.xml or "").removesuffix("/text()")
+        match spec:
+            case Number(bound=Bound() as bound):
+                tags[tag] = _Tag(key, _is_bounded(bound), ElementReader.text_number)
+            case Flag():
+                tags[tag] = _Tag(key, _is_flag, read_word)
+            case Text(xml=str() as xml) if xml.endswith("/text()"):
+                tags[tag] = _Tag(key, _is_text, read_word)
+    return tags
 
 
-def _number(child: Reading) -> YamlNode:
-    return child.text_number()
+_NUMBERS = (
+    *("mu1", "mu2", "kp", "kd", "maxVel", "minDepth", "dampingFactor", "laserRetro"),
+    *("springStiffness", "springReference", "fudgeFactor"),
+)
+_FLAGS = ("selfCollide", "gravity", "turnGravityOff", "preserveFixedJoint", "disableFixedJointLumping")
 
-
-_Key = tuple[str, Callable[[XmlElement], bool], Callable[[Reading], YamlNode]]
-_NO_KEY: _Key = ("", _never, read_word)
-_KEYS: Mapping[str, _Key] = {
-    "material": ("material", _is_text, read_word),
-    "static": ("static", _is_flag, read_word),
-    "stopCfm": ("stop_cfm", _is_not_negative, _number),
-    "stopErp": ("stop_erp", _is_share, _number),
-    "provideFeedback": ("provide_feedback", _is_flag, read_word),
-    "implicitSpringDamper": ("implicit_spring_damper", _is_flag, read_word),
-    "fdir1": ("fdir1", _is_vector, _vector),
-    "maxContacts": ("maxContacts", _is_whole_number, _number),
-    **{
-        tag: (tag, _is_number, _number)
-        for tag in (
-            *("mu1", "mu2", "kp", "kd", "maxVel", "minDepth", "dampingFactor", "laserRetro"),
-            *("springStiffness", "springReference", "fudgeFactor"),
-        )
-    },
-    **{
-        tag: (tag, _is_flag, read_word)
-        for tag in ("selfCollide", "gravity", "turnGravityOff", "preserveFixedJoint", "disableFixedJointLumping")
-    },
+_TAGS: Mapping[str, _Tag] = {
+    **_tags_of_fields(),
+    "fdir1": _Tag("fdir1", _is_vector, ElementReader.text_numbers),
+    "maxContacts": _Tag("maxContacts", _is_whole_number, ElementReader.text_number),
+    **{tag: _Tag(tag, _is_number, ElementReader.text_number) for tag in _NUMBERS},
+    **{tag: _Tag(tag, _is_flag, read_word) for tag in _FLAGS},
 }
-"""The tags that are keys of a block, and how they must be spelled to come back so."""

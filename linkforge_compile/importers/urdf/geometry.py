@@ -1,21 +1,28 @@
-"""Poses and shapes of URDF."""
+"""Read poses and shapes of URDF into their short forms."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
-from linkforge_compile.importers.draft import number_of
-from linkforge_compile.importers.reading import Reading
-from linkforge_compile.importers.urdf.quaternion import rpy_of_quaternion
+from linkforge_compile.importers.element_reader import ElementReader
+from linkforge_compile.importers.spec_draft import number_of
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.units import Dimension
+from linkforge_compile.units import Dimension, number_text
+
+_QUATERNION = "quat_xyzw"
+"""The attribute of URDF 1.1 that replaces `rpy`; it is kept beside the angles computed from it."""
+_GIMBAL_LOCK = 1e-9
+"""Below this cosine of the pitch, roll and yaw turn about the same axis, and all of the turn becomes yaw."""
+_NOISE = 4e-16
+"""How far a computed angle may be from the round angle in degrees that it replaces [rad]."""
 
 
-def read_origin(origin: Reading) -> YamlNode | None:
-    """Read a pose: `[x, y, z]` where it turns nothing, None where it is the identity."""
+def read_pose(origin: ElementReader) -> YamlNode | None:
+    """Read a pose: `[x, y, z]` if it has no rotation, None for the identity."""
     xyz, rpy = origin.numbers("xyz", 3), origin.numbers("rpy", 3, Dimension.ANGLE)
     if rpy is None and origin.draft.has_quaternions:
-        rpy = rpy_of_quaternion(origin)
+        rpy = _rpy_of_quaternion(origin)
     xyz, rpy = _unless_zero(xyz), _unless_zero(rpy)
     node = origin.map(xyz=xyz, rpy=rpy)
     if not len(node):
@@ -23,52 +30,83 @@ def read_origin(origin: Reading) -> YamlNode | None:
     return xyz if xyz and len(node) == 1 else node
 
 
-def read_geometry(geometry: Reading) -> YamlMap:
-    """Read the one shape of a visual or collision, as a map of the one entry that says it."""
-    shapes = geometry.children()
+def _rpy_of_quaternion(origin: ElementReader) -> YamlList | None:
+    """Return the rotation of a pose's quaternion as rpy; None without one, or if it is no rotation."""
+    attribute = origin.element.attributes.get(_QUATERNION)
+    numbers = [number_of(part) for part in attribute.value.split()] if attribute else []
+    if attribute is None or len(numbers) != 4:
+        return None
+    x, y, z, w = (0.0 if number is None else number for number in numbers)
+    if None in numbers or not 0 < math.hypot(x, y, z, w) < math.inf:
+        return None
+    nodes = [origin.draft.number(number_text(angle), attribute.span, Dimension.ANGLE) for angle in _rpy(x, y, z, w)]
+    return YamlList(tuple(node for node in nodes if node is not None), attribute.span)
+
+
+def _rpy(x: float, y: float, z: float, w: float) -> tuple[float, ...]:
+    """Return the rotations about the fixed axes x, y, z, in this order [rad]."""
+    length = math.hypot(x, y, z, w)
+    x, y, z, w = x / length, y / length, z / length, w / length
+    cos_pitch = math.hypot(1 - 2 * (y * y + z * z), 2 * (x * y + w * z))
+    pitch = math.atan2(2 * (w * y - x * z), cos_pitch)
+    if cos_pitch < _GIMBAL_LOCK:
+        roll, yaw = 0.0, math.atan2(2 * (w * z - x * y), 1 - 2 * (x * x + z * z))
+    else:
+        roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+        yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return tuple(map(_rounded, (roll, pitch, yaw)))
+
+
+def _rounded(angle: float) -> float:
+    degrees = math.radians(round(math.degrees(angle), 3))
+    return degrees + 0.0 if abs(angle - degrees) <= _NOISE else angle
+
+
+def read_geometry(geometry: ElementReader) -> YamlMap:
+    """Read the shape of a visual or collision as a map with the shape's tag as its only key."""
+    shapes = geometry.remaining()
     if len(shapes) != 1:
-        raise geometry.declined(f"a geometry is one shape, found {len(shapes) or 'none'}")
+        raise geometry.cannot_represent(f"a geometry is one shape, found {len(shapes) or 'none'}")
     [shape] = shapes
-    read = _READ.get(shape.tag)
+    read = _READERS.get(shape.tag)
     if read is None:
-        raise geometry.declined(f"there is no shape named '{shape.tag}'")
-    node = geometry.within(shape, read)
-    geometry.leave_rest()
+        raise geometry.cannot_represent(f"there is no shape named '{shape.tag}'")
+    node = geometry.read(shape, read)
+    geometry.pass_rest_up()
     return geometry.draft.map_of({shape.tag: node}, shape)
 
 
-def _box(box: Reading) -> YamlNode:
-    size = box.numbers("size", 3)
-    if size is None:
-        raise box.declined("it has no 'size'")
+def _read_box(box: ElementReader) -> YamlNode:
+    size = box.required_numbers("size", 3)
     if any(_value(item) <= 0 for item in size):
-        raise box.declined(f"every side must be above 0, found '{box.element.get('size')}'")
-    box.leave_rest()
+        raise box.cannot_represent(f"every side must be above 0, found '{box.element.get('size')}'")
+    box.pass_rest_up()
     return size
 
 
-def _sphere(sphere: Reading) -> YamlNode:
+def _read_sphere(sphere: ElementReader) -> YamlNode:
     radius = sphere.required_number("radius", above=0)
-    return radius if sphere.is_spent() else sphere.map(radius=radius)
+    return radius if sphere.is_used_up() else sphere.map(radius=radius)
 
 
-def _round(body: Reading) -> YamlNode:
-    return body.map(radius=body.required_number("radius", above=0), length=body.required_number("length", above=0))
+def _read_cylinder(cylinder: ElementReader) -> YamlNode:
+    radius = cylinder.required_number("radius", above=0)
+    return cylinder.map(radius=radius, length=cylinder.required_number("length", above=0))
 
 
-def _mesh(mesh: Reading) -> YamlNode:
-    file, scale = mesh.name("filename"), mesh.numbers("scale", 3)
+def _read_mesh(mesh: ElementReader) -> YamlNode:
+    file, scale = mesh.required_text("filename"), mesh.numbers("scale", 3)
     if not file.text.strip():
-        raise mesh.declined("it names no file")
-    node = mesh.map(file=file, scale=_scale(mesh, scale) if scale else None)
+        raise mesh.cannot_represent("it names no file")
+    node = mesh.map(file=file, scale=_short_scale(mesh, scale) if scale else None)
     return file if len(node) == 1 else node
 
 
-def _scale(mesh: Reading, scale: YamlList) -> YamlNode | None:
-    """Return one number for three that are the same, None for 1."""
+def _short_scale(mesh: ElementReader, scale: YamlList) -> YamlNode | None:
+    """Return one number for three equal ones, None for 1."""
     factors = {_value(item) for item in scale}
     if 0 in factors:
-        raise mesh.declined(f"no scale may be 0, found '{mesh.element.get('scale')}'")
+        raise mesh.cannot_represent(f"no scale may be 0, found '{mesh.element.get('scale')}'")
     if len(factors) > 1:
         return scale
     return None if factors == {1.0} else scale.items[0]
@@ -79,14 +117,14 @@ def _unless_zero(numbers: YamlList | None) -> YamlList | None:
 
 
 def _value(node: YamlNode) -> float:
-    """Return what a number says; anything but 0 for an angle in degrees."""
+    """Return the value of a number; 1 for an angle in degrees, which is never 0."""
     return (number_of(node.text) or 0.0) if isinstance(node, YamlScalar) and not isinstance(node.value, str) else 1.0
 
 
-_READ: Mapping[str, Callable[[Reading], YamlNode]] = {
-    "box": _box,
-    "sphere": _sphere,
-    "cylinder": _round,
-    "capsule": _round,
-    "mesh": _mesh,
+_READERS: Mapping[str, Callable[[ElementReader], YamlNode]] = {
+    "box": _read_box,
+    "sphere": _read_sphere,
+    "cylinder": _read_cylinder,
+    "capsule": _read_cylinder,
+    "mesh": _read_mesh,
 }

@@ -1,90 +1,86 @@
-"""Materials of URDF: each name once for the robot, whatever differs from it where it stands."""
+"""Read materials of URDF: each name once for the robot, and differing ones where they are used."""
 
 from __future__ import annotations
 
-from linkforge_compile.importers.draft import DeclinedError, Draft, same
-from linkforge_compile.importers.orders import named_colors
-from linkforge_compile.importers.reading import Reading
-from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
+from linkforge_compile.importers.canonical import named_colors, visual_materials
+from linkforge_compile.importers.element_reader import ElementReader, Named
+from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft, is_same
+from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
-
-Named = dict[str, tuple[XmlAttribute, YamlNode]]
 
 
 class Palette:
     """The materials of a robot by name.
 
-    URDF declares a material for all visuals, or where it is first used; who names it without saying it, be it
-    before, means that one. `declared` takes the robot's own, `found` the first of each name in a visual.
+    URDF declares a material at the robot or in the first visual with its content; every other visual with the name
+    only, also an earlier one, uses that.
     """
 
     def __init__(self, robot: XmlElement) -> None:
         self.materials: Named = {}
-        self._said: dict[str, YamlMap] = {}
-        self._painted_before = _painted_before(robot)
+        self._definitions: dict[str, YamlMap] = {}
+        self._after_links = _declared_after_links(robot)
 
-    def declare(self, material: Reading) -> YamlNode:
-        """Read a material of the robot itself."""
+    def read_declared(self, material: ElementReader) -> YamlNode:
+        """Read a material that the robot declares."""
         name = material.attribute("name")
         if name.value in self.materials:
-            raise DeclinedError(f"there is a material '{name.value}' already", name.span)
-        said = node = _definition(material)
-        if material.element in self._painted_before:
+            raise CannotRepresentError(f"there is a material '{name.value}' already", name.span)
+        definition = node = _definition(material)
+        if material.element in self._after_links:
             true = YamlScalar("true", True, material.span)
-            node = material.draft.map_of({**_entries(said), "after_links": true}, material.span)
-        self._said[name.value] = said
+            node = material.draft.map_of({**_entries(definition), "after_links": true}, material.span)
+        self._definitions[name.value] = definition
         self.materials[name.value] = name, node
         return node
 
-    def find(self, draft: Draft, root: XmlElement) -> None:
-        """Take in what visuals say, for the names that the robot does not declare."""
-        for material in _materials_of_visuals(root):
+    def find_in_visuals(self, draft: SpecDraft, root: XmlElement) -> None:
+        """Add the materials that visuals declare, for names that the robot does not."""
+        for material in visual_materials(root):
             name = material.get("name")
             if name and name not in self.materials and material.children:
-                reading = Reading(draft, material)
-                taken = reading.attribute("name")
+                reader = ElementReader(draft, material)
+                attribute = reader.attribute("name")
                 try:
-                    node = self._said[name] = _definition(reading)
-                except DeclinedError:
-                    continue  # told where the visual is read
-                self.materials[name] = taken, node
+                    node = self._definitions[name] = _definition(reader)
+                except CannotRepresentError:
+                    continue  # reported where the visual is read
+                self.materials[name] = attribute, node
 
-    def used(self, material: Reading) -> YamlNode:
-        """Read the material of a visual: a name, or the whole of one that is another than the robot's of this name."""
+    def read_used(self, material: ElementReader) -> YamlNode:
+        """Read the material of a visual: its name, or all of it if it differs from the robot's of this name."""
         name = material.attribute("name")
-        known = self._said.get(name.value)
-        if material.is_spent():
+        known = self._definitions.get(name.value)
+        if material.is_used_up():
             if known is None:
-                raise DeclinedError(f"no material named '{name.value}' has a color or a texture", name.span)
+                raise CannotRepresentError(f"no material named '{name.value}' has a color or a texture", name.span)
             return material.draft.text(name.value, name)
         node = _definition(material)
-        if known and same(known, node):
+        if known and is_same(known, node):
             return material.draft.text(name.value, name)
-        said = material.draft.text(name.value, name) if name.value else None
-        return material.draft.map_of({"name": said, **_entries(node)}, material.span)
+        name_node = material.draft.text(name.value, name) if name.value else None
+        return material.draft.map_of({"name": name_node, **_entries(node)}, material.span)
 
 
-def _definition(material: Reading) -> YamlMap:
-    color, texture = material.maybe("color", _color), material.one("texture", _texture)
+def _definition(material: ElementReader) -> YamlMap:
+    color, texture = material.optional("color", _color), material.child("texture", _texture)
     if color is None and texture is None:
-        raise material.declined("it has neither a color nor a texture that the language can say")
+        raise material.cannot_represent("it has neither a color nor a texture that the language can say")
     return material.map(color=color, texture=texture)
 
 
-def _color(color: Reading) -> YamlNode:
-    rgba = color.numbers("rgba", 4)
-    if rgba is None:
-        raise color.declined("it has no 'rgba'")
+def _color(color: ElementReader) -> YamlNode:
+    rgba = color.required_numbers("rgba", 4)
     if any(not 0 <= float(part) <= 1 for part in (color.element.get("rgba") or "").split()):
-        raise color.declined(f"its components must be from 0 to 1, found '{color.element.get('rgba')}'")
-    color.leave_rest()
+        raise color.cannot_represent(f"its components must be from 0 to 1, found '{color.element.get('rgba')}'")
+    color.pass_rest_up()
     *rgb, opacity = rgba
-    return color.draft.list_of(rgb, rgba) if same(opacity, color.draft.number("1", rgba)) else rgba
+    return color.draft.list_of(rgb, rgba) if is_same(opacity, color.draft.number("1", rgba)) else rgba
 
 
-def _texture(texture: Reading) -> YamlNode:
-    file = texture.name("filename")
-    texture.leave_rest()
+def _texture(texture: ElementReader) -> YamlNode:
+    file = texture.required_text("filename")
+    texture.pass_rest_up()
     return file
 
 
@@ -92,13 +88,8 @@ def _entries(node: YamlMap) -> dict[str, YamlNode]:
     return {entry.name: entry.value for entry in node}
 
 
-def _materials_of_visuals(root: XmlElement) -> list[XmlElement]:
-    visuals = [visual for link in root.children if link.tag == "link" for visual in link.children]
-    return [one for visual in visuals if visual.tag == "visual" for one in visual.children if one.tag == "material"]
-
-
-def _painted_before(robot: XmlElement) -> set[XmlElement]:
-    """Return the robot's materials whose name a visual that stands before them gives to another color."""
+def _declared_after_links(robot: XmlElement) -> set[XmlElement]:
+    """Return the robot's materials whose name has another color in a visual before them."""
     own = {child for child in robot.children if child.tag == "material"}
     first: dict[str, object] = {}
     colors = ((material, first.setdefault(name, color) != color) for material, name, color in named_colors(robot))

@@ -1,8 +1,7 @@
-"""What the readers of URDF refuse.
+"""Find what the readers of URDF refuse.
 
-urdfdom refuses the whole robot for what is wrong with a joint or a name that is there twice, and leaves out the rest
-of a link behind what is wrong in it; MuJoCo refuses the robot for either. Only the first element of a tag is read, but
-of visuals and collisions each.
+urdfdom refuses a whole robot for a faulty joint or a duplicate name, and skips the rest of a link after a fault in it;
+MuJoCo refuses the robot for either. Readers read only the first element of a tag, except visuals and collisions.
 """
 
 from __future__ import annotations
@@ -11,139 +10,136 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from linkforge_compile.core.fields import number_fields
-from linkforge_compile.core.models.joint import (
-    HAVE_NO_AXIS,
-    NEED_LIMITS,
-    JointCalibration,
-    JointDynamics,
-    JointLimits,
-    JointMimic,
-    JointSafetyController,
-)
+from linkforge_compile.core.fields import Child, Number, Reference, Spec, Text, Vector, field_specs
+from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Mesh, Sphere, Transform
+from linkforge_compile.core.models.joint import HAVE_NO_AXIS, NEED_LIMITS, Joint
+from linkforge_compile.core.models.link import InertiaTensor
 from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Diagnostic, Note
-from linkforge_compile.diagnostics.codes.importing import (
-    LACKS_PART,
-    NAME_IS_TAKEN,
-    NO_NUMBERS,
-    NO_TYPE_OF_JOINT,
-)
-from linkforge_compile.importers.draft import number_of
-from linkforge_compile.importers.urdf.joint import TYPES_OF_JOINTS
+from linkforge_compile.diagnostics.codes.importing import LACKS_PART, NAME_IS_TAKEN, NO_NUMBERS, NO_TYPE_OF_JOINT
+from linkforge_compile.importers.spec_draft import number_of
+from linkforge_compile.importers.urdf.joint import JOINT_TYPES
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 
 _UNBOUNDED = re.compile(r"[+-]?(?:inf|infinity|nan)", re.IGNORECASE)
-"""No finite numbers: older versions of urdfdom take them, and MuJoCo does; vendors write such limits."""
+"""Numbers that are not finite: older urdfdom and MuJoCo accept them, and vendors write such limits."""
 
 
-class Refused(NamedTuple):
-    """A fault that readers refuse, and the elements in which it lies, the robot's child first."""
+class Refusal(NamedTuple):
+    """A fault that readers refuse, and the elements around it, the robot's child first."""
 
-    told: Diagnostic
+    diagnostic: Diagnostic
     path: tuple[XmlElement, ...]
 
 
 class _Part(NamedTuple):
-    """What readers take of an element: how many numbers an attribute has, and the attributes that must be there."""
+    """What readers read of an element: how many numbers an attribute has, and the attributes they require."""
 
     numbers: Mapping[str, int] = {}
-    needed: tuple[str, ...] = ()
+    required: tuple[str, ...] = ()
 
 
-def _part_of(kind: type[Element], *needed: str) -> _Part:
-    """Return what readers take of an element whose fields are numbers, and `needed` besides."""
-    specs = number_fields(kind)
-    required = [name for name, spec in specs.items() if spec.is_required_in_urdf]
-    return _Part(dict.fromkeys(specs, 1), (*needed, *required))
+def _part_of(kind: type[Element]) -> _Part:
+    """Return what readers read of an element of a class."""
+    specs = {spec.xml.removeprefix("@"): spec for spec in field_specs(kind).values() if spec.xml}
+    numbers = {name: 3 if isinstance(spec, Vector) else 1 for name, spec in specs.items() if _is_numeric(spec)}
+    return _Part(numbers, tuple(name for name, spec in specs.items() if _is_required(spec)))
 
 
-_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-_ORIGIN = _Part({"xyz": 3, "rpy": 3})
-_INERTIAL = {
-    "origin": _ORIGIN,
-    "mass": _Part({"value": 1}, ("value",)),
-    "inertia": _Part(dict.fromkeys(_MOMENTS, 1), _MOMENTS),
-}
-_SHAPES = {
-    "box": _Part({"size": 3}, ("size",)),
-    "sphere": _Part({"radius": 1}, ("radius",)),
-    "cylinder": _Part({"radius": 1, "length": 1}, ("radius", "length")),
-    "capsule": _Part({"radius": 1, "length": 1}, ("radius", "length")),
-    "mesh": _Part({"scale": 3}, ("filename",)),
-}
-_JOINT = {
-    "parent": _Part(needed=("link",)),
-    "child": _Part(needed=("link",)),
-    "origin": _ORIGIN,
-    "axis": _Part({"xyz": 3}),
-    "limit": _part_of(JointLimits),
-    "safety_controller": _part_of(JointSafetyController),
-    "calibration": _part_of(JointCalibration),
-    "mimic": _part_of(JointMimic, "joint"),
-    "dynamics": _part_of(JointDynamics),
-}
+def _is_numeric(spec: Spec) -> bool:
+    return isinstance(spec, Number | Vector)
 
 
-def refused_by_readers(robot: XmlElement) -> Iterator[Refused]:
+def _is_required(spec: Spec) -> bool:
+    if isinstance(spec, Number):
+        return spec.is_required_in_urdf
+    return bool(spec.example) and isinstance(spec, Text | Vector)
+
+
+def _joint_parts() -> Mapping[str, _Part]:
+    """Return what readers read of the children of a joint, by tag."""
+    parts: dict[str, _Part] = {}
+    for spec in field_specs(Joint).values():
+        tag, _, attribute = (spec.xml or "").partition("/@")
+        match spec:
+            case Child(kinds=(kind,)):
+                parts[tag] = _part_of(kind)
+            case Reference():
+                parts[tag] = _Part(required=(attribute,))
+            case Vector():
+                parts[tag] = _Part({attribute: 3})
+    return parts
+
+
+_ORIGIN = _part_of(Transform)
+_JOINT = _joint_parts()
+_MOMENTS = _part_of(InertiaTensor)._replace(required=("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
+_INERTIAL = {"origin": _ORIGIN, "mass": _Part({"value": 1}, ("value",)), "inertia": _MOMENTS}
+_SHAPES = {kind.TAG: _part_of(kind) for kind in (Box, Sphere, Cylinder, Capsule, Mesh)}
+
+
+def find_refusals(robot: XmlElement) -> Iterator[Refusal]:
     """Yield what readers refuse of a robot, in the order of its elements."""
-    taken: dict[tuple[str, str], XmlElement] = {}
+    names: dict[tuple[str, str], XmlElement] = {}
     for element in robot.children:
-        faults = _FAULTS.get(element.tag)
-        if faults is None:
-            continue
-        yield from _below(element, _in_name(element, taken))
-        yield from _below(element, faults(element))
+        if element.tag in _FIND:
+            yield from _inside(element, _in_name(element, names))
+            yield from _inside(element, _FIND[element.tag](element))
 
 
-def _in_name(element: XmlElement, taken: dict[tuple[str, str], XmlElement]) -> Iterator[Refused]:
+def _in_name(element: XmlElement, names: dict[tuple[str, str], XmlElement]) -> Iterator[Refusal]:
     name = element.get("name")
     if name is None:
-        # urdfdom goes on without a material that has none.
+        # urdfdom ignores a material without a name.
         if element.tag != "material":
             yield _lacks(element, "'name'")
         return
-    first = taken.setdefault((element.tag, name), element)
+    first = names.setdefault((element.tag, name), element)
     if first is not element:
         notes = [Note("the other stands here", first.span)]
         where = element.attributes["name"].span
-        yield Refused(NAME_IS_TAKEN.at(where, tag=element.tag, name=name, notes=notes), ())
+        yield Refusal(NAME_IS_TAKEN.at(where, tag=element.tag, name=name, notes=notes), ())
 
 
-def _in_link(link: XmlElement) -> Iterator[Refused]:
+def _in_material(_: XmlElement) -> Iterator[Refusal]:
+    """Yield nothing: readers refuse no robot for a faulty material."""
+    return iter(())
+
+
+def _in_link(link: XmlElement) -> Iterator[Refusal]:
     if inertial := _first(link, "inertial"):
-        yield from _below(inertial, _in_inertial(inertial))
+        yield from _inside(inertial, _in_inertial(inertial))
     for shape in link.children:
         if shape.tag in ("visual", "collision"):
-            yield from _below(shape, _in_shape(shape))
+            yield from _inside(shape, _in_shape(shape))
 
 
-def _in_inertial(inertial: XmlElement) -> Iterator[Refused]:
+def _in_inertial(inertial: XmlElement) -> Iterator[Refusal]:
     for tag in ("mass", "inertia"):
         if _first(inertial, tag) is None:
             yield _lacks(inertial, f"<{tag}>")
     yield from _in_parts(inertial, _INERTIAL)
 
 
-def _in_shape(shape: XmlElement) -> Iterator[Refused]:
+def _in_shape(shape: XmlElement) -> Iterator[Refusal]:
     yield from _in_parts(shape, {"origin": _ORIGIN})
     geometry = _first(shape, "geometry")
     if geometry is None:
         yield _lacks(shape, "<geometry>")
     elif body := next(iter(geometry.children), None):
         if part := _SHAPES.get(body.tag):
-            yield from _below(geometry, _below(body, _in_part(body, part)))
+            yield from _inside(geometry, _inside(body, _in_part(body, part)))
     else:
-        yield from _below(geometry, [_lacks(geometry, "shape, such as <box size='1 1 1'/>")])
+        yield from _inside(geometry, [_lacks(geometry, "shape, such as <box size='1 1 1'/>")])
 
 
-def _in_joint(joint: XmlElement) -> Iterator[Refused]:
+def _in_joint(joint: XmlElement) -> Iterator[Refusal]:
     kind = joint.get("type")
     if kind is None:
         yield _lacks(joint, "'type'")
-    elif kind not in TYPES_OF_JOINTS:
+    elif kind not in JOINT_TYPES:
         where = joint.attributes["type"].span
-        yield Refused(NO_TYPE_OF_JOINT.at(where, name=kind, near=TYPES_OF_JOINTS), ())
+        yield Refusal(NO_TYPE_OF_JOINT.at(where, name=kind, near=JOINT_TYPES), ())
     for tag in ("parent", "child"):
         if _first(joint, tag) is None:
             yield _lacks(joint, f"<{tag} link='...'>")
@@ -151,19 +147,19 @@ def _in_joint(joint: XmlElement) -> Iterator[Refused]:
     if kind in HAVE_NO_AXIS:
         del parts["axis"]
     if kind in NEED_LIMITS:
-        # What the limits of such a joint lack is told of the robot.
-        parts["limit"] = _JOINT["limit"]._replace(needed=())
+        # Compiling the spec reports what the limits of such a joint lack.
+        parts["limit"] = _JOINT["limit"]._replace(required=())
     yield from _in_parts(joint, parts)
 
 
-def _in_parts(owner: XmlElement, parts: Mapping[str, _Part]) -> Iterator[Refused]:
+def _in_parts(owner: XmlElement, parts: Mapping[str, _Part]) -> Iterator[Refusal]:
     for tag, part in parts.items():
         if element := _first(owner, tag):
-            yield from _below(element, _in_part(element, part))
+            yield from _inside(element, _in_part(element, part))
 
 
-def _in_part(element: XmlElement, part: _Part) -> Iterator[Refused]:
-    missing = [repr(name) for name in part.needed if element.get(name) is None]
+def _in_part(element: XmlElement, part: _Part) -> Iterator[Refusal]:
+    missing = [repr(name) for name in part.required if element.get(name) is None]
     if missing:
         yield _lacks(element, " and no ".join(missing))
     for name, count in part.numbers.items():
@@ -177,37 +173,32 @@ def _are_numbers(text: str, count: int) -> bool:
     return len(words) == count and all(number_of(word) is not None or _UNBOUNDED.fullmatch(word) for word in words)
 
 
-def _no_numbers(element: XmlElement, attribute: XmlAttribute, count: int) -> Refused:
+def _no_numbers(element: XmlElement, attribute: XmlAttribute, count: int) -> Refusal:
     text = attribute.value
     expected = "one number" if count == 1 else f"{count} numbers with spaces between them"
-    meant = [" ".join(text.replace(",", other).split()) for other in ". " if "," in text]
-    way_out = next((f"; write '{one}'" for one in meant if _are_numbers(one, count)), "")
-    told = NO_NUMBERS.at(
+    without_commas = [" ".join(text.replace(",", other).split()) for other in ". " if "," in text]
+    way_out = next((f"; write '{one}'" for one in without_commas if _are_numbers(one, count)), "")
+    diagnostic = NO_NUMBERS.at(
         attribute.span, name=attribute.name, tag=element.tag, expected=expected, text=text, way_out=way_out
     )
-    return Refused(told, ())
+    return Refusal(diagnostic, ())
 
 
-def _lacks(element: XmlElement, what: str) -> Refused:
-    return Refused(LACKS_PART.at(element.span, tag=element.tag, what=what), ())
+def _lacks(element: XmlElement, what: str) -> Refusal:
+    return Refusal(LACKS_PART.at(element.span, tag=element.tag, what=what), ())
 
 
 def _first(element: XmlElement, tag: str) -> XmlElement | None:
     return next((child for child in element.children if child.tag == tag), None)
 
 
-def _below(element: XmlElement, faults: Iterable[Refused]) -> Iterator[Refused]:
-    """Yield faults of an element as those of what it stands in."""
-    for fault in faults:
-        yield fault._replace(path=(element, *fault.path))
+def _inside(element: XmlElement, refusals: Iterable[Refusal]) -> Iterator[Refusal]:
+    """Yield the refusals of what is in an element, with the element in their paths."""
+    for refusal in refusals:
+        yield refusal._replace(path=(element, *refusal.path))
 
 
-def _in_material(_: XmlElement) -> Iterator[Refused]:
-    """Yield nothing: of what a material says readers refuse no robot."""
-    return iter(())
-
-
-_FAULTS: Mapping[str, Callable[[XmlElement], Iterator[Refused]]] = {
+_FIND: Mapping[str, Callable[[XmlElement], Iterator[Refusal]]] = {
     "material": _in_material,
     "link": _in_link,
     "joint": _in_joint,

@@ -1,12 +1,12 @@
-"""Transmissions of URDF, in the form that ros2_control and its forerunner have had since ROS Hydro."""
+"""Read transmissions of URDF, in the form of ros2_control and its predecessor since ROS Hydro."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
 
-from linkforge_compile.importers.draft import DeclinedError
-from linkforge_compile.importers.reading import Reading
+from linkforge_compile.importers.element_reader import ElementReader
+from linkforge_compile.importers.spec_draft import CannotRepresentError
+from linkforge_compile.importers.urdf.elements import Names
 from linkforge_compile.importers.urdf.free_part import exact_number, read_word, take_texts
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
@@ -16,53 +16,55 @@ _COUNTS = {
     "transmission_interface/DifferentialTransmission": 2,
     "transmission_interface/FourBarLinkageTransmission": 2,
 }
-"""How many joints, and how many actuators, these types have."""
+"""The number of joints, and of actuators, by type."""
 
 
-def read_transmission(transmission: Reading, joints: Collection[str]) -> YamlMap:
-    """Read a transmission, whose name is taken; `joints` are the names of all joints: what names another stays raw."""
-    kind = transmission.needed("type", read_word)
-    kind_text = kind.text if isinstance(kind, YamlScalar) else ""
-    ends = {tag: _ends(transmission, tag, joints) for tag in ("joint", "actuator")}
-    count = _COUNTS.get(kind_text)
+def read_transmission(transmission: ElementReader, names: Names) -> YamlMap:
+    """Read a transmission whose name is taken; one with an unknown joint stays raw."""
+    draft, span = transmission.draft, transmission.span
+    kind = transmission.required("type", read_word)
+    ends = {tag: _ends(transmission, tag, names) for tag in ("joint", "actuator")}
+    count = _COUNTS.get(kind.text) if isinstance(kind, YamlScalar) else None
     for tag, found in ends.items():
         if not found or (count and len(found) != count):
-            raise transmission.declined(f"it has {len(found) or 'no'} <{tag}>, and takes {count or 'at least one'}")
-    parameters = take_texts(transmission, transmission.children())
+            reason = f"it has {len(found) or 'no'} <{tag}>, and takes {count or 'at least one'}"
+            raise transmission.cannot_represent(reason)
+    parameters = take_texts(transmission, transmission.remaining())
     return transmission.map(
         type=kind,
-        joints=transmission.draft.map_of(ends["joint"], transmission.span),
-        actuators=transmission.draft.map_of(ends["actuator"], transmission.span),
-        parameters=transmission.draft.map_of(parameters, transmission.span) if parameters else None,
+        joints=draft.map_of(ends["joint"], span),
+        actuators=draft.map_of(ends["actuator"], span),
+        parameters=draft.map_of(parameters, span) if parameters else None,
     )
 
 
-def _ends(transmission: Reading, tag: str, joints: Collection[str]) -> dict[str, YamlNode | None]:
+def _ends(transmission: ElementReader, tag: str, names: Names) -> dict[str, YamlNode | None]:
     ends: dict[str, YamlNode | None] = {}
-    for child in [child for child in transmission.children() if child.tag == tag]:
+    for child in transmission.remaining(tag):
         name = child.get("name") or ""
         if not _NAME.fullmatch(name) or name in ends:
-            raise transmission.declined(f"a <{tag}> in it is named '{name}', which is no name or is there already")
-        if tag == "joint" and name not in joints:
-            raise DeclinedError(f"there is no joint named '{name}'", child.attributes["name"].span)
-        ends[name] = transmission.within(child, _end)
+            reason = f"a <{tag}> in it is named '{name}', which is no name or is there already"
+            raise transmission.cannot_represent(reason)
+        if tag == "joint" and name not in names["joint"]:
+            raise CannotRepresentError(f"there is no joint named '{name}'", child.attributes["name"].span)
+        ends[name] = transmission.read(child, _end)
     return ends
 
 
-def _end(end: Reading) -> YamlMap:
+def _end(end: ElementReader) -> YamlMap:
     end.attribute("name")
-    interfaces = [end.within(child, read_word) for child in end.children() if child.tag == "hardwareInterface"]
-    usual = [one.text for one in interfaces if isinstance(one, YamlScalar)] == ["position"]
+    interfaces = [end.read(child, read_word) for child in end.remaining("hardwareInterface")]
+    is_default = [one.text for one in interfaces if isinstance(one, YamlScalar)] == ["position"]
     return end.map(
-        hardware_interfaces=None if usual else end.draft.list_of(interfaces, end.span),
+        hardware_interfaces=None if is_default else end.draft.list_of(interfaces, end.span),
         mechanical_reduction=_number(end, "mechanicalReduction"),
         offset=_number(end, "offset"),
     )
 
 
-def _number(end: Reading, tag: str) -> YamlNode | None:
-    """Take a number that comes back as it is spelled, and is no reduction of 0; any other child is left."""
-    children = [child for child in end.children() if child.tag == tag]
+def _number(end: ElementReader, tag: str) -> YamlNode | None:
+    """Take a child that is a number in normal form, and no reduction of 0; others stay raw."""
+    children = end.remaining(tag)
     if len(children) != 1 or (value := exact_number(children[0])) is None or (value == 0 and tag != "offset"):
         return None
-    return end.within(children[0], lambda child: child.text_number())
+    return end.read(children[0], lambda child: child.text_number())

@@ -1,4 +1,4 @@
-"""The pen: values of the IR as nodes of a spec, without what the language fills in by itself, or with all of it."""
+"""Build the nodes of a spec from values of a robot: without what the language implies, or with all of it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _WHOLE_TURN = 2 * math.pi  # [rad]
 
 
 class Extended(Protocol):
-    """A part of the robot: where it was written, and what no field of it says."""
+    """A part of the robot with its source and its extras."""
 
     @property
     def source(self) -> SourceRef | None: ...
@@ -35,18 +35,18 @@ class Extended(Protocol):
 
 
 class Written(NamedTuple):
-    """Where the value of a node was written: in the object that `source` points to, under `field` of it."""
+    """Where the value of a node was written: in the object that `source` points to, at the path `field`."""
 
     source: SourceRef
     field: tuple[str, ...] = ()
 
 
-class Pen:
-    """Makes the nodes of one spec, and remembers of what they were made.
+class SpecBuilder:
+    """Builds the nodes of one spec, and remembers their sources.
 
-    In `full` it writes every value in its long form, defaults too: the robot as `explain` looks through it.
-    `written` says where the value of a node was written, `parts` the same of the keys that are names of parts whose
-    origin a person asks for; `units` has the dimension of each number that is not bare.
+    A `full` spec has every value in its long form, defaults too; `explain` looks up paths in it.
+    `written` has the source of each value, `parts` the source of each name whose origin a comment shows, `units` the
+    dimension of each number with one.
     """
 
     def __init__(self, *, full: bool = False) -> None:
@@ -55,26 +55,26 @@ class Pen:
         self.parts: dict[YamlNode, SourceRef] = {}
         self.units: dict[YamlNode, Dimension] = {}
 
-    # Scalars; None, which is not written, for None and, unless in full, for what the language fills in
+    # Scalars: None for a value that is None or, unless the spec is full, equal to its default
 
     def text(self, value: str | None, default: str | None = None) -> YamlScalar | None:
-        return None if value is None or self._is_unsaid(value, default) else _text(value)
+        return None if value is None or self._is_left_out(value, default) else _text(value)
 
     def flag(self, value: bool | None, default: bool | None = None) -> YamlScalar | None:
-        if value is None or self._is_unsaid(value, default):
+        if value is None or self._is_left_out(value, default):
             return None
         return YamlScalar(str(bool(value)).lower(), bool(value), _NOWHERE)
 
     def number(
         self, value: float | None, unit: Dimension | None = None, *, default: float | None = None
     ) -> YamlScalar | None:
-        return None if value is None or self._is_unsaid(value, default) else self.quantity(value, unit)
+        return None if value is None or self._is_left_out(value, default) else self.quantity(value, unit)
 
     def quantity(self, value: float, unit: Dimension | None = None) -> YamlScalar:
-        """Return a number that is always written, in the SI unit of its dimension."""
+        """Return a number that is never left out, in the SI unit of its dimension."""
         digits = number_text(value)
         if unit is Dimension.ANGLE and abs(value) > _WHOLE_TURN and not self.full:
-            # A bare number of that size would be warned about: somebody may have meant degrees.
+            # A bare number of that size causes a warning, because it may be in degrees.
             return _text(f"{digits} rad")
         node = YamlScalar(digits, value, _NOWHERE)
         if unit is not None:
@@ -82,7 +82,7 @@ class Pen:
         return node
 
     def word(self, value: str | None) -> YamlScalar:
-        """Return a text that stands where something must: null for None."""
+        """Return a text that is never left out: null for None."""
         return YamlScalar("null", None, _NOWHERE) if value is None else _text(value)
 
     # Lists and maps
@@ -99,31 +99,32 @@ class Pen:
 
     def map_of(self, entries: Mapping[str, YamlNode | None]) -> YamlMap:
         """Return a map without the entries of None."""
-        said = {key: YamlEntry(_text(key), node) for key, node in entries.items() if node is not None}
-        return YamlMap({_escaped(key): entry for key, entry in said.items()}, _NOWHERE)
+        made = {key: YamlEntry(_text(key), node) for key, node in entries.items() if node is not None}
+        return YamlMap({_escaped(key): entry for key, entry in made.items()}, _NOWHERE)
 
     def element(self, part: Extended, /, **entries: YamlNode | None) -> YamlMap:
-        """Return the object of a part: these entries, then what no field says."""
+        """Return the object of a part: these entries, then its extras."""
         inside = part.extra_inside if isinstance(part, Element | Interface) else ()
+        inside_nodes = ((_tag(one), self.element(one)) for one in inside)
         node = self.map_of(
             {
                 **entries,
                 "extra": self._raw(part.extra_elements),
                 "extra_attributes": self.free(dict(part.extra_attributes)) if part.extra_attributes else None,
-                "extra_inside": self.named("element", ((_tag(one), self.element(one)) for one in inside), told=False),
+                "extra_inside": self.named("element", inside_nodes, with_origins=False),
             }
         )
         return self.located(node, part.source)
 
     def alone(self, node: YamlMap, key: str) -> YamlNode:
-        """Return what stands under the key of an object that says nothing else: its short form, unless in full."""
+        """Return the short form of an object with this key only: its value; the object if it has more, or is full."""
         return node.entries[key].value if not self.full and node.entries.keys() == {key} else node
 
-    def named(self, kind: str, parts: Iterable[tuple[str, YamlNode]], *, told: bool = True) -> YamlMap | None:
-        """Return a map keyed by names, None for an empty one; unless `told`, nobody asks where its parts come from.
+    def named(self, kind: str, parts: Iterable[tuple[str, YamlNode]], *, with_origins: bool = True) -> YamlMap | None:
+        """Return a map keyed by names, None for an empty one; comments show origins of its parts if `with_origins`.
 
         Raises:
-            RobotGeneratorError: for two parts of one name, of which a spec can hold only one.
+            RobotGeneratorError: for two parts with the same name.
 
         """
         nodes: dict[str, YamlNode] = {}
@@ -132,16 +133,16 @@ class Pen:
                 raise RobotGeneratorError(f"a spec holds one {kind} '{name}', found two")
             nodes[name] = node
         section = self.map_of(nodes)
-        for entry in section if told else ():
-            self._tell(entry.key, entry.value)
+        for entry in section if with_origins else ():
+            self._note_origin(entry.key, entry.value)
         return section if nodes else None
 
     def nested(
-        self, kind: str, parts: Iterable[tuple[str, str, YamlNode]], *, told_once: bool = False
+        self, kind: str, parts: Iterable[tuple[str, str, YamlNode]], *, first_origin_only: bool = False
     ) -> YamlMap | None:
-        """Return `{outer: {inner: node}}`, None for an empty one; what has one outer name comes together.
+        """Return `{outer: {inner: node}}`, None for an empty one.
 
-        Where it comes from is told of each part or, `told_once`, of the first below each outer name.
+        Comments show the origin of each part or, if `first_origin_only`, of the first below each outer name.
 
         Raises:
             RobotGeneratorError: for two parts of the same two names.
@@ -151,58 +152,61 @@ class Pen:
         for outer, inner, node in parts:
             groups.setdefault(outer, []).append((inner, node))
         section = self.map_of(
-            {outer: self.named(f"{kind} of '{outer}'", below, told=not told_once) for outer, below in groups.items()}
+            {
+                outer: self.named(f"{kind} of '{outer}'", group, with_origins=not first_origin_only)
+                for outer, group in groups.items()
+            }
         )
-        for entry, below in zip(section, groups.values(), strict=True):
-            if told_once:
-                self._tell(entry.key, below[0][1])
+        for entry, group in zip(section, groups.values(), strict=True):
+            if first_origin_only:
+                self._note_origin(entry.key, group[0][1])
         return section if groups else None
 
-    def _tell(self, key: YamlScalar, node: YamlNode) -> None:
+    def _note_origin(self, key: YamlScalar, node: YamlNode) -> None:
         if node in self.written:
             self.parts[key] = self.written[node].source
 
-    # What plugins read
+    # Data of plugins and authors
 
     def free(self, part: FreePart) -> YamlNode:
-        """Return a free part: text without quotes where that means the same there, maps and lists as they are."""
+        """Return a parameter of a plugin: a text, unquoted where YAML reads the same text, a map or a list."""
         if isinstance(part, Mapping):
             return self.map_of({key: self.free(item) for key, item in part.items()})
         if isinstance(part, tuple | list):
             return self.list_of(map(self.free, part))
-        return _plain(part if isinstance(part, str) else _spelled(part))
+        return _plain(part if isinstance(part, str) else _scalar_text(part))
 
     def free_map(self, parts: Mapping[str, FreePart]) -> YamlNode | None:
         return self.free(parts) if parts else None
 
     def data(self, value: object) -> YamlNode:
-        """Return an author's own data: numbers, flags, null, lists and maps as such, and all else as text."""
+        """Return an author's data: what YAML has as such, all other values as text."""
         if isinstance(value, Mapping):
             return self.map_of({str(key): self.data(item) for key, item in value.items()})
         if isinstance(value, list | tuple):
             return self.list_of(self.data(item) for item in value)
         if value is None or isinstance(value, bool):
-            return YamlScalar("null" if value is None else _spelled(value), value, _NOWHERE)
+            return YamlScalar("null" if value is None else _scalar_text(value), value, _NOWHERE)
         if isinstance(value, int | float):
-            return YamlScalar(_spelled(value), value, _NOWHERE)
+            return YamlScalar(_scalar_text(value), value, _NOWHERE)
         return _text(str(value))
 
     def _raw(self, texts: Sequence[str]) -> YamlNode | None:
-        """Return raw XML: one text as it is, several as a list."""
+        """Return one text of raw XML, or a list of several."""
         if not texts:
             return None
         nodes = [_text(text) for text in texts]
         return nodes[0] if len(nodes) == 1 else self.list_of(nodes)
 
-    # Where it was written
+    # Sources
 
     def located(self, node: Node, source: SourceRef | None, *field: str) -> Node:
-        """Note that the value of a node was written under `field` of an object, and return the node."""
+        """Note that the value of a node was written at the path `field` of an object, and return the node."""
         if source is not None:
             self.written[node] = Written(source, field)
         return node
 
-    def _is_unsaid(self, value: object, default: object) -> bool:
+    def _is_left_out(self, value: object, default: object) -> bool:
         return not self.full and value == default
 
 
@@ -225,7 +229,7 @@ def _plain(text: str) -> YamlScalar:
     return YamlScalar(escaped, word_value(escaped), _NOWHERE)
 
 
-def _spelled(value: object) -> str:
+def _scalar_text(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     return number_text(value) if isinstance(value, int | float) else str(value)

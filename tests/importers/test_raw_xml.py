@@ -2,7 +2,7 @@
 
 import pytest
 
-from linkforge_compile.importers.prefixed import Shapes, raw_with_prefix
+from linkforge_compile.importers.raw_xml import Shapes, raw_with_prefix
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,129 @@
+"""Add an SRDF to the spec of its URDF; what the language refuses of the SRDF stays raw."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Protocol, TypeVar
+
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, SRDF_OF_ANOTHER, URDF_FOR_SRDF
+from linkforge_compile.importers.comments import Comments
+from linkforge_compile.importers.document import Imported, Move, read_document
+from linkforge_compile.importers.spec_draft import CannotRepresentError
+from linkforge_compile.importers.srdf.semantic import SemanticNames, read_srdf
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source.xml_tree import XmlAttribute, XmlDocument, XmlElement
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+
+_MAX_ROUNDS = 20
+"""How often an SRDF is read again without what the language refuses, which may uncover another part of the same name.
+
+What the language refuses in the last round is reported as an error.
+"""
+
+_MAX_READ = 20_000
+"""How many elements of both documents are read in all rounds together, unless two rounds are more."""
+
+_REFERENCES = ("link", "link1", "link2", "base_link", "tip_link", "parent_link", "child_link", "joint_name")
+"""Attributes that name links and joints."""
+_NAMED_BY_NAME = ("link", "joint", "passive_joint")
+"""Tags whose attribute `name` names a link or joint."""
+
+
+class Judged(Protocol):
+    """The result of checking a spec, with its errors."""
+
+    @property
+    def faults(self) -> tuple[Diagnostic, ...]: ...
+
+
+J = TypeVar("J", bound=Judged)
+
+
+def with_srdf(
+    urdf: Imported,
+    file: SourceFile,
+    judge: Callable[[YamlMap], J],
+    sink: Diagnostics,
+    moved: Move | None = None,
+) -> tuple[Imported, J] | None:
+    """Return the spec of a URDF with the content of an SRDF, and the result of `judge`; None if it is no SRDF."""
+    document = read_document(file, sink, moved)
+    if document is None:
+        return None
+    # As raw XML in the semantic part, the links and joints of a URDF would become part of the SRDF.
+    if part := next((child for child in document.root.children if child.tag in ("link", "joint")), None):
+        sink.report(URDF_FOR_SRDF.at(part.span, tag=part.tag))
+        return None
+    refused: dict[Span, CannotRepresentError] = {}
+    entries = sum(len(entry.value) for entry in urdf.tree if isinstance(entry.value, YamlMap))
+    elements = 1 + entries + sum(1 for _ in _descendants(document.root))
+    for _ in range(max(2, min(_MAX_ROUNDS, _MAX_READ // elements))):
+        round_sink = Diagnostics()
+        whole = _merge(urdf, read_srdf(document, urdf.tree, round_sink, refused))
+        judged = judge(whole.tree)
+        found = _refusals(document, judged.faults)
+        if found.keys() <= refused.keys():
+            break
+        refused |= found
+    other = _find_other_robot(document, urdf.tree)
+    if other:
+        sink.report(other)
+    # For an SRDF of another robot, one report replaces those about its parts.
+    sink.report_all(one for one in round_sink if not (other and one.code is KEPT_RAW))
+    return whole, judged
+
+
+def _find_other_robot(document: XmlDocument, robot: YamlMap) -> Diagnostic | None:
+    """Return a diagnostic if an SRDF names links and joints, but none of the robot's."""
+    known, references = SemanticNames.of(robot), list(_references(document.root))
+    if not references or any(one.value in known.links or one.value in known.joints for one in references):
+        return None
+    names = {one.value for one in references}
+    name = robot.get("name")
+    robot_name = name.text if isinstance(name, YamlScalar) else ""
+    return SRDF_OF_ANOTHER.at(references[0].span, robot=robot_name, name=references[0].value, count=len(names))
+
+
+def _references(element: XmlElement) -> Iterator[XmlAttribute]:
+    """Yield the attributes that name links and joints, in the order of the file."""
+    for name, attribute in element.attributes.items():
+        if name in _REFERENCES or (name == "name" and element.tag in _NAMED_BY_NAME):
+            yield attribute
+    for child in element.children:
+        yield from _references(child)
+
+
+def _merge(urdf: Imported, srdf: Imported) -> Imported:
+    """Return the spec of a URDF with the semantic part of an SRDF."""
+    tree = YamlMap({**urdf.tree.entries, **srdf.tree.entries}, urdf.tree.span)
+    endings: dict[YamlNode, str] = {}
+    for one in (urdf, srdf):
+        for node, text in one.comments.endings.items():
+            holder = tree if node is one.tree else node
+            endings[holder] = f"{endings[holder]}\n{text}" if holder in endings else text
+    comments = Comments({**urdf.comments.above, **srdf.comments.above}, endings)
+    return Imported(tree, comments, (*urdf.documents, *srdf.documents))
+
+
+def _refusals(document: XmlDocument, faults: tuple[Diagnostic, ...]) -> dict[Span, CannotRepresentError]:
+    """Return the elements of an SRDF, by their spans, that have an error."""
+    if not faults:
+        return {}
+    owners = {span: element for element in _descendants(document.root) for span in _spans(element)}
+    refused: dict[Span, CannotRepresentError] = {}
+    for fault in faults:
+        if fault.span is not None and (owner := owners.get(fault.span)):
+            refused.setdefault(owner.span, CannotRepresentError(fault.message, fault.span))
+    return refused
+
+
+def _descendants(element: XmlElement) -> Iterator[XmlElement]:
+    for child in element.children:
+        yield child
+        yield from _descendants(child)
+
+
+def _spans(element: XmlElement) -> Iterator[Span]:
+    yield element.span
+    yield from (attribute.span for attribute in element.attributes.values())
