@@ -13,7 +13,7 @@ from pathlib import Path
 
 import yaml
 
-from linkforge_compile.core.meshes.read import MAX_TRIANGLES
+from linkforge_compile.core.meshes import MAX_TRIANGLES
 from linkforge_compile.diagnostics.render.text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_REPORTED, MAX_TOLD, MAX_WARNED
 from linkforge_compile.expand import includes, parameter_types

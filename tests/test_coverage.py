@@ -7,14 +7,13 @@ from typing import NamedTuple
 import pytest
 
 from linkforge_compile import core
-from linkforge_compile.core.frozen_map import FrozenMap
-from linkforge_compile.core.models import collision_rules, geometry, joint, link, material, planning, srdf
 from linkforge_compile.core.models import gazebo as gz
+from linkforge_compile.core.models import geometry, joint, link, srdf
 from linkforge_compile.core.models import ros2_control as rc
 from linkforge_compile.core.models import sensor as measuring
 from linkforge_compile.core.models import transmission as driving
-from linkforge_compile.core.models.interface import Interface
-from linkforge_compile.core.part import Part
+from linkforge_compile.core.models.ros2_control import Interface
+from linkforge_compile.core.part import FrozenMap, Part
 from linkforge_compile.schema.registry import load_files
 
 EXTRA = {"extra_elements": "extra"}
@@ -22,10 +21,10 @@ EXTRA = {"extra_elements": "extra"}
 
 NOTHING_INSIDE = frozenset(
     {geometry.Transform, geometry.Box, geometry.Cylinder, geometry.Sphere, geometry.Capsule, geometry.Mesh}
-    | {material.Color, link.InertiaTensor, joint.JointLimits, joint.JointDynamics, joint.JointMimic}
-    | {joint.JointSafetyController, joint.JointCalibration, planning.VirtualJoint, planning.Chain}
-    | {planning.EndEffector, planning.PassiveJoint, planning.JointProperty, collision_rules.CollisionPair}
-    | {collision_rules.SrdfSphere, collision_rules.LinkSphereApproximation, gz.GazeboElement, gz.GazeboPlugin}
+    | {geometry.Color, link.InertiaTensor, joint.JointLimits, joint.JointDynamics, joint.JointMimic}
+    | {joint.JointSafetyController, joint.JointCalibration, srdf.VirtualJoint, srdf.Chain}
+    | {srdf.EndEffector, srdf.PassiveJoint, srdf.JointProperty, srdf.CollisionPair}
+    | {srdf.SrdfSphere, srdf.LinkSphereApproximation, gz.GazeboElement, gz.GazeboPlugin}
 )
 """Elements of attributes alone, of parts, or of free parts, which say themselves what is inside: no `extra_inside`."""
 
@@ -83,8 +82,8 @@ LANGUAGE: dict[type, Said] = {
     geometry.Sphere: Said(("a sphere",)),
     geometry.Capsule: Said(("a capsule",)),
     geometry.Mesh: Said(("a mesh",), {"resource": "file"}, {"is_scale_stated": "whether `scale` is there"}),
-    material.Color: Said(("a color",), dict.fromkeys("rgba", "rgba")),
-    material.Material: Said(("a material", "a visual's material")),
+    geometry.Color: Said(("a color",), dict.fromkeys("rgba", "rgba")),
+    geometry.Material: Said(("a material", "a visual's material")),
     joint.Joint: Said(
         ("a joint", "a module's joint"),
         {},
@@ -115,22 +114,22 @@ LANGUAGE: dict[type, Said] = {
     gz.GazeboElement: Said(("a gazebo block", "a robot's gazebo block"), only_in_the_schema=TAGS),
     gz.GazeboPlugin: Said(("a plugin", "a sensor's plugin"), {}, {"raw_xml": "`parameters`, or `extra`"}),
     srdf.SemanticRobotDescription: Said(("a semantic part",), {}, {"robot_name": "the robot's name"}),
-    planning.VirtualJoint: Said(("a virtual joint",), {}, KEY),
-    planning.PlanningGroup: Said(("a group",), {}, KEY, frozenset({"chain"})),
-    planning.Chain: Said(("a chain",)),
-    planning.EndEffector: Said(("an end effector",), {}, KEY),
-    planning.GroupState: Said(
+    srdf.VirtualJoint: Said(("a virtual joint",), {}, KEY),
+    srdf.PlanningGroup: Said(("a group",), {}, KEY, frozenset({"chain"})),
+    srdf.Chain: Said(("a chain",)),
+    srdf.EndEffector: Said(("an end effector",), {}, KEY),
+    srdf.GroupState: Said(
         ("joint values by name",), {}, {**KEY, "group": "the key around it", "joint_values": "all its other keys"}
     ),
-    planning.PassiveJoint: Said(("a passive joint",), {}, KEY),
-    planning.JointProperty: Said(
+    srdf.PassiveJoint: Said(("a passive joint",), {}, KEY),
+    srdf.JointProperty: Said(
         ("a joint property",), {}, {"joint_name": "the key around it", "property_name": "the key of its entry"}
     ),
-    collision_rules.CollisionPair: Said(
+    srdf.CollisionPair: Said(
         ("a collision pair",), {}, {"link1": "the key around it", "link2": "the key of its entry"}
     ),
-    collision_rules.LinkSphereApproximation: Said(("a sphere approximation",), {}, {"link": "the key of its entry"}),
-    collision_rules.SrdfSphere: Said(
+    srdf.LinkSphereApproximation: Said(("a sphere approximation",), {}, {"link": "the key of its entry"}),
+    srdf.SrdfSphere: Said(
         ("an approximating sphere",), {"center_x": "center", "center_y": "center", "center_z": "center"}
     ),
 }

@@ -24,9 +24,9 @@ from linkforge_compile.diagnostics.codes.physics import (
 from linkforge_compile.units import number_text
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.frozen_map import FreePart
     from linkforge_compile.core.models.gazebo import GazeboElement
     from linkforge_compile.core.models.link import Link
+    from linkforge_compile.core.part import FreePart
     from linkforge_compile.source import SourceRef
 
 NEGLIGIBLE_MASS = 1e-6

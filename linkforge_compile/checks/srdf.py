@@ -19,8 +19,7 @@ from linkforge_compile.diagnostics.codes.model import (
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP, UNKNOWN_JOINT, UNKNOWN_LINK
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.collision_rules import CollisionPair
-    from linkforge_compile.core.models.srdf import GroupState
+    from linkforge_compile.core.models.srdf import CollisionPair, GroupState
 
 
 def check_semantic_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:

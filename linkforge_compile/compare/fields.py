@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, fields, is_dataclass
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.fields import Spec, field_specs
-from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.part import Part
 from linkforge_compile.formats.raw import elements_of, plain_text
 from linkforge_compile.source.xml_tree import XmlElement

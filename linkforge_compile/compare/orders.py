@@ -8,9 +8,8 @@ from itertools import count
 from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.pairing import find_partners
 from linkforge_compile.compare.words import describe, shorten, to_plain
-from linkforge_compile.core.models.link import Link, Visual
-from linkforge_compile.core.models.material import Color, Material
-from linkforge_compile.core.models.shape_order import COLLISION, VISUAL, shown_colors
+from linkforge_compile.core.models.geometry import Color, Material
+from linkforge_compile.core.models.link import COLLISION, VISUAL, Link, Visual, shown_colors
 from linkforge_compile.core.models.transmission import Transmission
 
 _MAX_ORDER = 200

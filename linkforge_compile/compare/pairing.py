@@ -7,10 +7,16 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Seq
 from typing import NamedTuple
 
 from linkforge_compile.compare.fields import RawElement, match_key
-from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.link import Collision, Visual
-from linkforge_compile.core.models.planning import Chain, GroupState, JointProperty
+from linkforge_compile.core.models.srdf import (
+    Chain,
+    CollisionPair,
+    GroupState,
+    JointProperty,
+    LinkSphereApproximation,
+    SrdfSphere,
+)
 from linkforge_compile.core.part import Inside
 
 

@@ -11,8 +11,8 @@ from linkforge_compile.core.fields import Name, Reference, Spec
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import Joint, JointMimic
 from linkforge_compile.core.models.link import Collision, Link, Visual
-from linkforge_compile.core.models.planning import GroupState
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.srdf import GroupState
 
 
 class Renames(NamedTuple):

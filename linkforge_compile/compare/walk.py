@@ -22,20 +22,19 @@ from linkforge_compile.compare.pairing import key_of_member, pair_members
 from linkforge_compile.compare.poses import pose_differences, tensor_differences
 from linkforge_compile.compare.words import describe, describe_texts, shorten, to_json, to_plain
 from linkforge_compile.core.models.gazebo import GazeboPlugin
-from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.geometry import Color, Material, Transform, Vector3
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.link import InertiaTensor, LinkPhysics
-from linkforge_compile.core.models.material import Color, Material
-from linkforge_compile.core.models.planning import GroupState
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import (
+    Interface,
     Ros2Control,
     Ros2ControlGpio,
     Ros2ControlJoint,
     Ros2ControlSensor,
 )
 from linkforge_compile.core.models.sensor import SensorNoise
+from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
 
 TOLERANCE = 1e-6

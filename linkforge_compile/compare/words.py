@@ -10,15 +10,12 @@ from itertools import takewhile
 from linkforge_compile.compare.difference import Plain
 from linkforge_compile.compare.fields import RawElement, compared_fields, compared_value, is_part, key_of_field
 from linkforge_compile.compare.numbers import ANGLE, BARE, LENGTH, Measure, describe_number, measure_of
-from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation
 from linkforge_compile.core.models.gazebo import GazeboElement
-from linkforge_compile.core.models.geometry import Mesh, Transform, Vector3
-from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.geometry import Color, Mesh, Transform, Vector3
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
-from linkforge_compile.core.models.material import Color
-from linkforge_compile.core.models.planning import Chain, JointProperty
-from linkforge_compile.core.models.ros2_control import Ros2Control
+from linkforge_compile.core.models.ros2_control import Interface, Ros2Control
+from linkforge_compile.core.models.srdf import Chain, CollisionPair, JointProperty, LinkSphereApproximation
 
 _MAX_TEXT = 70
 """Characters shown of a text, such as raw XML."""

@@ -8,6 +8,7 @@ a spec is not part of the language: where an element was written, and how.
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, MISSING, dataclass, fields, replace
 from enum import StrEnum
@@ -16,8 +17,7 @@ from types import NoneType
 from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 from linkforge_compile.core.constants import EPSILON
-from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.rules import not_finite, require_finite
+from linkforge_compile.core.exceptions import FieldPath, RobotMathError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.units import BARE, FieldUnit, Motion
 
 
@@ -258,3 +258,57 @@ def check_numbers(part: object) -> None:
                 field=(name,),
             )
     require_finite(part, *specs)
+
+
+_LARGEST = sys.float_info.max
+
+
+def require_choice(found: str, words: type[StrEnum], what: str, target: str, field: str) -> None:
+    """Refuse a text that is none of an enumeration's words.
+
+    Raises:
+        RobotValidationError: INVALID_VALUE.
+
+    """
+    if found not in tuple(words):
+        raise RobotValidationError(
+            ValidationErrorCode.INVALID_VALUE,
+            f"{what} must be one of {', '.join(words)}, found '{found}'",
+            target=target,
+            value=found,
+            field=(field,),
+        )
+
+
+def require_finite(part: object, *names: str) -> None:
+    """Refuse NaN and infinity in the named fields; None passes.
+
+    Raises:
+        RobotMathError: INVALID_VALUE.
+
+    """
+    for name in names:
+        value: float | None = getattr(part, name)
+        if value.__class__ is float and -_LARGEST <= value <= _LARGEST:
+            continue  # most numbers, without a call
+        if value is not None and not is_finite(value):
+            raise not_finite(value, name, f"{type(part).__name__}.{name}", (name,))
+
+
+def is_finite(value: float) -> bool:
+    """Return whether a number is finite as a double, which an integer beyond 1e308 is not."""
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def not_finite(value: float | None, what: str, target: str, field: FieldPath) -> RobotMathError:
+    """Return the error for a number that is not finite."""
+    return RobotMathError(
+        ValidationErrorCode.INVALID_VALUE,
+        f"{what} must be a finite number, found {value}",
+        target=target,
+        value=value,
+        field=field,
+    )

@@ -1,10 +1,13 @@
-"""Which names are valid, and how a prefix is put before them."""
+"""Which names are valid, checks of names for constructors, and how a prefix is put before names."""
 
 from __future__ import annotations
 
 import re
 import unicodedata
-from typing import overload
+from collections.abc import Iterable
+from typing import Protocol, overload
+
+from linkforge_compile.core.exceptions import FieldPath, RobotValidationError, ValidationErrorCode
 
 _PLAIN_NAME = re.compile(r"[\w./-]+")
 _BESIDE_LETTERS = frozenset("_-./")
@@ -45,3 +48,73 @@ def prefixed_topic(prefix: str, topic: str | None) -> str | None:
     An absolute topic (`/camera`) and a private one (`~/camera`) do not depend on where they are used and are kept.
     """
     return topic if topic and topic[0] in "/~" else prefixed(prefix, topic)
+
+
+class Named(Protocol):
+    """Anything with a name."""
+
+    @property
+    def name(self) -> str: ...
+
+
+def require_name(name: str, what: str, target: str, field: FieldPath = ("name",)) -> None:
+    """Refuse an empty name.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY.
+
+    """
+    if not name:
+        raise RobotValidationError(
+            ValidationErrorCode.NAME_EMPTY, f"{what} cannot be empty", target=target, value=name, field=field
+        )
+
+
+def require_not_blank(name: str, what: str, target: str, field: FieldPath = ("name",)) -> None:
+    """Refuse a name without a visible character.
+
+    Raises:
+        RobotValidationError: NAME_EMPTY.
+
+    """
+    if not name.strip():
+        raise RobotValidationError(
+            ValidationErrorCode.NAME_EMPTY, f"{what} cannot be empty or blank", target=target, field=field
+        )
+
+
+def require_valid_characters(name: str, what: str, target: str) -> None:
+    """Refuse characters that URDF readers refuse in names.
+
+    Raises:
+        RobotValidationError: INVALID_NAME.
+
+    """
+    if not is_valid_name(name):
+        raise RobotValidationError(
+            ValidationErrorCode.INVALID_NAME,
+            f"{what} may hold letters, digits and '_', '-', '.', '/', found '{name}'",
+            target=target,
+            value=name,
+            field=("name",),
+        )
+
+
+def require_unique_names(named: Iterable[Named], owner: str, target: str, field: str) -> None:
+    """Refuse two items of one name in one collection; the path of the field ends in that name.
+
+    Raises:
+        RobotValidationError: DUPLICATE_NAME.
+
+    """
+    seen: set[str] = set()
+    for thing in named:
+        if thing.name in seen:
+            raise RobotValidationError(
+                ValidationErrorCode.DUPLICATE_NAME,
+                f"{owner} names '{thing.name}' twice in its {field}",
+                target=target,
+                value=thing.name,
+                field=(field, thing.name),
+            )
+        seen.add(thing.name)

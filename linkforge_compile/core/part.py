@@ -1,4 +1,4 @@
-"""Base classes of the model: frozen parts with their source, and elements with the raw XML that no field covers."""
+"""Base classes of the model: frozen parts, elements with raw XML, and mappings that cannot be changed."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, is_dataclass, replace
 from functools import cache
 from operator import is_
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, NoReturn, Self, TypeAlias, TypeVar
 
 from linkforge_compile.core.fields import Child, Name, Reference, Spec, check_numbers, field_specs
-from linkforge_compile.core.frozen_map import FrozenMap, frozen
 from linkforge_compile.core.naming import prefixed_topic
-from linkforge_compile.source import Sourced
+from linkforge_compile.source import Sourced, SourceRef
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -157,3 +156,65 @@ def attribute_pairs(attributes: Sequence[tuple[str, str]] | Mapping[str, str]) -
 def set_field(part: Part, name: str, value: object) -> None:
     """Give a field its final value while the part is being made."""
     object.__setattr__(part, name, value)
+
+
+K = TypeVar("K")
+V = TypeVar("V")
+
+FreePart: TypeAlias = "str | Mapping[str, FreePart] | Sequence[FreePart]"
+"""What a plugin reads from an element: its text; or its children by tag, where a key `_x` is its attribute `x` and
+`_text` its text; or, for a tag that repeats, one of these for each element."""
+
+
+class FrozenMap(dict[K, V]):
+    """A dict that cannot be changed, in insertion order; equal to any mapping of the same items."""
+
+    __slots__ = ()
+
+    def __hash__(self) -> int:  # type: ignore[override]  # dict sets it to None
+        return hash(frozenset(self.items()))
+
+    def __or__(self, other: Mapping[K, V]) -> FrozenMap[K, V]:  # type: ignore[override]  # dict accepts only dicts
+        return FrozenMap({**self, **other})
+
+    def __ror__(self, other: Mapping[K, V]) -> FrozenMap[K, V]:  # type: ignore[override]  # as above
+        return FrozenMap({**other, **self})
+
+    def __reduce__(self) -> tuple[type[FrozenMap[K, V]], tuple[dict[K, V]]]:
+        return FrozenMap, (dict(self),)
+
+    def _refuse(self, *given: object, **named: object) -> NoReturn:
+        raise TypeError("a FrozenMap cannot be changed")
+
+    if not TYPE_CHECKING:  # mypy refuses a dict without these
+        __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refuse
+
+
+def frozen(value: object) -> object:
+    """Return a value that cannot be changed: FrozenMaps for mappings and tuples for lists, all the way down."""
+    if isinstance(value, Mapping):
+        return FrozenMap({name: frozen(item) for name, item in value.items()})
+    return tuple(map(frozen, value)) if isinstance(value, list | tuple) else value
+
+
+class RawXml(str):
+    """A text of `extra_elements`, or the name of an attribute, with its `source`, None if it was not read.
+
+    It compares, hashes and prints as that text. Merging robots puts raw XML of several files into one list, so the
+    source of the list's owner would not do. The `source` of an attribute's name is the map that it is in.
+    """
+
+    __slots__ = ("source",)
+
+    source: SourceRef | None
+
+    def __new__(cls, text: str, source: SourceRef | None = None) -> RawXml:
+        raw = super().__new__(cls, text)
+        raw.source = source
+        return raw
+
+    def __deepcopy__(self, memo: object) -> RawXml:
+        return self
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return RawXml, (str(self), self.source)

@@ -23,10 +23,8 @@ from linkforge_compile.core.fields import (
     field_specs,
 )
 from linkforge_compile.core.models.gazebo import GazeboPlugin
-from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.core.models.interface import Interface
-from linkforge_compile.core.models.material import Color
-from linkforge_compile.core.models.ros2_control import Ros2Control
+from linkforge_compile.core.models.geometry import Color, Transform, Vector3
+from linkforge_compile.core.models.ros2_control import Interface, Ros2Control
 from linkforge_compile.core.models.sensor import Sensor
 from linkforge_compile.core.part import Element, Part
 from linkforge_compile.export_spec.builder import SpecBuilder

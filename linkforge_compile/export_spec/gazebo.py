@@ -14,7 +14,7 @@ from linkforge_compile.syntax import YamlMap, YamlNode, scalar_value
 from linkforge_compile.units import is_in_full, number_text
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.frozen_map import FreePart
+    from linkforge_compile.core.part import FreePart
 
 
 class GazeboPlaces(NamedTuple):

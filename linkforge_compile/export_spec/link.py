@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from linkforge_compile.core.models.geometry import Material
 from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.core.models.link import Collision, Link, LinkPhysics, Visual
-from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.models.link import COLLISION, VISUAL, Collision, Link, LinkPhysics, Visual, shortest_setting
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.shape_order import COLLISION, VISUAL, shortest_setting
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.elements import export_element, export_fields
 from linkforge_compile.export_spec.geometry import export_geometry

@@ -5,11 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
-from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.named_table import NamedTable
-from linkforge_compile.core.models.planning import GroupState, JointProperty, PassiveJoint, PlanningGroup
-from linkforge_compile.core.models.srdf import SemanticRobotDescription
+from linkforge_compile.core.models.srdf import (
+    CollisionPair,
+    GroupState,
+    JointProperty,
+    LinkSphereApproximation,
+    PassiveJoint,
+    PlanningGroup,
+    SemanticRobotDescription,
+    SrdfSphere,
+)
 from linkforge_compile.core.part import Element
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.elements import export_element

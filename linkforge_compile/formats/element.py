@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.fields import written_numbers
-from linkforge_compile.core.part import Element, Inside, attribute_pairs
-from linkforge_compile.core.raw_xml import RawXml
+from linkforge_compile.core.part import Element, Inside, RawXml, attribute_pairs
 from linkforge_compile.formats.source_map import active_origins, origin_of
 from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml, escaped, is_xml_name, spelled
 from linkforge_compile.source import SourceRef

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.geometry import Transform
+from linkforge_compile.core.models.geometry import Material, Transform
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Collision, Inertial, Link, Visual
-from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.models.transmission import Transmission
 from linkforge_compile.core.part import attribute_pairs

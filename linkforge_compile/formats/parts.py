@@ -11,8 +11,8 @@ from types import NoneType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.fields import Flag, Number, Spec, Vector, field_specs
-from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link, LinkPhysics
+from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.part import Element
 from linkforge_compile.core.part import Part as BasePart
 from linkforge_compile.formats.element import inside_of

@@ -7,8 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from jinja2 import TemplateRuntimeError
 from jinja2.runtime import Undefined
 
-from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.core.models.material import Color
+from linkforge_compile.core.models.geometry import Color, Transform, Vector3
 from linkforge_compile.formats.environment import describe
 
 

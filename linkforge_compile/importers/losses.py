@@ -6,7 +6,7 @@ from collections import Counter, defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TypeAlias
 
-from linkforge_compile.core.models.shape_order import KINDS, VISUAL, shown_colors
+from linkforge_compile.core.models.link import KINDS, VISUAL, shown_colors
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.importing import (
     BECOMES_OTHER,

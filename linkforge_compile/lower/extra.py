@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NotRequired, TypedDict
 
-from linkforge_compile.core.frozen_map import FreePart
-from linkforge_compile.core.part import Inside
-from linkforge_compile.core.raw_xml import RawXml
+from linkforge_compile.core.part import FreePart, Inside, RawXml
 from linkforge_compile.diagnostics.codes.model import ATTRIBUTE_OF_OWNER, LIST_IN_LIST
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.source import SourceRef

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.models.geometry import Material
 from linkforge_compile.diagnostics import UnresolvedNames
 from linkforge_compile.expand.paths import path_base
 from linkforge_compile.expand.uses import from_base, no_mesh

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
-from linkforge_compile.core.frozen_map import FreePart
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement
 from linkforge_compile.core.models.link import PHYSICS_TAGS
+from linkforge_compile.core.part import FreePart
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import TAG_TWICE
 from linkforge_compile.lower.elements import lower_element

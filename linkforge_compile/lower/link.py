@@ -9,15 +9,20 @@ from linkforge_compile.core.constants import DEFAULT_LINK_MASS
 from linkforge_compile.core.fields import ABOVE_ZERO, NOT_NEGATIVE
 from linkforge_compile.core.models.geometry import Geometry, Mesh, Transform
 from linkforge_compile.core.models.link import (
+    COLLISION,
+    KINDS,
+    PAIRS,
     USUAL_PHYSICS,
+    VISUAL,
     Collision,
     Inertial,
     InertiaTensor,
     Link,
     LinkPhysics,
     Visual,
+    grouped,
+    in_pairs,
 )
-from linkforge_compile.core.models.shape_order import COLLISION, KINDS, PAIRS, VISUAL, grouped, in_pairs
 from linkforge_compile.core.physics import inertial_of_shapes
 from linkforge_compile.diagnostics import notes_of
 from linkforge_compile.diagnostics.codes.model import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from linkforge_compile.core.fields import ZERO_TO_ONE
-from linkforge_compile.core.models.material import Color, Material
+from linkforge_compile.core.models.geometry import Color, Material
 from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL, OUT_OF_RANGE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest

@@ -32,7 +32,7 @@ from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.solid import Solid
+    from linkforge_compile.core.physics import Solid
 
 MAX_BYTES = 128 * 1024 * 1024
 

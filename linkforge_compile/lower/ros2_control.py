@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TypeVar
 
-from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.ros2_control import (
+    Interface,
     Ros2Control,
     Ros2ControlGpio,
     Ros2ControlJoint,

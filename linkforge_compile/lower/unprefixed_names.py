@@ -7,8 +7,8 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import takewhile
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.core.frozen_map import FreePart
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.part import FreePart
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.model import ABSOLUTE_TOPIC, UNPREFIXED_NAME, UNPREFIXED_TOPICS
 from linkforge_compile.source import SourceFile, SourceRef, Span

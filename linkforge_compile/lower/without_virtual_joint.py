@@ -6,9 +6,8 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.models.srdf import GroupState, PlanningGroup, SemanticRobotDescription
-from linkforge_compile.core.part import Inside
+from linkforge_compile.core.part import FrozenMap, Inside
 
 
 class SemanticWithoutJoint(NamedTuple):

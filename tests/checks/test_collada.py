@@ -8,7 +8,7 @@ import pytest
 from linkforge_compile import compile_file
 from linkforge_compile.checks.collada import corners_of_scene
 from linkforge_compile.checks.mesh_files import MeshScan, ScanBudget, scan_mesh
-from linkforge_compile.core.meshes.collada import collada_triangles
+from linkforge_compile.core.meshes import collada_triangles
 from tests.meshes import GEOMETRY, block, collada
 
 MATRIX = "<matrix>0 -1 0 3  1 0 0 0  0 0 2 -1  0 0 0 1</matrix>"

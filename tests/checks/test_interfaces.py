@@ -1,7 +1,7 @@
 import pytest
 
 from linkforge_compile.core import JointLimits, Robot, Ros2Control, Ros2ControlGpio, Ros2ControlJoint, Ros2ControlSensor
-from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.ros2_control import Interface
 from tests.checks.robots import fixed, messages_of, robot, turning
 
 

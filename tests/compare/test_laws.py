@@ -14,10 +14,9 @@ from linkforge_compile.compare import compare, removed_public_names
 from linkforge_compile.compare.walk import CompareContext, walk
 from linkforge_compile.core import Robot
 from linkforge_compile.core.exceptions import RobotModelError
-from linkforge_compile.core.models.geometry import Sphere, Vector3
-from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.geometry import Color, Material, Sphere, Vector3
 from linkforge_compile.core.models.link import Collision, Link, Visual
-from linkforge_compile.core.models.material import Color, Material
+from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.part import Inside
 from tests.export_spec.test_every_field import full, parts
 from tests.strategies import robots

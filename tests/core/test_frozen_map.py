@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkforge_compile.core.frozen_map import FrozenMap
+from linkforge_compile.core.part import FrozenMap
 
 dicts = st.dictionaries(st.text(max_size=3), st.integers())
 

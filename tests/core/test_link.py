@@ -13,7 +13,7 @@ from linkforge_compile.core.exceptions import (
     RobotValidationError,
     ValidationErrorCode,
 )
-from linkforge_compile.core.models.geometry import Box, Sphere, Transform, Vector3
+from linkforge_compile.core.models.geometry import Box, Color, Material, Sphere, Transform, Vector3
 from linkforge_compile.core.models.link import (
     Collision,
     Inertial,
@@ -22,7 +22,6 @@ from linkforge_compile.core.models.link import (
     LinkPhysics,
     Visual,
 )
-from linkforge_compile.core.models.material import Color, Material
 
 BALL = Sphere(0.1)
 

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.models.material import Color, Material
+from linkforge_compile.core.models.geometry import Color, Material
 
 
 def test_a_color_is_opaque_unless_said():

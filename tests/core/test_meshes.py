@@ -24,12 +24,11 @@ from linkforge_compile.core import (
     Transform,
     Vector3,
 )
+from linkforge_compile.core import meshes as collada_reader
 from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
 from linkforge_compile.core.meshes import MeshError, MeshFault, closed, solid_in
-from linkforge_compile.core.meshes import collada as collada_reader
 from linkforge_compile.core.meshes.closed import bounded_solid
-from linkforge_compile.core.physics import calculate_inertia, inertial_of_shapes
-from linkforge_compile.core.solid import Solid
+from linkforge_compile.core.physics import Solid, calculate_inertia, inertial_of_shapes
 from tests.meshes import (
     FORMATS,
     GEOMETRY,
@@ -289,7 +288,7 @@ def test_nodes_in_nodes_are_counted():
 
 
 def test_triangles_are_counted(monkeypatch):
-    monkeypatch.setattr("linkforge_compile.core.meshes.read.MAX_TRIANGLES", 20)
+    monkeypatch.setattr("linkforge_compile.core.meshes.MAX_TRIANGLES", 20)
     for form in FORMATS:
         assert solid(block(1, 1, 1), form).volume == 1
         name, two = f"part.{ending(form)}", content(together(block(1, 1, 1), block(1, 1, 1, at=(2, 0, 0))), form)
@@ -309,7 +308,7 @@ def test_what_memory_is_too_small_for_is_a_fault_of_the_mesh(monkeypatch):
 
 @pytest.mark.parametrize("face", [b"f" + b" 1 2 3" * 8, b"f 1" + b" \\\n 2/1 3//4" * 11])
 def test_triangles_of_a_polygon_are_counted_before_they_are_made(face, monkeypatch):
-    monkeypatch.setattr("linkforge_compile.core.meshes.read.MAX_TRIANGLES", 20)
+    monkeypatch.setattr("linkforge_compile.core.meshes.MAX_TRIANGLES", 20)
     monkeypatch.setattr("trimesh.load_scene", None)
     error = fault(b"v 0 0 0\n" * 3 + face, "part.obj")
     assert (error.fault, error.message) == (MeshFault.TOO_LARGE, "it has more than 20 triangles")

@@ -10,13 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkforge_compile.core.models import (
-    collision_rules,
     gazebo,
     geometry,
     joint,
     link,
-    material,
-    planning,
     ros2_control,
     sensor,
     srdf,
@@ -28,13 +25,10 @@ from linkforge_compile.source import SourceFile, SourceRef, Span
 from tests.strategies import PREFIXED, parts, prefixes
 
 MODULES = (
-    collision_rules,
     gazebo,
     geometry,
     joint,
     link,
-    material,
-    planning,
     ros2_control,
     sensor,
     srdf,

@@ -8,9 +8,9 @@ import pytest
 from lxml import etree
 
 from linkforge_compile.core import Robot
-from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.geometry import Material
 from linkforge_compile.core.models.link import Link
-from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.part import Element, Inside
 from linkforge_compile.diagnostics import Severity
 from linkforge_compile.export_spec import write_spec

@@ -5,10 +5,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass, replace
 
 from linkforge_compile import core
-from linkforge_compile.core.models.collision_rules import CollisionPair
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
-from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.geometry import Color, Material, Transform, Vector3
 from linkforge_compile.core.models.joint import (
     Joint,
     JointCalibration,
@@ -19,10 +17,14 @@ from linkforge_compile.core.models.joint import (
     JointType,
 )
 from linkforge_compile.core.models.link import Inertial, InertiaTensor, LinkPhysics
-from linkforge_compile.core.models.material import Color, Material
-from linkforge_compile.core.models.planning import EndEffector, PlanningGroup
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlGpio, Ros2ControlJoint, Ros2ControlSensor
+from linkforge_compile.core.models.ros2_control import (
+    Interface,
+    Ros2Control,
+    Ros2ControlGpio,
+    Ros2ControlJoint,
+    Ros2ControlSensor,
+)
 from linkforge_compile.core.models.sensor import (
     CameraInfo,
     ContactInfo,
@@ -34,6 +36,7 @@ from linkforge_compile.core.models.sensor import (
     SensorNoise,
     SensorType,
 )
+from linkforge_compile.core.models.srdf import CollisionPair, EndEffector, PlanningGroup
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.core.part import Inside
 from linkforge_compile.export_spec import write_spec

@@ -8,18 +8,14 @@ import yaml
 
 from linkforge_compile import compile_text, write_spec
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.models.collision_rules import CollisionPair
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
-from linkforge_compile.core.models.geometry import Box, Mesh, Sphere, Transform, Vector3
-from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.geometry import Box, Color, Material, Mesh, Sphere, Transform, Vector3
 from linkforge_compile.core.models.joint import Joint, JointDynamics, JointLimits, JointType
 from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
-from linkforge_compile.core.models.material import Color, Material
-from linkforge_compile.core.models.planning import GroupState, PlanningGroup
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlJoint
+from linkforge_compile.core.models.ros2_control import Interface, Ros2Control, Ros2ControlJoint
 from linkforge_compile.core.models.sensor import CameraInfo, Sensor, SensorType
-from linkforge_compile.core.models.srdf import SemanticRobotDescription
+from linkforge_compile.core.models.srdf import CollisionPair, GroupState, PlanningGroup, SemanticRobotDescription
 
 STEEL = Material("steel", Color(0.6, 0.6, 0.65))
 

@@ -1,9 +1,17 @@
 """A robot that says everything a robot can, and that real readers accept."""
 
-from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
-from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Mesh, Sphere, Transform, Vector3
-from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.geometry import (
+    Box,
+    Capsule,
+    Color,
+    Cylinder,
+    Material,
+    Mesh,
+    Sphere,
+    Transform,
+    Vector3,
+)
 from linkforge_compile.core.models.joint import (
     Joint,
     JointCalibration,
@@ -14,20 +22,28 @@ from linkforge_compile.core.models.joint import (
     JointType,
 )
 from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
-from linkforge_compile.core.models.material import Color, Material
-from linkforge_compile.core.models.planning import (
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.ros2_control import (
+    Interface,
+    Ros2Control,
+    Ros2ControlGpio,
+    Ros2ControlJoint,
+    Ros2ControlSensor,
+)
+from linkforge_compile.core.models.sensor import CameraInfo, IMUInfo, LidarInfo, Sensor, SensorNoise, SensorType
+from linkforge_compile.core.models.srdf import (
     Chain,
+    CollisionPair,
     EndEffector,
     GroupState,
     JointProperty,
+    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
+    SemanticRobotDescription,
+    SrdfSphere,
     VirtualJoint,
 )
-from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlGpio, Ros2ControlJoint, Ros2ControlSensor
-from linkforge_compile.core.models.sensor import CameraInfo, IMUInfo, LidarInfo, Sensor, SensorNoise, SensorType
-from linkforge_compile.core.models.srdf import SemanticRobotDescription
 from linkforge_compile.core.models.transmission import Transmission
 
 STEEL = Material("steel", Color(0.6, 0.6, 0.65))

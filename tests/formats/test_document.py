@@ -9,9 +9,8 @@ import pytest
 from lxml import etree
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.models.geometry import Capsule, Mesh, Sphere, Transform, Vector3
+from linkforge_compile.core.models.geometry import Capsule, Color, Material, Mesh, Sphere, Transform, Vector3
 from linkforge_compile.core.models.link import Collision, Link, Visual
-from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics.codes.formats import OTHER_QUATERNION
 from linkforge_compile.formats import FORMATS, URDF, render_srdf, render_urdf

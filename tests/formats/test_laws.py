@@ -8,9 +8,8 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.models.geometry import Transform, Vector3
+from linkforge_compile.core.models.geometry import Material, Transform, Vector3
 from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link
-from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Severity
 from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf

@@ -7,14 +7,11 @@ import pytest
 
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
-from linkforge_compile.core.models.geometry import Capsule, Mesh, Sphere, Vector3
-from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.geometry import Capsule, Color, Material, Mesh, Sphere, Vector3
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointType
 from linkforge_compile.core.models.link import Link, LinkPhysics, Visual
-from linkforge_compile.core.models.material import Color, Material
-from linkforge_compile.core.models.planning import PlanningGroup
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlJoint
+from linkforge_compile.core.models.ros2_control import Interface, Ros2Control, Ros2ControlJoint
 from linkforge_compile.core.models.sensor import (
     CameraInfo,
     ContactInfo,
@@ -24,7 +21,7 @@ from linkforge_compile.core.models.sensor import (
     SensorNoise,
     SensorType,
 )
-from linkforge_compile.core.models.srdf import SemanticRobotDescription
+from linkforge_compile.core.models.srdf import PlanningGroup, SemanticRobotDescription
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.core.part import Element
 from linkforge_compile.formats import SRDF, URDF

@@ -1,6 +1,15 @@
-from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Mesh, Sphere, Transform, Vector3
+from linkforge_compile.core.models.geometry import (
+    Box,
+    Capsule,
+    Color,
+    Cylinder,
+    Material,
+    Mesh,
+    Sphere,
+    Transform,
+    Vector3,
+)
 from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, Visual
-from linkforge_compile.core.models.material import Color, Material
 from tests.formats.inside import urdf, xml
 
 STEEL = Material("steel", Color(0.6, 0.6, 0.65))

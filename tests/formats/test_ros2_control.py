@@ -1,5 +1,5 @@
-from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.ros2_control import (
+    Interface,
     Ros2Control,
     Ros2ControlGpio,
     Ros2ControlJoint,

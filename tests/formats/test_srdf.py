@@ -1,14 +1,16 @@
-from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
-from linkforge_compile.core.models.planning import (
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.srdf import (
     Chain,
+    CollisionPair,
     EndEffector,
     GroupState,
     JointProperty,
+    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
+    SrdfSphere,
     VirtualJoint,
 )
-from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.formats import render_srdf
 from tests.formats.inside import srdf, xml
 

@@ -1,6 +1,6 @@
 """`extra`, `extra_attributes` and `extra_inside`: kept as they stand, one text or several."""
 
-from linkforge_compile.core.models.planning import PlanningGroup
+from linkforge_compile.core.models.srdf import PlanningGroup
 from linkforge_compile.core.part import Inside
 from tests.lower.specs import robot_of
 

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from trimesh.grouping import unique_rows
 
-from linkforge_compile.core.meshes.faults import MeshError, MeshFault
+from linkforge_compile.core.exceptions import MeshError, MeshFault
 from linkforge_compile.core.models.geometry import Vector3
-from linkforge_compile.core.solid import Solid
+from linkforge_compile.core.physics import Solid
 
 Numbers: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]

@@ -12,10 +12,8 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import *  # noqa: F403
     from linkforge_compile.core.models.geometry import *  # noqa: F403
     from linkforge_compile.core.models.graph import *  # noqa: F403
-    from linkforge_compile.core.models.interface import *  # noqa: F403
     from linkforge_compile.core.models.joint import *  # noqa: F403
     from linkforge_compile.core.models.link import *  # noqa: F403
-    from linkforge_compile.core.models.material import *  # noqa: F403
     from linkforge_compile.core.models.named_table import *  # noqa: F403
     from linkforge_compile.core.models.robot import *  # noqa: F403
     from linkforge_compile.core.models.ros2_control import *  # noqa: F403
@@ -25,15 +23,13 @@ if TYPE_CHECKING:
 
 _NAMES = {
     "gazebo": "GazeboElement GazeboPlugin",
-    "geometry": "Box Capsule Cylinder Geometry GeometryType Mesh Sphere Transform Vector3",
+    "geometry": "Box Capsule Color Cylinder Geometry GeometryType Material Mesh Sphere Transform Vector3",
     "graph": "KinematicGraph",
-    "interface": "Interface",
     "joint": "Joint JointCalibration JointDynamics JointLimits JointMimic JointSafetyController JointType",
     "link": "Collision InertiaTensor Inertial Link LinkPhysics Visual",
-    "material": "Color Material",
     "named_table": "Index",
     "robot": "Robot",
-    "ros2_control": "Ros2Control Ros2ControlGpio Ros2ControlJoint Ros2ControlSensor",
+    "ros2_control": "Interface Ros2Control Ros2ControlGpio Ros2ControlJoint Ros2ControlSensor",
     "sensor": "CameraInfo ContactInfo ForceTorqueInfo GPSInfo IMUInfo LidarInfo Sensor SensorNoise SensorType",
     "srdf": "Chain CollisionPair EndEffector GroupState JointProperty "
     "LinkSphereApproximation PassiveJoint PlanningGroup SemanticRobotDescription SrdfSphere VirtualJoint",

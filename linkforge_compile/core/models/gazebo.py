@@ -17,11 +17,11 @@ from linkforge_compile.core.fields import (
     Parameters,
     Reference,
     Text,
+    require_finite,
     tags_with_text,
 )
-from linkforge_compile.core.frozen_map import FreePart, FrozenMap
-from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_finite, require_not_blank
+from linkforge_compile.core.naming import require_not_blank
+from linkforge_compile.core.part import Element, FreePart, FrozenMap, freeze
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,8 +29,8 @@ from linkforge_compile.core.fields import (
     check_numbers,
 )
 from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
+from linkforge_compile.core.naming import require_name, require_valid_characters
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_name, require_valid_characters
 from linkforge_compile.units import DAMPING, EFFORT, POSITION, SPEED, Motion
 
 

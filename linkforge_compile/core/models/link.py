@@ -1,12 +1,12 @@
-"""Links: rigid bodies with their mass, visuals and collisions."""
+"""Links: rigid bodies with their mass, visuals and collisions, and the order of these shapes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
-from itertools import islice
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from itertools import accumulate, chain, islice, zip_longest
+from typing import TYPE_CHECKING, Annotated, ClassVar, TypeVar
 
 from linkforge_compile.core.constants import (
     DEFAULT_CONTACT_KD,
@@ -19,11 +19,9 @@ from linkforge_compile.core.constants import (
 )
 from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.fields import Child, Children, Flag, Name, Number, Pose, Text, check_numbers, tags_with_text
-from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
-from linkforge_compile.core.models.material import Material
-from linkforge_compile.core.models.shape_order import COLLISION, KINDS, VISUAL
+from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Material, Transform
+from linkforge_compile.core.naming import require_name, require_valid_characters
 from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, prefixed_fields, set_field
-from linkforge_compile.core.rules import require_name, require_valid_characters
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import CONTACT_DAMPING, INERTIA, MASS, STIFFNESS
 
@@ -270,3 +268,39 @@ def _kinds(words: Sequence[str]) -> tuple[str, ...]:
                 field=("shape_order",),
             )
     return tuple(words)
+
+
+ColorT = TypeVar("ColorT")
+
+VISUAL, COLLISION = "visual", "collision"
+KINDS = (VISUAL, COLLISION)
+
+PAIRS = "pairs"
+"""The word for alternating kinds, beginning with the kind of the first shape; shapes without a partner come last."""
+
+
+def grouped(kinds: Sequence[str]) -> tuple[str, ...]:
+    """Return the kinds with all of the first one before the others, which is the default order."""
+    return tuple(sorted(kinds, key=lambda kind: kind != kinds[0]))
+
+
+def in_pairs(kinds: Sequence[str]) -> tuple[str, ...]:
+    """Return the kinds in the order that PAIRS means."""
+    first = [kind for kind in kinds if kind == kinds[0]]
+    others = [kind for kind in kinds if kind != kinds[0]]
+    return tuple(kind for kind in chain.from_iterable(zip_longest(first, others)) if kind)
+
+
+def shortest_setting(kinds: Sequence[str]) -> str | Sequence[str] | None:
+    """Return the `shape_order` to write for these kinds: PAIRS or a list; None for the default order."""
+    if tuple(kinds) == grouped(kinds):
+        return None
+    return PAIRS if tuple(kinds) == in_pairs(kinds) else kinds
+
+
+def shown_colors(own: Iterable[ColorT | None]) -> Iterator[ColorT | None]:
+    """Yield the color in which MuJoCo shows each shape of a link, given the shapes' own colors in document order.
+
+    A shape without a color, such as any collision, has that of the shape before it; None before the first color.
+    """
+    return accumulate(own, lambda before, color: before if color is None else color)

@@ -12,21 +12,21 @@ from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidati
 from linkforge_compile.core.models.geometry import IDENTITY
 from linkforge_compile.core.models.graph import refuse_cycles, tree_root
 from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.core.models.merging import (
+from linkforge_compile.core.models.named_table import NAME, NamedTable
+from linkforge_compile.core.models.robot_parts import (
+    RobotParts,
     complete_joint,
     prefixed_materials,
     prefixed_parts,
+    require_robot_name,
     select_new_materials,
 )
-from linkforge_compile.core.models.named_table import NAME, NamedTable
-from linkforge_compile.core.models.robot_parts import RobotParts, require_robot_name
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboElement
-    from linkforge_compile.core.models.geometry import Transform, Vector3
+    from linkforge_compile.core.models.geometry import Material, Transform, Vector3
     from linkforge_compile.core.models.joint import JointLimits
     from linkforge_compile.core.models.link import Link
-    from linkforge_compile.core.models.material import Material
     from linkforge_compile.core.models.ros2_control import Ros2Control
     from linkforge_compile.core.models.sensor import Sensor
     from linkforge_compile.core.models.srdf import Chain, SemanticRobotDescription, SrdfSphere
@@ -132,7 +132,7 @@ class Robot(RobotParts):
                 group of nothing.
 
         """
-        from linkforge_compile.core.models.planning import PlanningGroup, chain_between
+        from linkforge_compile.core.models.srdf import PlanningGroup, chain_between
 
         all_chains = (*(chains or ()), *chain_between(name, base_link, tip_link))
         group = PlanningGroup(name, links or (), joints or (), all_chains, subgroups or ())
@@ -159,14 +159,14 @@ class Robot(RobotParts):
         return self._disable_pairs(combinations(links, 2), reason)
 
     def _disable_pairs(self, pairs: Iterable[tuple[str, str]], reason: str) -> Self:
-        from linkforge_compile.core.models.collision_rules import CollisionPair
+        from linkforge_compile.core.models.srdf import CollisionPair
 
         disabled = [CollisionPair(self.link(one).name, self.link(other).name, reason) for one, other in pairs]
         return self._add_entries(disabled_collisions=disabled)
 
     def enable_collisions(self, link1: str, link2: str, reason: str | None = None) -> Self:
         """Let planning look for collisions between two links although it is disabled by default; a pair counts once."""
-        from linkforge_compile.core.models.collision_rules import CollisionPair
+        from linkforge_compile.core.models.srdf import CollisionPair
 
         pair = CollisionPair(self.link(link1).name, self.link(link2).name, reason)
         return self._add_entries(enabled_collisions=[pair])
@@ -177,13 +177,13 @@ class Robot(RobotParts):
 
     def add_joint_property(self, joint_name: str, property_name: str, value: str) -> Self:
         """Add a property of a joint that planners know by name."""
-        from linkforge_compile.core.models.planning import JointProperty
+        from linkforge_compile.core.models.srdf import JointProperty
 
         return self._add_entries(joint_properties=[JointProperty(self.joint(joint_name).name, property_name, value)])
 
     def approximate_link_collision(self, link: str, spheres: list[SrdfSphere]) -> Self:
         """Approximate a link's shape in collisions by spheres."""
-        from linkforge_compile.core.models.collision_rules import LinkSphereApproximation
+        from linkforge_compile.core.models.srdf import LinkSphereApproximation
 
         return self._add_entries(link_sphere_approximations=[LinkSphereApproximation(self.link(link).name, spheres)])
 

@@ -6,17 +6,97 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from operator import attrgetter
-from typing import Annotated, ClassVar, Self
+from typing import Annotated, Any, ClassVar, NoReturn, Self
 
 from linkforge_compile.core.constants import CONTROL_TYPE_ACTUATOR, CONTROL_TYPE_SENSOR, CONTROL_TYPE_SYSTEM
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.fields import Children, Choice, Name, Parameters, Reference, Text
-from linkforge_compile.core.frozen_map import FrozenMap
-from linkforge_compile.core.models.interface import Interface
-from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_choice, require_name, require_unique_names
+from linkforge_compile.core.fields import Children, Choice, Name, Parameters, Reference, Text, require_choice
+from linkforge_compile.core.naming import require_name, require_unique_names
+from linkforge_compile.core.part import Element, FrozenMap, Inside, attribute_pairs, freeze
+from linkforge_compile.source import SourceRef
 
-__all__ = ["Interface", "Ros2Control", "Ros2ControlGpio", "Ros2ControlJoint", "Ros2ControlSensor"]
+
+class Interface(str):
+    """The name of an interface, such as `position`: `<command_interface name>` or `<state_interface name>`.
+
+    It sorts, hashes and prints as that name, and equals it; two interfaces are equal if their parameters and extras
+    are, too. `parameters` are texts by name (`min`, `max`, `initial_value`): `<param name>`.
+    `source` is where it was written, None if it was not read.
+    """
+
+    __slots__ = ("extra_attributes", "extra_elements", "extra_inside", "parameters", "source")
+
+    parameters: Mapping[str, str]
+    source: SourceRef | None
+    extra_attributes: tuple[tuple[str, str], ...]
+    extra_elements: tuple[str, ...]
+    extra_inside: tuple[Inside, ...]
+
+    def __new__(
+        cls,
+        name: str,
+        parameters: Mapping[str, str] = FrozenMap(),
+        *,
+        source: SourceRef | None = None,
+        extra_attributes: Sequence[tuple[str, str]] = (),
+        extra_elements: Sequence[str] = (),
+        extra_inside: Sequence[Inside] = (),
+    ) -> Interface:
+        interface = super().__new__(cls, name)
+        facts = {
+            "parameters": FrozenMap(parameters),
+            "source": source,
+            "extra_attributes": attribute_pairs(extra_attributes),
+            "extra_elements": tuple(extra_elements),
+            "extra_inside": tuple(extra_inside),
+        }
+        for fact, value in facts.items():
+            object.__setattr__(interface, fact, value)
+        return interface
+
+    @classmethod
+    def of(cls, name: str) -> Interface:
+        """Return the interface itself, or one without parameters for a bare name."""
+        return name if isinstance(name, Interface) else cls(name)
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Interface):
+            return str.__eq__(self, other) and self._facts == other._facts
+        return str.__eq__(self, other) if isinstance(other, str) else NotImplemented
+
+    def __ne__(self, other: object) -> bool:
+        # str defines `__ne__` itself and does not call `__eq__`.
+        equal = self.__eq__(other)
+        return equal if equal is NotImplemented else not equal
+
+    __hash__ = str.__hash__
+
+    @property
+    def _facts(self) -> tuple[object, ...]:
+        return tuple(getattr(self, fact) for fact in _FACTS)
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"an Interface cannot be changed: {name}")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"an Interface cannot be changed: {name}")
+
+    def __copy__(self) -> Interface:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Interface:
+        return self
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _revive, (str(self), {name: getattr(self, name) for name in ("source", *_FACTS)})
+
+
+_FACTS = ("parameters", "extra_attributes", "extra_elements", "extra_inside")
+
+
+def _revive(name: str, facts: Mapping[str, Any]) -> Interface:  # Any: each fact has a type of its own
+    return Interface(name, **facts)
+
 
 _COMMANDS = Children(kinds=(Interface,), xml="command_interface")
 _STATES = Children(kinds=(Interface,), xml="state_interface")

@@ -22,11 +22,12 @@ from linkforge_compile.core.fields import (
     Reference,
     Text,
     check_numbers,
+    require_choice,
 )
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
+from linkforge_compile.core.naming import require_name
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_choice, require_name
 from linkforge_compile.units import ANGLE, FREQUENCY, LENGTH, LOAD, PIXELS, TURN_RATE, VELOCITY
 
 

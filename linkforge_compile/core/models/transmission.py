@@ -10,15 +10,18 @@ from typing import Annotated, ClassVar, Self
 
 from linkforge_compile.core.constants import EPSILON, HW_IF_POSITION
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.fields import BEYOND_EPSILON, Children, Name, Number, Parameters, Reference, Text
-from linkforge_compile.core.frozen_map import FreePart, FrozenMap
-from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import (
+from linkforge_compile.core.fields import (
+    BEYOND_EPSILON,
+    Children,
+    Name,
+    Number,
+    Parameters,
+    Reference,
+    Text,
     require_finite,
-    require_name,
-    require_unique_names,
-    require_valid_characters,
 )
+from linkforge_compile.core.naming import require_name, require_unique_names, require_valid_characters
+from linkforge_compile.core.part import Element, FreePart, FrozenMap, freeze
 from linkforge_compile.units import POSITION
 
 

@@ -11,9 +11,8 @@ from linkforge_compile.formats.xml_text import Xml, spelled
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from linkforge_compile.core.models.collision_rules import LinkSphereApproximation
-    from linkforge_compile.core.models.planning import GroupState, PlanningGroup
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.core.models.srdf import GroupState, LinkSphereApproximation, PlanningGroup
     from linkforge_compile.core.part import Element
 
 

@@ -29,7 +29,7 @@ from linkforge_compile.formats.xml_text import spelled
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.material import Material
+    from linkforge_compile.core.models.geometry import Material
     from linkforge_compile.core.models.robot import Robot
 
 _READ_VERSIONS = ("1.0", "1.1", "1.2")

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from linkforge_compile.core.models.geometry import Box, Geometry, Mesh, Sphere, Transform, Vector3
-from linkforge_compile.core.models.link import USUAL_PHYSICS, Collision, Inertial, Link, Visual
-from linkforge_compile.core.models.material import Material
-from linkforge_compile.core.models.shape_order import COLLISION, VISUAL
+from linkforge_compile.core.models.geometry import Box, Geometry, Material, Mesh, Sphere, Transform, Vector3
+from linkforge_compile.core.models.link import COLLISION, USUAL_PHYSICS, VISUAL, Collision, Inertial, Link, Visual
 from linkforge_compile.formats.element import attributes, attributes_at, elements, leaf, leaf_at, placed
 from linkforge_compile.formats.xml_text import NOTHING, Xml
 from linkforge_compile.units import number_text

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from linkforge_compile.core.models.planning import Chain, EndEffector, VirtualJoint
+from linkforge_compile.core.models.srdf import Chain, EndEffector, VirtualJoint
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import OTHER_ROBOT
 from linkforge_compile.importers.comments import place_comments

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from linkforge_compile.core.models.shape_order import COLLISION, KINDS, VISUAL, shortest_setting
+from linkforge_compile.core.models.link import COLLISION, KINDS, VISUAL, shortest_setting
 from linkforge_compile.importers.element_reader import ElementReader
 from linkforge_compile.importers.spec_draft import is_same
 from linkforge_compile.importers.urdf.gazebo import Blocks
