@@ -16,6 +16,7 @@ from linkforge_compile.core import (
     SensorType,
     ValidationErrorCode,
 )
+from linkforge_compile.core.models.named_table import PartList
 
 A, B, C = Link("a"), Link("b"), Link("c")
 
@@ -144,3 +145,13 @@ def test_assigning_two_links_of_one_name_leaves_the_robot_as_it_was():
     with pytest.raises(RobotValidationError, match="Duplicate"):
         robot.links = [Link("b"), Link("b")]
     assert robot.links == (Link("a"),)
+
+
+def test_adding_part_after_part_makes_a_table_only_where_one_is_read(monkeypatch):
+    made = []
+    monkeypatch.setattr(PartList, "table", property(made.append))
+    robot = Robot("r")
+    for number in range(3):
+        robot.add_link(Link(f"l{number}"))
+    robot.add_joint(Joint("j", "fixed", "l0", "l1"))
+    assert made == []

@@ -51,15 +51,70 @@ class KeySpec(NamedTuple):
         return RobotValidationError(ValidationErrorCode.NOT_FOUND, message, self._target, name)
 
 
-class _Positions:
-    """Where the first item of each key is, among the items of the longest of the tables that share this."""
+class PartList(Generic[T]):
+    """Parts of one kind, to which others are appended, and the position of the first part of each key."""
 
-    def __init__(self, spec: KeySpec, items: Sequence[object]) -> None:
-        self.renamings = Link.renamings
-        self.count = len(items)
-        self.first: dict[Hashable, int] = {}
-        for position, item in enumerate(items):
-            self.first.setdefault(spec.key(item), position)
+    def __init__(self, spec: KeySpec, parts: Iterable[T] = ()) -> None:
+        self.spec = spec
+        self._parts = list(parts)
+        self._positions: dict[Hashable, int] | None = None
+        self._renamings = Link.renamings
+        self._table: NamedTable[T] | None = None
+
+    def __len__(self) -> int:
+        return len(self._parts)
+
+    def position(self, key: Hashable) -> int:
+        """Return the position of the first part of a key; the number of parts if there is none."""
+        if self._positions is None or self._renamings != Link.renamings:
+            self._positions, self._renamings = {}, Link.renamings
+            self._index(self._parts, 0)
+        return self._positions.get(key, len(self._parts))
+
+    def _index(self, parts: Iterable[T], start: int) -> None:
+        if self._positions is not None:
+            for position, part in enumerate(parts, start):
+                self._positions.setdefault(self.spec.key(part), position)
+
+    def select_new(self, parts: Iterable[T]) -> Sequence[T]:
+        """Return those of the parts that are to be added.
+
+        Raises:
+            RobotValidationError: DUPLICATE_NAME for a name that is taken, where the spec refuses that.
+
+        """
+        if self.spec.on_duplicate is OnDuplicate.KEEP:
+            return tuple(parts)
+        new: dict[Hashable, T] = {}
+        for part in parts:
+            key = self.spec.key(part)
+            if key not in new and self.position(key) == len(self):
+                new[key] = part
+            elif self.spec.on_duplicate is OnDuplicate.REFUSE:
+                raise self.spec.duplicate_error(key)
+        return tuple(new.values())
+
+    def extend(self, parts: Sequence[T]) -> None:
+        """Append parts that `select_new` returned; tables that were read before stay as they are."""
+        if parts:
+            self._index(parts, len(self))
+            self._parts += parts
+            self._table = None
+
+    def get(self, key: Hashable) -> T | None:
+        """Return the first part of a key, None if there is none."""
+        position = self.position(key)
+        return self._parts[position] if position < len(self) else None
+
+    @property
+    def table(self) -> NamedTable[T]:
+        """The parts as a tuple, the same one until parts are added."""
+        if self._table is None:
+            self._table = NamedTable(self.spec, self._parts, self)
+        return self._table
+
+    def __reduce__(self) -> tuple[type[PartList[T]], tuple[KeySpec, list[T]]]:
+        return PartList, (self.spec, self._parts)
 
 
 class NamedTable(tuple[T, ...]):
@@ -69,35 +124,28 @@ class NamedTable(tuple[T, ...]):
     new name.
     """
 
-    _spec: KeySpec
-    _positions: _Positions | None
+    _list: PartList[T]  # of these parts, and of those that were added later
 
-    def __new__(cls, spec: KeySpec, parts: Iterable[T] = ()) -> NamedTable[T]:
+    def __new__(cls, spec: KeySpec, parts: Iterable[T] = (), parts_list: PartList[T] | None = None) -> NamedTable[T]:
         table = super().__new__(cls, parts)
-        table._spec = spec
-        table._positions = None
+        table._list = PartList(spec, table) if parts_list is None else parts_list
         return table
 
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the parts in their order, or what serves as such."""
-        return tuple(map(str, map(self._spec.key, self)))
-
-    def _index(self) -> _Positions:
-        if self._positions is None or self._positions.renamings != Link.renamings:
-            self._positions = _Positions(self._spec, self)
-        return self._positions
+        return tuple(map(str, map(self._list.spec.key, self)))
 
     def get(self, name: Hashable) -> T | None:
         """Return the part of that name, None if there is none."""
-        position = self._index().first.get(name, len(self))
+        position = self._list.position(name)
         return super().__getitem__(position) if position < len(self) else None
 
     def require(self, name: str) -> T:
         """Return the part of that name; raise NOT_FOUND if there is none."""
         part = self.get(name)
         if part is None:
-            raise self._spec.missing_error(name)
+            raise self._list.spec.missing_error(name)
         return part
 
     @overload
@@ -117,47 +165,19 @@ class NamedTable(tuple[T, ...]):
         """Tell whether a name, or an equal part, is here."""
         return self.get(sought) is not None if isinstance(sought, str) else super().__contains__(sought)
 
-    def select_new(self, parts: Iterable[T]) -> Sequence[T]:
-        """Return those of the parts that are to be added.
-
-        Raises:
-            RobotValidationError: DUPLICATE_NAME for a name that is taken, where the spec refuses that.
-
-        """
-        if self._spec.on_duplicate is OnDuplicate.KEEP:
-            return tuple(parts)
-        new: dict[Hashable, T] = {}
-        for part in parts:
-            key = self._spec.key(part)
-            if key not in new and self.get(key) is None:
-                new[key] = part
-            elif self._spec.on_duplicate is OnDuplicate.REFUSE:
-                raise self._spec.duplicate_error(key)
-        return tuple(new.values())
-
     def extended(self, parts: Iterable[T]) -> NamedTable[T]:
         """Return a table of these parts and then the others, without those that the spec skips.
 
-        The positions of the parts are shared with the new table, so that adding one by one computes each key once.
-
         Raises:
             RobotValidationError: DUPLICATE_NAME for a name that is taken, where the spec refuses that.
 
         """
-        added = self.select_new(parts)
-        if not added:
-            return self
-        table = NamedTable(self._spec, self + tuple(added))
-        positions = self._positions
-        if positions and positions.count == len(self) and positions.renamings == Link.renamings:
-            for position, part in enumerate(added, len(self)):
-                positions.first.setdefault(self._spec.key(part), position)
-            positions.count = len(table)
-            table._positions = positions
-        return table
+        longer = self._list if len(self._list) == len(self) else PartList(self._list.spec, self)
+        longer.extend(longer.select_new(parts))
+        return longer.table
 
     def __reduce__(self) -> tuple[type[NamedTable[T]], tuple[KeySpec, tuple[T, ...]]]:
-        return NamedTable, (self._spec, tuple(self))
+        return NamedTable, (self._list.spec, tuple(self))
 
 
 Index = NamedTable
@@ -165,7 +185,7 @@ Index = NamedTable
 
 
 class TableField(Generic[T]):
-    """A field that accepts any iterable of parts and holds them as a NamedTable.
+    """A field that accepts any iterable of parts, holds them as a PartList, and is read as a NamedTable.
 
     With `distinct`, assigning two parts of one name raises DUPLICATE_NAME and leaves the field as it was.
     """
@@ -184,9 +204,11 @@ class TableField(Generic[T]):
     def __get__(self, robot: object | None, owner: type) -> NamedTable[T] | tuple[()]:
         if robot is None:
             return ()  # the field's default, to dataclasses
-        table: NamedTable[T] = vars(robot)[self._name]
-        return table
+        parts: PartList[T] = vars(robot)[self._name]
+        return parts.table
 
     def __set__(self, robot: object, parts: Iterable[T]) -> None:
-        empty: NamedTable[T] = NamedTable(self._spec)
-        vars(robot)[self._name] = empty.extended(parts) if self._distinct else NamedTable(self._spec, parts)
+        new = PartList(self._spec, () if self._distinct else parts)
+        if self._distinct:
+            new.extend(new.select_new(parts))
+        vars(robot)[self._name] = new

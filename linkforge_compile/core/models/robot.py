@@ -12,7 +12,7 @@ from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidati
 from linkforge_compile.core.models.geometry import IDENTITY
 from linkforge_compile.core.models.graph import refuse_cycles, tree_root
 from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.core.models.named_table import NAME, NamedTable
+from linkforge_compile.core.models.named_table import NAME
 from linkforge_compile.core.models.robot_parts import (
     RobotParts,
     complete_joint,
@@ -52,32 +52,32 @@ class Robot(RobotParts):
 
     def add_joint(self, joint: Joint) -> None:
         """Add a joint between two links of the robot."""
-        self.joints.select_new([joint])
+        new = self._select_new(joints=[joint])
         self.require_parent(joint)
-        _require(self.links, joint.child, f"Child link '{joint.child}'", "ChildLink", "child")
-        self.add_parts(joints=[joint])
+        self._require("links", joint.child, f"Child link '{joint.child}'", "ChildLink", "child")
+        self._extend(new)
 
     def require_parent(self, joint: Joint) -> None:
         """Refuse a joint whose parent is no link of the robot: NOT_FOUND."""
-        _require(self.links, joint.parent, f"Parent link '{joint.parent}'", "ParentLink", "parent")
+        self._require("links", joint.parent, f"Parent link '{joint.parent}'", "ParentLink", "parent")
 
     def add_sensor(self, sensor: Sensor) -> None:
         """Add a sensor to a link of the robot."""
-        self.sensors.select_new([sensor])
-        _require(self.links, sensor.link_name, f"Link '{sensor.link_name}'", "LinkName", "link")
-        self.add_parts(sensors=[sensor])
+        new = self._select_new(sensors=[sensor])
+        self._require("links", sensor.link_name, f"Link '{sensor.link_name}'", "LinkName", "link")
+        self._extend(new)
 
     def add_transmission(self, transmission: Transmission) -> None:
         """Add a transmission for joints of the robot; actuators are names of its own."""
-        self.transmissions.select_new([transmission])
+        new = self._select_new(transmissions=[transmission])
         self._require_joints(joint.name for joint in transmission.joints)
-        self.add_parts(transmissions=[transmission])
+        self._extend(new)
 
     def add_ros2_control(self, ros2_control: Ros2Control) -> None:
         """Add a hardware component for joints of the robot."""
-        self.ros2_controls.select_new([ros2_control])
+        new = self._select_new(ros2_controls=[ros2_control])
         self._require_joints(joint.name for joint in ros2_control.joints)
-        self.add_parts(ros2_controls=[ros2_control])
+        self._extend(new)
 
     def update_ros2_control(self, ros2_control: Ros2Control) -> None:
         """Replace the hardware component of the same name, without checks; add it if there is none."""
@@ -92,12 +92,16 @@ class Robot(RobotParts):
         """Add settings of a simulator for a link or joint of the robot, or for the robot."""
         reference = element.reference
         if reference is not None and not self.has_link(reference):
-            _require(self.joints, reference, f"Gazebo reference '{reference}'", "GazeboReference", "reference")
+            self._require("joints", reference, f"Gazebo reference '{reference}'", "GazeboReference", "reference")
         self.add_parts(gazebo_elements=[element])
+
+    def _require(self, kind: str, name: str, what: str, target: str, *field: str) -> None:
+        if self._list_of(kind).get(name) is None:
+            raise RobotValidationError(ValidationErrorCode.NOT_FOUND, f"{what} not found", target, name, field=field)
 
     def _require_joints(self, names: Iterable[str]) -> None:
         for name in names:
-            _require(self.joints, name, f"Joint '{name}'", "JointName", "joints", name)
+            self._require("joints", name, f"Joint '{name}'", "JointName", "joints", name)
 
     def add_semantic(self, description: SemanticRobotDescription) -> Self:
         """Add the entries of a description; the parts that they name need not exist.
@@ -214,11 +218,11 @@ class Robot(RobotParts):
 
         """
         if at_link is not None:
-            _require(self.links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
+            self._require("links", at_link, f"Attachment link '{at_link}'", "Attach", "parent")
         materials = prefixed_materials(component, prefix)
         parts = prefixed_parts(component, prefix)
         # Links of one name are reported as such, and not as the cycle that they make.
-        self.links.select_new(parts["links"])
+        self._select_new(links=parts["links"])
         if at_link is None:
             refuse_cycles(parts["links"], parts["joints"])
         else:
@@ -235,13 +239,13 @@ class Robot(RobotParts):
     ) -> None:
         """Add parts, materials, raw XML and semantic entries of a component, all of them or none."""
         new_materials = select_new_materials(materials, self.materials)
-        tables = {kind: getattr(self, kind).extended(added) for kind, added in parts.items()}
+        new_parts = self._select_new(**parts)
         own_attributes = dict(self.extra_attributes)
         extra_attributes = {**own_attributes, **dict(component.extra_attributes), **own_attributes}
         update_materials = self.materials.update
         if component.has_semantic:
             self.add_semantic(component.semantic.with_prefix(prefix))  # the last that can be refused
-        vars(self).update(tables)
+        self._extend(new_parts)
         update_materials(new_materials)
         self.extra_attributes = tuple(extra_attributes.items())
 
@@ -323,8 +327,3 @@ class Robot(RobotParts):
         errors = [found.message for found in check(self, UnresolvedNames()) if found.severity is Severity.ERROR]
         if errors:
             raise RobotGeneratorError("\n".join(errors))
-
-
-def _require(parts: NamedTable[Any], name: str, what: str, target: str, *field: str) -> None:
-    if parts.get(name) is None:
-        raise RobotValidationError(ValidationErrorCode.NOT_FOUND, f"{what} not found", target, name, field=field)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import KW_ONLY, dataclass, field, replace
 from functools import cached_property
 from operator import attrgetter
@@ -13,7 +14,7 @@ from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.exceptions import RobotModelError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.graph import KinematicGraph, child_joints, parent_joints, single_root
 from linkforge_compile.core.models.link import Link
-from linkforge_compile.core.models.named_table import KeySpec, NamedTable, OnDuplicate, TableField, itself
+from linkforge_compile.core.models.named_table import KeySpec, NamedTable, OnDuplicate, PartList, TableField, itself
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
@@ -140,8 +141,9 @@ class RobotParts:
         self.extra_attributes = attribute_pairs(self.extra_attributes)
 
     def __getstate__(self) -> dict[str, object]:
-        """Return the state for copies and pickles, without what can be computed."""
-        return {**vars(self), "_last_tree": None}
+        """Return the state for copies and pickles: lists of its own, without what can be computed."""
+        state = {name: copy(value) if isinstance(value, PartList) else value for name, value in vars(self).items()}
+        return {**state, "_last_tree": None}
 
     def get_link(self, name: str) -> Link | None:
         """Return the link of that name, None if there is none."""
@@ -229,15 +231,28 @@ class RobotParts:
                 taken.
 
         """
-        tables: dict[str, NamedTable[Any]] = {  # Any: each kind has a class of its own
-            "links": self.links.extended(links),
-            "joints": self.joints.extended(joints),
-            "sensors": self.sensors.extended(sensors),
-            "transmissions": self.transmissions.extended(transmissions),
-            "ros2_controls": self.ros2_controls.extended(ros2_controls),
-            "gazebo_elements": self.gazebo_elements.extended(gazebo_elements),
-        }
-        vars(self).update(tables)
+        self._extend(
+            self._select_new(
+                links=links,
+                joints=joints,
+                sensors=sensors,
+                transmissions=transmissions,
+                ros2_controls=ros2_controls,
+                gazebo_elements=gazebo_elements,
+            )
+        )
+
+    def _select_new(self, **parts: Iterable[Any]) -> dict[str, Sequence[Any]]:  # Any: each kind has a class of its own
+        """Return those parts of each kind that are to be added; raise DUPLICATE_NAME for a name that is taken."""
+        return {kind: self._list_of(kind).select_new(added) for kind, added in parts.items()}
+
+    def _extend(self, parts: Mapping[str, Sequence[Any]]) -> None:
+        for kind, added in parts.items():
+            self._list_of(kind).extend(added)
+
+    def _list_of(self, kind: str) -> PartList[Any]:
+        parts: PartList[Any] = vars(self)[kind]
+        return parts
 
     @property
     def _tree(self) -> _Tree:
