@@ -14,7 +14,7 @@ from dataclasses import KW_ONLY, MISSING, dataclass, fields, replace
 from enum import StrEnum
 from functools import cache
 from types import NoneType
-from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, NamedTuple, get_args, get_origin, get_type_hints
 
 from linkforge_compile.core.constants import EPSILON
 from linkforge_compile.core.exceptions import FieldPath, RobotMathError, RobotValidationError, ValidationErrorCode
@@ -175,6 +175,7 @@ class Parameters(Spec):
 class _Described(NamedTuple):
     specs: Mapping[str, Spec]
     numbers: Mapping[str, Number]
+    containers: Mapping[str, type]
 
 
 def field_specs(kind: type) -> Mapping[str, Spec]:
@@ -187,27 +188,39 @@ def number_fields(kind: type) -> Mapping[str, Number]:
     return _describe(kind).numbers
 
 
+def container_fields(kind: type) -> Mapping[str, type]:
+    """Return Sequence or Mapping for each field of a model class that holds one, be it without a spec."""
+    return _describe(kind).containers
+
+
 @cache  # not on the public functions: for mypy, a class whose instances define `__hash__` is not hashable itself
 def _describe(kind: type) -> _Described:
     defaults = {field.name: field.default for field in fields(kind) if field.default is not MISSING}
     specs: dict[str, Spec] = {}
-    for name, hint in get_type_hints(kind, include_extras=True).items():
+    hints = get_type_hints(kind, include_extras=True)
+    for name, hint in hints.items():
         spec = next((given for given in getattr(hint, "__metadata__", ()) if isinstance(given, Spec)), None)
         if spec is not None:
             specs[name] = _complete(spec, name, hint.__origin__, defaults.get(name))
-    return _Described(specs, {name: spec for name, spec in specs.items() if isinstance(spec, Number)})
+    numbers = {name: spec for name, spec in specs.items() if isinstance(spec, Number)}
+    containers = {name: container for name, hint in hints.items() if (container := _container(hint))}
+    return _Described(specs, numbers, containers)
+
+
+def _container(hint: Any) -> type | None:
+    origin = get_origin(hint.__origin__ if get_origin(hint) is Annotated else hint)
+    return origin if origin in {Sequence, Mapping} else None
 
 
 def _complete(spec: Spec, name: str, annotation: Any, default: object) -> Spec:
     """Fill in what follows from a field's name, type and default."""
     may_be_none = NoneType in get_args(annotation)
-    container = get_origin(annotation) if get_origin(annotation) in {Sequence, Mapping} else None
     spec = replace(
         spec,
         key=name if spec.key is None else spec.key,
         implied=None if spec.example else default,
         may_be_none=may_be_none,
-        container=container,
+        container=_container(annotation),
     )
     if not isinstance(spec, Child):
         return replace(spec, xml=f"@{name}" if spec.xml is None else spec.xml)

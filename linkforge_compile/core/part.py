@@ -8,7 +8,7 @@ from functools import cache
 from operator import is_
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, NoReturn, Self, TypeAlias, TypeVar
 
-from linkforge_compile.core.fields import Child, Name, Reference, Spec, check_numbers, field_specs
+from linkforge_compile.core.fields import Child, Name, Reference, Spec, check_numbers, container_fields, field_specs
 from linkforge_compile.core.naming import prefixed_topic
 from linkforge_compile.source import Sourced, SourceRef
 
@@ -93,23 +93,6 @@ def _put_prefix(prefix: str, value: Any) -> Any:
 _NOTHING: Final = ()
 
 
-def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) -> None:
-    """Make tuples of the named sequences and FrozenMaps of the named mappings, all the way down; extras are tuples.
-
-    For `__post_init__` only, of elements with collections of their own; others inherit it.
-    """
-    for name in sequences:
-        set_field(element, name, tuple(getattr(element, name)))
-    for name in mappings:
-        set_field(element, name, frozen(FrozenMap(getattr(element, name))))
-    has_no_elements, has_no_attributes = element.extra_elements is _NOTHING, element.extra_attributes is _NOTHING
-    if has_no_elements and has_no_attributes and element.extra_inside is _NOTHING:
-        return  # most elements
-    set_field(element, "extra_elements", tuple(element.extra_elements))
-    set_field(element, "extra_attributes", attribute_pairs(element.extra_attributes))
-    set_field(element, "extra_inside", tuple(element.extra_inside))
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Element(Part):
     """A part that becomes an XML element.
@@ -129,7 +112,19 @@ class Element(Part):
     extra_inside: Sequence[Inside] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
-        freeze(self)
+        """Make tuples of sequences and FrozenMaps of mappings, all the way down; then check the values."""
+        if self.extra_attributes is not _NOTHING:
+            set_field(self, "extra_attributes", attribute_pairs(self.extra_attributes))
+        for name, container in container_fields(type(self)).items():
+            value = getattr(self, name)
+            if container is Mapping:
+                set_field(self, name, frozen(FrozenMap(value)))
+            elif not isinstance(value, tuple):
+                set_field(self, name, tuple(value))
+        self._check()
+
+    def _check(self) -> None:
+        """Refuse values that are not valid."""
         check_numbers(self)
 
 

@@ -21,7 +21,7 @@ from linkforge_compile.core.fields import (
     tags_with_text,
 )
 from linkforge_compile.core.naming import require_not_blank
-from linkforge_compile.core.part import Element, FreePart, FrozenMap, freeze
+from linkforge_compile.core.part import Element, FreePart, FrozenMap
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +51,7 @@ class GazeboPlugin(Element):
         """
         return self if "::" in self.name else Element.with_prefix(self, prefix)
 
-    def __post_init__(self) -> None:
-        freeze(self, mappings=("parameters",))
+    def _check(self) -> None:
         require_not_blank(self.name, "plugin name", "PluginName")
         if not self.filename.strip():
             raise RobotValidationError(
@@ -90,8 +89,7 @@ class GazeboElement(Element):
     provide_feedback: Annotated[bool | None, Flag(xml="provideFeedback/text()")] = None
     implicit_spring_damper: Annotated[bool | None, Flag(xml="implicitSpringDamper/text()")] = None
 
-    def __post_init__(self) -> None:
-        freeze(self, "plugins", mappings=("properties",))
+    def _check(self) -> None:
         if self.reference is not None:
             require_not_blank(self.reference, "gazebo reference", "GazeboReference", ("reference",))
         if self.stop_cfm is not None and self.stop_cfm < 0:

@@ -23,7 +23,7 @@ from linkforge_compile.core.fields import (
     not_finite,
     require_finite,
 )
-from linkforge_compile.core.part import Element, Part, freeze
+from linkforge_compile.core.part import Element, Part
 from linkforge_compile.units import ANGLE, LENGTH
 
 
@@ -130,8 +130,7 @@ class Box(_Shape):
 
     size: Annotated[Vector3, Vector(LENGTH, ABOVE_ZERO, example="[0.1, 0.1, 0.1]")]
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         for position, extent in enumerate(self.size):
             if extent <= 0:
                 raise RobotPhysicsError(
@@ -166,8 +165,7 @@ class Cylinder(_Shape):
     radius: Annotated[float, _RADIUS]
     length: Annotated[float, _LENGTH]
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         _require_extents(self, "radius", "length")
 
     def volume(self) -> float:
@@ -189,8 +187,7 @@ class Sphere(_Shape):
 
     radius: Annotated[float, _RADIUS]
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         _require_extents(self, "radius")
 
     def volume(self) -> float:
@@ -215,8 +212,7 @@ class Capsule(_Shape):
     radius: Annotated[float, _RADIUS]
     length: Annotated[float, _LENGTH]
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         _require_extents(self, "radius", "length")
 
     def volume(self) -> float:
@@ -248,8 +244,7 @@ class Mesh(_Shape):
         """Whether `scale` becomes an attribute: it is not 1, or is stated."""
         return self.is_scale_stated or self.scale != _ONE
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         for position, factor in enumerate(self.scale):
             if factor == 0:
                 raise RobotPhysicsError(
@@ -295,8 +290,7 @@ class Color(Element):
     b: float
     a: float = 1.0
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         for position, component in enumerate(self.to_tuple()):
             if not 0 <= component <= 1:
                 raise RobotValidationError(
@@ -350,8 +344,7 @@ class Material(Element):
     texture: Annotated[str | None, Text(xml="texture/@filename")] = None
     after_links: Annotated[bool, Flag(xml="")] = field(default=False, compare=False, repr=False, kw_only=True)
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         if self.color is None and self.texture is None:
             raise RobotValidationError(
                 ValidationErrorCode.VALUE_EMPTY,

@@ -30,7 +30,7 @@ from linkforge_compile.core.fields import (
 )
 from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
 from linkforge_compile.core.naming import require_name, require_valid_characters
-from linkforge_compile.core.part import Element, freeze
+from linkforge_compile.core.part import Element
 from linkforge_compile.units import DAMPING, EFFORT, POSITION, SPEED, Motion
 
 
@@ -106,8 +106,7 @@ class JointLimits(Element):
         ),
     ] = DEFAULT_JOINT_VELOCITY
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         if self.lower is not None and self.upper is not None and self.lower > self.upper:
             raise RobotValidationError(
                 ValidationErrorCode.OUT_OF_RANGE,
@@ -155,10 +154,6 @@ class JointMimic(Element):
     multiplier: Annotated[float, Number(stand_in=UNKNOWN)] = 1.0
     offset: Annotated[float, Number(POSITION, stand_in=UNKNOWN)] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, compare=False, repr=False)
-
-    def __post_init__(self) -> None:
-        freeze(self, "stated")
-        check_numbers(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,8 +223,7 @@ class Joint(Element):
     calibration: Annotated[JointCalibration | None, Child()] = None
     axis_as_written: Vector3 | None = field(default=None, kw_only=True, compare=False, repr=False)
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         require_name(self.name, "joint name", "JointName")
         require_valid_characters(self.name, "joint name", "JointName")
         require_name(self.parent, "parent link name", "ParentLink", ("parent",))

@@ -21,7 +21,7 @@ from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidation
 from linkforge_compile.core.fields import Child, Children, Flag, Name, Number, Pose, Text, check_numbers, tags_with_text
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Material, Transform
 from linkforge_compile.core.naming import require_name, require_valid_characters
-from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, prefixed_fields, set_field
+from linkforge_compile.core.part import Element, Part, attribute_pairs, prefixed_fields, set_field
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import CONTACT_DAMPING, INERTIA, MASS, STIFFNESS
 
@@ -77,8 +77,7 @@ class Inertial(Element):
     origin: Annotated[Transform, Pose()] = IDENTITY
     inertia: Annotated[InertiaTensor, Child()] = _STABILITY_FLOOR
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         if self.mass < 0:
             raise RobotPhysicsError(
                 ValidationErrorCode.OUT_OF_RANGE,

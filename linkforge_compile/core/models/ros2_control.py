@@ -12,7 +12,7 @@ from linkforge_compile.core.constants import CONTROL_TYPE_ACTUATOR, CONTROL_TYPE
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.fields import Children, Choice, Name, Parameters, Reference, Text, require_choice
 from linkforge_compile.core.naming import require_name, require_unique_names
-from linkforge_compile.core.part import Element, FrozenMap, Inside, attribute_pairs, freeze
+from linkforge_compile.core.part import Element, FrozenMap, Inside, attribute_pairs
 from linkforge_compile.source import SourceRef
 
 
@@ -122,8 +122,7 @@ class _CommandedComponent(Element):
     what: ClassVar[str]
     name_target: ClassVar[str]
 
-    def __post_init__(self) -> None:
-        freeze(self, "command_interfaces", "state_interfaces", mappings=("parameters",))
+    def _check(self) -> None:
         require_name(self.name, f"{self.what} name", self.name_target)
 
     def normalized(self) -> Self:
@@ -151,8 +150,8 @@ class Ros2ControlJoint(_CommandedComponent):
     what = "ros2_control joint"
     name_target = "JointName"
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
+    def _check(self) -> None:
+        super()._check()
         if not self.command_interfaces and not self.state_interfaces:
             raise RobotValidationError(
                 ValidationErrorCode.VALUE_EMPTY,
@@ -191,8 +190,7 @@ class Ros2ControlSensor(Element):
     state_interfaces: Annotated[Sequence[str], _STATES] = ()
     parameters: Annotated[Mapping[str, str], Parameters(xml="param")] = FrozenMap()
 
-    def __post_init__(self) -> None:
-        freeze(self, "state_interfaces", mappings=("parameters",))
+    def _check(self) -> None:
         require_name(self.name, "ros2_control sensor name", "SensorName")
 
     def normalized(self) -> Ros2ControlSensor:
@@ -224,8 +222,7 @@ class Ros2Control(Element):
     parameters: Annotated[Mapping[str, str], Parameters(xml="hardware/param")] = FrozenMap()
     gpios: Annotated[Sequence[Ros2ControlGpio], Children()] = field(default=(), kw_only=True)
 
-    def __post_init__(self) -> None:
-        freeze(self, "joints", "sensors", "gpios", mappings=("parameters",))
+    def _check(self) -> None:
         require_name(self.name, "ros2_control name", "Ros2ControlName")
         require_choice(self.type, Ros2ControlType, "ros2_control type", "Ros2ControlType", "type")
         if not self.hardware_plugin:

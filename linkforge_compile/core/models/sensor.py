@@ -27,7 +27,7 @@ from linkforge_compile.core.fields import (
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.naming import require_name
-from linkforge_compile.core.part import Element, freeze
+from linkforge_compile.core.part import Element
 from linkforge_compile.units import ANGLE, FREQUENCY, LENGTH, LOAD, PIXELS, TURN_RATE, VELOCITY
 
 
@@ -96,10 +96,6 @@ class SensorNoise(Element):
     bias_stddev: Annotated[float, Number(xml="bias_stddev/text()")] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
 
-    def __post_init__(self) -> None:
-        freeze(self, "stated")
-        check_numbers(self)
-
     def is_written(self, name: str) -> bool:
         """Whether a bias becomes a tag: it is not 0, or is stated."""
         return name in self.stated or getattr(self, name) != 0
@@ -135,8 +131,7 @@ class CameraInfo(Element):
     far_clip: Annotated[float, Number(LENGTH, may_be_far=True, xml="clip/far/text()")] = default.DEFAULT_CAMERA_FAR
     noise: Annotated[SensorNoise | None, Noise()] = None
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         check_numbers(self)
         if self.far_clip <= self.near_clip:
             raise _out_of_range(
@@ -197,8 +192,7 @@ class LidarInfo(Element):
     )
     noise: Annotated[SensorNoise | None, Noise(LENGTH)] = None
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         check_numbers(self)
         if self.range_max <= self.range_min:
             raise _out_of_range(
@@ -283,8 +277,7 @@ class ForceTorqueInfo(Element):
     )
     noise: Annotated[SensorNoise | None, Noise(LOAD, xml="*/*/noise")] = None
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         require_choice(self.frame, ForceTorqueFrame, "frame", "ForceTorqueFrame", "frame")
         direction = self.measure_direction
         require_choice(
@@ -327,8 +320,7 @@ class Sensor(Element):
     plugin: Annotated[GazeboPlugin | None, Child()] = None
     frame: Annotated[str | None, Reference("frame", xml="gz_frame_id/text()")] = field(default=None, kw_only=True)
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         require_name(self.name, "sensor name", "SensorName")
         require_name(self.link_name, "link of a sensor", "LinkName", ("link",))
         check_numbers(self)

@@ -25,7 +25,7 @@ from linkforge_compile.core.fields import (
 )
 from linkforge_compile.core.models.named_table import KeySpec, NamedTable, OnDuplicate, itself
 from linkforge_compile.core.naming import require_not_blank
-from linkforge_compile.core.part import Element, FrozenMap, freeze, set_field
+from linkforge_compile.core.part import Element, FrozenMap, set_field
 from linkforge_compile.units import LENGTH
 
 
@@ -55,8 +55,7 @@ class VirtualJoint(Element):
     parent_frame: Annotated[str, Text(example="world")]
     child_link: Annotated[str, Reference("link", example="base")]
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         require_not_blank(self.name, "virtual joint name", "VirtualJointName")
         require_choice(self.type, VirtualJointType, "virtual joint type", "VirtualJointType", "type")
 
@@ -75,8 +74,7 @@ class Chain(Element):
     base_link: Annotated[str, Reference("link", example="base")]
     tip_link: Annotated[str, Reference("link", example="tool0")]
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         require_not_blank(self.base_link, "base_link of a chain", "ChainBaseLink", ("base_link",))
         require_not_blank(self.tip_link, "tip_link of a chain", "ChainTipLink", ("tip_link",))
 
@@ -99,8 +97,7 @@ class PlanningGroup(Element):
     chains: Annotated[Sequence[Chain], Children()] = ()
     subgroups: Annotated[Sequence[str], Reference("group", xml="group/@name")] = ()
 
-    def __post_init__(self) -> None:
-        freeze(self, "links", "joints", "chains", "subgroups")
+    def _check(self) -> None:
         require_not_blank(self.name, "planning group name", "PlanningGroupName")
         if not (self.links or self.joints or self.chains or self.subgroups):
             raise RobotValidationError(
@@ -152,7 +149,7 @@ class GroupState(Element):
     joint_values: Annotated[Mapping[str, Any], Reference("joint", key="", xml="joint/@name")] = FrozenMap()
 
     def __post_init__(self) -> None:
-        freeze(self)
+        Element.__post_init__(self)
         require_not_blank(self.name, "group state name", "GroupStateName")
         require_not_blank(self.group, "group of a state", "GroupName", ("group",))
         values = {joint: _position_tuple(given) for joint, given in self.joint_values.items()}
@@ -187,8 +184,7 @@ class EndEffector(Element):
     parent_link: Annotated[str, Reference("link", example="tool0")]
     parent_group: Annotated[str | None, Reference("group")] = None
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         require_not_blank(self.name, "end effector name", "EndEffectorName")
         require_not_blank(self.group, "group of an end effector", "GroupName", ("group",))
 
@@ -206,8 +202,7 @@ class PassiveJoint(Element):
 
     name: Annotated[str, Reference("joint", key="")]
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         require_not_blank(self.name, "passive joint name", "PassiveJointName")
 
 
@@ -226,8 +221,7 @@ class JointProperty(Element):
     property_name: Annotated[str, Text(key="")]
     value: Annotated[str, Text(example="true")]
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         for name in ("joint_name", "property_name", "value"):
             if not getattr(self, name).strip():
                 raise RobotValidationError(
@@ -254,8 +248,7 @@ class CollisionPair(Element):
     link2: Annotated[str, Reference("link", key="")]
     reason: Annotated[str | None, Text()] = None
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         require_not_blank(self.link1, "link1 of a collision pair", "CollisionPair", ("link1",))
         require_not_blank(self.link2, "link2 of a collision pair", "CollisionPair", ("link2",))
         if self.link1 == self.link2:
@@ -292,8 +285,7 @@ class SrdfSphere(Element):
     center_z: Annotated[float, _CENTER]
     radius: Annotated[float, Number(LENGTH, NOT_NEGATIVE, example="0.1")]
 
-    def __post_init__(self) -> None:
-        freeze(self)
+    def _check(self) -> None:
         if self.radius < 0:
             raise RobotValidationError(
                 ValidationErrorCode.INVALID_VALUE,
@@ -326,8 +318,7 @@ class LinkSphereApproximation(Element):
     link: Annotated[str, Reference("link", key="")]
     spheres: Annotated[Sequence[SrdfSphere], Children()] = ()
 
-    def __post_init__(self) -> None:
-        freeze(self, "spheres")
+    def _check(self) -> None:
         require_not_blank(self.link, "link of a sphere approximation", "LinkSphereApproximation", ("link",))
 
 
@@ -369,7 +360,7 @@ class SemanticRobotDescription(Element):
     joint_properties: Annotated[Sequence[JointProperty], Children()] = ()
 
     def __post_init__(self) -> None:
-        freeze(self)
+        Element.__post_init__(self)
         for name, spec in _MEMBERS.items():
             members = getattr(self, name)
             if not isinstance(members, NamedTable):

@@ -21,7 +21,7 @@ from linkforge_compile.core.fields import (
     require_finite,
 )
 from linkforge_compile.core.naming import require_name, require_unique_names, require_valid_characters
-from linkforge_compile.core.part import Element, FreePart, FrozenMap, freeze
+from linkforge_compile.core.part import Element, FreePart, FrozenMap
 from linkforge_compile.units import POSITION
 
 
@@ -57,8 +57,7 @@ class _TransmissionEnd(Element):
     what: ClassVar[str]
     name_target: ClassVar[str]
 
-    def __post_init__(self) -> None:
-        freeze(self, "hardware_interfaces", "stated")
+    def _check(self) -> None:
         require_name(self.name, f"{self.what} name", self.name_target)
         if not self.hardware_interfaces:
             raise _empty(
@@ -137,8 +136,7 @@ class Transmission(Element):
     actuators: Annotated[Sequence[TransmissionActuator], Children()] = ()
     parameters: Annotated[Mapping[str, FreePart], Parameters(xml="*")] = FrozenMap()
 
-    def __post_init__(self) -> None:
-        freeze(self, "joints", "actuators", mappings=("parameters",))
+    def _check(self) -> None:
         require_name(self.name, "transmission name", "TransmissionName")
         if not self.type:
             raise _empty("transmission type cannot be empty", "TransmissionType", self.type, "type")
