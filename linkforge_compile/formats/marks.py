@@ -15,10 +15,10 @@ from contextvars import ContextVar
 from functools import cache
 from typing import TYPE_CHECKING
 
-from linkforge_compile.source.provenance import Provenance, written_at
+from linkforge_compile.source.provenance import Kind, Provenance, written_at
 
 if TYPE_CHECKING:
-    from linkforge_compile.source import SourceRef
+    from linkforge_compile.source import SourceRef, Span
 
 MARK = re.compile("\x1c([0-9]+)\x1d")
 
@@ -27,16 +27,18 @@ class Marks:
     """The places that the marks of one document stand for."""
 
     def __init__(self) -> None:
-        self._numbers: dict[Provenance, int] = {}
+        self._places: dict[tuple[Span, tuple[Span, ...]], tuple[int, Provenance]] = {}
 
     def mark(self, place: Provenance) -> str:
-        number = self._numbers.setdefault(place, len(self._numbers))
+        """Return the mark of a place; of one that is met again with other overrides, that of the first time."""
+        key = (place.span, place.spans(Kind.USE))
+        number, _ = self._places.setdefault(key, (len(self._places), place))
         return f"\x1c{number}\x1d"
 
     @property
     def places(self) -> tuple[Provenance, ...]:
         """The places in the order of their numbers."""
-        return tuple(self._numbers)
+        return tuple(place for _, place in self._places.values())
 
 
 _RECORDED: ContextVar[Marks | None] = ContextVar("_RECORDED", default=None)
