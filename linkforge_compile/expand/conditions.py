@@ -77,8 +77,8 @@ def without_words(node: YamlMap, shape: Shape, tree: TreeEvaluator) -> tuple[Yam
 
 
 _WAYS_OUT = {
-    "for": "; it stands inside what it repeats: '{name}: {{for: …}}'",
-    "when": "; it stands inside what it is about: '{name}: {{when: …}}'",
+    "for": "; it goes inside what it repeats: '{name}: {{for: …}}'",
+    "when": "; it goes inside what it applies to: '{name}: {{when: …}}'",
 }
 
 

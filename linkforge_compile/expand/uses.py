@@ -65,7 +65,7 @@ def open_use(site: UseSite, loader: Loader, sink: Diagnostics) -> SpecFile | Non
 
 def _hint_for(no_spec: str) -> str:
     if no_spec.lower().endswith(".srdf"):
-        return f"; write 'srdf: {no_spec}' beside the 'use' of its robot"
+        return f"; write 'srdf: {no_spec}' next to the 'use' of its robot"
     return "" if "." in no_spec.rpartition("/")[2] else f"; write '{no_spec}.robot.yaml'"
 
 

@@ -12,19 +12,19 @@ _UNITS = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=Tru
 _KEYWORDS = "|".join(keyword.kwlist)
 
 _HABITS = (
-    (r"^\s*find\s+([\w-]+)\s*$", "'$(find ...)' is xacro's; a file of a package is package://{1}/..."),
+    (r"^\s*find\s+([\w-]+)\s*$", "'$(find ...)' is xacro syntax; a file of a package is package://{1}/..."),
     (r"^\s*(?:arg|eval)\s+(.*?)\s*$", "'$(arg ...)' and '$(eval ...)' are xacro's; write $({1})"),
     (r"^\s*(?:env|optenv)\s.*", "the environment is not read; declare a parameter"),
     (r"&&", "'and' is written for '&&'"),
     (r"\|\|", "'or' is written for '||'"),
     (r"!(?!=)", "'not' is written for '!'"),
     (r"\?", "a choice is written a if condition else b"),
-    (r"\$[({]?", "names stand here without '$'"),
+    (r"\$[({]?", "write names without '$' here"),
     (r"#", "it cannot hold a comment"),
     (r"(?<![=!<>:])=(?!=)", "two values are compared with '=='"),
     (
         rf"(?<![\w.])((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*(?!in\b)(?:{_UNITS}))(?!\w)",
-        "a unit cannot stand here; give '{1}' a name in 'variables'",
+        "a unit is not allowed here; give '{1}' a name in 'variables'",
     ),
     (r"[×·⋅∙]", "'*' is written for '{0}'"),
     (r"÷", "'/' is written for '{0}'"),

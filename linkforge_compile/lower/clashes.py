@@ -35,8 +35,8 @@ def _told(module: Instance, owner: Instance | None, clashes: list[Clash]) -> Dia
     part, more = clashes[0].part, len(clashes) - 1
     parts = f"{part} and {more} more" if more else part
     if owner is None:
-        notes = [Note(f"{part} stands here", first.span) for first in [clashes[0].first] if first]
+        notes = [Note(f"{part} is here", first.span) for first in [clashes[0].first] if first]
         return NAMES_OF_THIS_FILE.at(module.entry, "prefix", module=module.name, parts=parts, notes=notes)
-    notes = [Note(f"module '{owner.name}' stands here", owner.entry.at("prefix"))] if owner.entry else []
+    notes = [Note(f"module '{owner.name}' is here", owner.entry.at("prefix"))] if owner.entry else []
     facts = {"first": owner.name, "second": module.name, "parts": parts}
     return MODULES_SHARE_NAMES.at(module.entry, "prefix", notes=notes, **facts)

@@ -12,5 +12,5 @@ def tell_duplicate(sink: Diagnostics, kind: str, name: str, second: SourceRef | 
     """Report two things of one name at the second, with the first and how it came in as notes."""
     notes = []
     if first:
-        notes = [Note("the first stands here", first.span), *notes_of(uses_in(first.trail))]
+        notes = [Note("the first is here", first.span), *notes_of(uses_in(first.trail))]
     sink.report(DUPLICATE_NAME.at(second, kind=kind, name=name, notes=notes))

@@ -50,8 +50,10 @@ def unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
             yield UnknownKeys(entries, _in_its_home(slip, entries, node))
             continue
         hint, near = _meant(entries[0], node, schema)
-        many = len(entries) > 1 and slip not in _PARTS.get(str(schema["title"]), {}).values()
-        yield UnknownKeys(entries, f"{hint}; the same with {len(entries) - 1} more beside it" if many else hint, near)
+        more = len(entries) - 1
+        if more and slip not in _PARTS.get(str(schema["title"]), {}).values():
+            hint += f" ({more} more unknown key{'s' if more > 1 else ''} here)"
+        yield UnknownKeys(entries, hint, near)
 
 
 def like_space_before(entry: YamlEntry) -> Span | None:
@@ -110,7 +112,7 @@ def _meant(entry: YamlEntry, node: YamlMap, schema: Schema) -> tuple[str, Sequen
     if owner in _BEYOND_ITS_KEYS:
         return _BEYOND_ITS_KEYS[owner].format(name), ()
     if owner == "a parameter" and node.entries.keys().isdisjoint(known):
-        return "a map that is its value stands under 'default'", ()
+        return "a map that is its value goes under 'default'", ()
     if owner == "an override" and _says_nothing(entry.value):
         return f"write it in its section, such as 'links: {{{name}: …}}'", ()
     own = [key for key in known if key not in COMMON_KEYS]
@@ -132,9 +134,9 @@ def _of_a_table(entry: YamlEntry, schema: Schema) -> str:
 
 _BEYOND_ITS_KEYS = {
     "a module": "a parameter is set by 'with: {{{0}: …}}'",
-    "the long form": "beside 'for' and 'when' stands 'value', and nothing else",
-    "a gazebo block": "a tag that has no key stands under 'properties'",
-    "a robot's gazebo block": "a tag that has no key stands under 'properties'",
+    "the long form": "with 'for' or 'when', only 'value' is allowed",
+    "a gazebo block": "a tag that has no key goes under 'properties'",
+    "a robot's gazebo block": "a tag that has no key goes under 'properties'",
 }
 """What is meant by a key that is like none of an object's, where others can be said at another place."""
 
@@ -272,7 +274,7 @@ _HINTS_FOR_OWNER = {
     ("a gazebo block", "mu"): "write 'mu1', and 'mu2' for the second direction",
     ("a ros2_control block", "plugin"): "write 'hardware_plugin'",
     ("a ros2_control block", "hardware"): "write its plugin as 'hardware_plugin', its params as 'parameters'",
-    ("a ros2_control block", "joint"): "joints stand under 'joints', by name",
+    ("a ros2_control block", "joint"): "joints go under 'joints', by name",
     ("a laser scanner's rays", "samples"): "write 'horizontal_samples'",
     ("a laser scanner's rays", "resolution"): "write 'horizontal_resolution'",
     ("a laser scanner's rays", "min_angle"): "write 'horizontal_min_angle'",
@@ -293,16 +295,16 @@ _HINTS_FOR_OWNER = {
 
 _HINTS = {
     "geometry": "write the shape itself, such as 'box: [1, 1, 1]'",
-    "name": "its name is the key that it stands under",
+    "name": "its name is its key",
     "if": "write 'when', such as 'when: $(simulated)'",
     "unless": "write 'when', such as 'when: $(not simulated)'",
-    "args": "what a user may set stands under 'parameters'",
-    "properties": "what is computed stands under 'variables'",
+    "args": "what a user may set goes under 'parameters'",
+    "properties": "what is computed goes under 'variables'",
     "macros": "what is used several times is a file of its own, used under 'modules'",
-    "xacro:arg": "what a user may set stands under 'parameters'",
-    "xacro:property": "what is computed stands under 'variables'",
+    "xacro:arg": "what a user may set goes under 'parameters'",
+    "xacro:property": "what is computed goes under 'variables'",
     "xacro:macro": "what is used several times is a file of its own, used under 'modules'",
-    "xacro:include": "files that are one robot stand under 'include', those of its parts under 'modules'",
+    "xacro:include": "files of one robot go under 'include', those of its parts under 'modules'",
     "xacro:if": "write 'when', such as 'when: $(simulated)'",
     "xacro:unless": "write 'when', such as 'when: $(not simulated)'",
 }

@@ -10,7 +10,7 @@ from linkforge_compile.schema.explain import Judgement
 from linkforge_compile.schema.meant import Path
 from linkforge_compile.syntax.nodes import YamlMap, YamlNode, is_null
 
-_HINT = "; so is all beside it: is a line with a name missing above, or the indentation off?"
+_HINT = "; so are all entries here: is a line with a name missing above, or the indentation wrong?"
 
 
 def told_once(judgements: Sequence[Judgement], tree: YamlMap) -> list[Judgement]:

@@ -285,7 +285,7 @@ def _text_in_quotes_ended(trouble: _Trouble, quoted: Span) -> Diagnostic:
     lines = range(quoted.line + 1, quoted.end_line + 1)
     if any(_LINE_OF_ENTRY.match(quoted.file.line(line)) for line in lines):
         ending = Span(quoted.file, quoted.end_line, quoted.end_column - 1, quoted.end_line, quoted.end_column)
-        return codes.UNCLOSED_QUOTE.at(opening, notes=[Note("the next quote of its kind stands here", ending)])
+        return codes.UNCLOSED_QUOTE.at(opening, notes=[Note("the next quote of its kind is here", ending)])
     return codes.TEXT_AFTER_VALUE.at(trouble.here, notes=[Note("the text in quotes begins here", opening)])
 
 

@@ -10,7 +10,7 @@ from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.units import Dimension, Quantity
 from tests.expressions.compute import compute, whole
 
-CANNOT = "cannot stand in an expression"
+CANNOT = "is not allowed in an expression"
 
 NAMES: dict[str, Value] = {
     "reach": Quantity(0.5, Dimension.LENGTH),
@@ -38,12 +38,12 @@ NAMES: dict[str, Value] = {
         ("$(on ? 1 : 2)", "?", "a choice is written a if condition else b"),
         ("$(1 if on)", "if", "'if' needs an 'else'"),
         ("$(count # note)", "#", "it cannot hold a comment"),
-        ("$(${side})", "${", "names stand here without '$'"),
-        ("$(90 deg + tilt)", "90 deg", "a unit cannot stand here; give '90 deg' a name in 'variables'"),
+        ("$(${side})", "${", "write names without '$' here"),
+        ("$(90 deg + tilt)", "90 deg", "a unit is not allowed here; give '90 deg' a name in 'variables'"),
         ("$(count − 1)", "−", "'-' is written for '−'"),
         ("$(row.class)", ".class", "'class' is a word of the grammar; that key is read with ['class']"),
         ("$(arg side)", "arg side", "'$(arg ...)' and '$(eval ...)' are xacro's; write $(side)"),
-        ("$(find ur)/x", "find ur", "'$(find ...)' is xacro's; a file of a package is package://ur/..."),
+        ("$(find ur)/x", "find ur", "'$(find ...)' is xacro syntax; a file of a package is package://ur/..."),
     ],
 )
 def test_habits_from_elsewhere_are_told_what_is_written_here(text: str, place: str, problem: str):
@@ -53,7 +53,7 @@ def test_habits_from_elsewhere_are_told_what_is_written_here(text: str, place: s
 @pytest.mark.parametrize(
     ("text", "place", "sentence"),
     [
-        ("a $(side", "$(", "'$(' has no closing ')'; text that means it is written '$$('"),
+        ("a $(side", "$(", "'$(' has no closing ')'; write '$$(' for the text '$('"),
         ("$(f('a)", "'", "no closing quote for the text that begins here"),
         ("$( )", "$( )", "expected an expression between '$(' and ')', found nothing"),
         ("$(2 ^ 3)", "^", f"'^' {CANNOT}; powers are written '**'"),
@@ -102,8 +102,8 @@ def test_habits_from_elsewhere_are_told_what_is_written_here(text: str, place: s
         ("$(sizes[1.0])", "1.0", "a list takes a whole number in its brackets, found a number"),
         ("$(side.x)", "side.x", "'.x' takes a map or a vector's x, y, z, found the text 'left'"),
         ("$(count.__class__)", "count.__class__", "'.__class__' takes a map or a vector's x, y, z, found a number"),
-        ("arm_$(sizes)", "sizes", "a list cannot stand inside text"),
-        ("arm_$(nothing)", "nothing", "null cannot stand inside text"),
+        ("arm_$(sizes)", "sizes", "a list cannot be inserted into text"),
+        ("arm_$(nothing)", "nothing", "null cannot be inserted into text"),
     ],
 )
 def test_a_fault_is_told_at_its_own_characters(text: str, place: str, sentence: str):
@@ -144,7 +144,7 @@ def test_what_the_language_has_not_is_refused_with_what_to_write_instead(express
     result = compute(f"$({expression})", dict(NAMES))
     assert result.value is FAULT
     assert result.told
-    assert all("cannot stand in an expression; " in sentence for _, sentence in result.told)
+    assert all("is not allowed in an expression; " in sentence for _, sentence in result.told)
 
 
 @pytest.mark.parametrize("expression", ["open('x')", "__import__('os')", "eval('1')", "print(1)"])

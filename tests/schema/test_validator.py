@@ -33,7 +33,7 @@ SENTENCES = {
     "links: {arm: {visuals: {}}}": "'visuals' is not a key of a link; did you mean 'visual'?",
     "links: {arm: {mass: 3}}": "'mass' is not a key of a link; write 'inertial: {mass: 3}'",
     "links: {arm: {box: [1, 1, 1]}}": "'box' is not a key of a link; it belongs under 'visual' or 'collision'",
-    "links: {arm: {name: arm}}": "'name' is not a key of a link; its name is the key that it stands under",
+    "links: {arm: {name: arm}}": "'name' is not a key of a link; its name is its key",
     "links: {arm: {visual: {geometry: {}}}}": (
         "'geometry' is not a key of a visual; write the shape itself, such as 'box: [1, 1, 1]'"
     ),
@@ -182,7 +182,7 @@ def test_what_an_alias_brings_in_is_told_with_the_place_that_uses_it(use: str, p
     validate(tree, sink)
     [told] = sink
     assert str(told.span) == "r:3:14"
-    assert [(note.message, str(note.span)) for note in told.notes] == [("brought in here", f"r:{place}")]
+    assert [(note.message, str(note.span)) for note in told.notes] == [("inserted here", f"r:{place}")]
 
 
 def test_of_several_uses_that_do_not_fit_the_first_in_the_file_is_told():

@@ -51,7 +51,7 @@ class Known:
     def subgroup(self, owner: Reading, name: str) -> YamlScalar:
         """Take the name of a group inside another: it has been read by now, unless the two are a circle."""
         if (said := owner.element.attributes.get(name)) and said.value in self.unread:
-            raise DeclinedError(f"planning group '{said.value}' contains the one that it stands in", said.span)
+            raise DeclinedError(f"planning group '{said.value}' contains the group that it is in", said.span)
         return self.group(owner, name)
 
     def measure(self, joint: str) -> Dimension | None:

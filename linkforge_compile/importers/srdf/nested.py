@@ -31,7 +31,7 @@ def read_nested(
             raise part.declined(f"it lacks '{outer}' or '{inner}'")
         _, under = found.setdefault(first_name.value, (first_name, {}))
         if second_name.value in under:
-            raise DeclinedError(f"'{first_name.value}' and '{second_name.value}' stand there already", second_name.span)
+            raise DeclinedError(f"'{first_name.value}' and '{second_name.value}' are there already", second_name.span)
         under[second_name.value] = second_name, node
         first.setdefault(first_name.value, part.element)
         return node

@@ -105,7 +105,7 @@ def _in_name(element: XmlElement, taken: dict[tuple[str, str], XmlElement]) -> I
         return
     first = taken.setdefault((element.tag, name), element)
     if first is not element:
-        notes = [Note("the other stands here", first.span)]
+        notes = [Note("the other is here", first.span)]
         where = element.attributes["name"].span
         yield Refused(NAME_IS_TAKEN.at(where, tag=element.tag, name=name, notes=notes), ())
 
