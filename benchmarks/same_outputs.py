@@ -3,9 +3,9 @@
     python benchmarks/same_outputs.py record before.json [--code CHECKOUT] [--robots FOLDER ...]
     python benchmarks/same_outputs.py compare before.json after.json
 
-Every spec, URDF and xacro of this repository and of the folders given goes through `check`, `compile`, `expand` and
-`import`. A record holds a hash of each exit code, message and file. `--code` is the checkout whose linkforge runs;
-the inputs are always those beside this script, so that two records differ only in what the code makes of them.
+Every spec, URDF and xacro of this repository and of the given folders is an input of `check`, `compile`, `expand` and
+`import`. A record holds a hash of each exit code with its messages, and of each file. `--code` is the checkout whose
+linkforge runs; the inputs are always those of this script's repository, so that records differ only by the code.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -25,35 +25,10 @@ ROOT = Path(__file__).resolve().parents[1]
 INPUTS = ("examples", "tests/cases", "benchmarks/robots")
 SPEC, URDF = (".yaml",), (".urdf", ".xacro")
 
-WORKER = """
-import json, os, sys, tempfile
-from linkforge_compile.cli.main import main
-
-def run(argv):
-    for stream in (sys.stdout, sys.stderr):
-        stream.flush()
-    with tempfile.TemporaryFile() as out:
-        kept = os.dup(1), os.dup(2)
-        os.dup2(out.fileno(), 1); os.dup2(out.fileno(), 2)
-        try:
-            code = main(argv)
-        except SystemExit as exit:
-            code = exit.code
-        finally:
-            sys.stdout.flush(); sys.stderr.flush()
-            os.dup2(kept[0], 1); os.dup2(kept[1], 2)
-            os.close(kept[0]); os.close(kept[1])
-        out.seek(0)
-        return f"exit {code}\\n" + out.read().decode("utf-8", "surrogateescape")
-
-for line in sys.stdin:
-    print(json.dumps(run(json.loads(line))), flush=True)
-"""
-
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    commands = parser.add_subparsers(required=True)
+    commands = parser.add_subparsers(required=True, metavar="{record,compare}")
     recorder = commands.add_parser("record", help="run linkforge on every robot and write the hashes")
     recorder.add_argument("record", type=Path)
     recorder.add_argument("--code", type=Path, default=ROOT, help="the checkout whose linkforge runs (this one)")
@@ -62,6 +37,10 @@ def main() -> None:
     comparer = commands.add_parser("compare", help="list what differs between two records")
     comparer.add_argument("records", type=Path, nargs=2)
     comparer.set_defaults(run=lambda options: compare(*options.records))
+    # The process in which `record` runs linkforge; without help text, argparse does not list it.
+    worker = commands.add_parser("run-commands")
+    worker.add_argument("code", type=Path)
+    worker.set_defaults(run=lambda options: run_commands(options.code))
     options = parser.parse_args()
     options.run(options)
 
@@ -81,14 +60,47 @@ def inputs(folders: list[Path]) -> Iterator[Path]:
         yield from (path for path in folder.rglob("*") if path.suffix in SPEC + URDF and path.is_file())
 
 
+def run_commands(code: Path) -> None:
+    """Run the commands that come from standard input as lines of JSON; print the output of each as such a line."""
+    import linkforge_compile
+    from linkforge_compile.cli import main as cli
+
+    if not Path(linkforge_compile.__file__).is_relative_to(code.resolve()):
+        raise SystemExit(f"{linkforge_compile.__file__} is not in {code}")
+    for line in sys.stdin:
+        print(json.dumps(capture(cli.main, json.loads(line))), flush=True)
+
+
+def capture(command: Callable[[list[str]], int], words: list[str]) -> str:
+    """Run a command in this process; return its exit code and what it, and processes that it starts, print."""
+    kept = os.dup(1), os.dup(2)
+    with tempfile.TemporaryFile() as output:
+        sys.stdout.flush()
+        os.dup2(output.fileno(), 1)
+        os.dup2(output.fileno(), 2)
+        try:
+            code: object = command(words)
+        except SystemExit as end:
+            code = end.code
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            for number, stream in enumerate(kept, start=1):
+                os.dup2(stream, number)
+                os.close(stream)
+        output.seek(0)
+        return f"exit {code}\n" + output.read().decode("utf-8", "surrogateescape")
+
+
 def run_all(robots: list[Path], code: Path) -> dict[str, str]:
     """Return the digest of each command's messages and files, by robot and command."""
-    environment = os.environ | {"PYTHONPATH": str(code.resolve()), "LINKFORGE_LIMITS": "1", "COLUMNS": "100"}
+    code = code.resolve()
+    environment = os.environ | {"PYTHONPATH": str(code), "LINKFORGE_LIMITS": "1", "COLUMNS": "100"}
     outputs = {}
     with (
         tempfile.TemporaryDirectory() as folder,
         subprocess.Popen(
-            [sys.executable, "-c", WORKER],
+            [sys.executable, __file__, "run-commands", str(code)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
@@ -99,7 +111,7 @@ def run_all(robots: list[Path], code: Path) -> dict[str, str]:
         assert worker.stdin
         assert worker.stdout
         for number, robot in enumerate(robots):
-            out = Path(folder) / str(number)
+            out = Path(folder, str(number))
             name = robot.relative_to(ROOT).as_posix() if robot.is_relative_to(ROOT) else str(robot)
             for label, argv in commands_for(name, out):
                 print(json.dumps(argv), file=worker.stdin, flush=True)

@@ -16,8 +16,8 @@ import yaml
 from linkforge_compile.core.meshes.read import MAX_TRIANGLES
 from linkforge_compile.diagnostics.render.text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_REPORTED, MAX_TOLD, MAX_WARNED
-from linkforge_compile.expand import includes, patterns
-from linkforge_compile.expand.expansion import MAX_DEPTH
+from linkforge_compile.expand import includes, parameter_types
+from linkforge_compile.expand.expand_uses import MAX_DEPTH
 from linkforge_compile.expressions import grammar, operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.limits import MAX_FILE_BYTES, Limit
@@ -238,7 +238,7 @@ def _bounds() -> str:
         "bits of a whole number": operators.MAX_INTEGER_BITS,
         "characters of a computed text": operators.MAX_TEXT,
         "characters of a `pattern`, and of the text it is held against": (
-            f"{patterns.MAX_PATTERN:,} and {patterns.MAX_TEXT:,}"
+            f"{parameter_types.MAX_PATTERN:,} and {parameter_types.MAX_TEXT:,}"
         ),
         "size of a mesh file that is read": f"{mesh_solids.MAX_BYTES // mebibyte} MiB",
     }

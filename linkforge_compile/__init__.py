@@ -20,9 +20,15 @@ if TYPE_CHECKING:
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
     from linkforge_compile.export_spec import write_spec
-    from linkforge_compile.formats import render_srdf, render_urdf
-    from linkforge_compile.formats.source_map import SourceMap, render_srdf_with_map, render_urdf_with_map
-    from linkforge_compile.formats.user_templates import TemplateError, render_templates
+    from linkforge_compile.formats import (
+        render_srdf,
+        render_srdf_with_map,
+        render_templates,
+        render_urdf,
+        render_urdf_with_map,
+    )
+    from linkforge_compile.formats.source_map import SourceMap
+    from linkforge_compile.formats.user_templates import TemplateError
     from linkforge_compile.importing import Import, import_urdf
     from linkforge_compile.pipeline import (
         Compilation,
@@ -76,10 +82,10 @@ _HOMES = {
     "compile_text": "pipeline",
     "import_urdf": "importing",
     "render_srdf": "formats",
-    "render_srdf_with_map": "formats.source_map",
-    "render_templates": "formats.user_templates",
+    "render_srdf_with_map": "formats",
+    "render_templates": "formats",
     "render_urdf": "formats",
-    "render_urdf_with_map": "formats.source_map",
+    "render_urdf_with_map": "formats",
     "write_spec": "export_spec",
 }
 

@@ -11,9 +11,9 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnost
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.suggest import suggesting
-from linkforge_compile.expand import XACRO, Arguments, Loader, SpecFile, Used
-from linkforge_compile.expand.assembly import count_entries
-from linkforge_compile.formats import render_srdf, render_urdf
+from linkforge_compile.expand import XACRO, Arguments, ImportSite, Loader, SpecFile
+from linkforge_compile.expand.assembly import charge_entries
+from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.limits import Budget, Limit
@@ -24,11 +24,11 @@ from linkforge_compile.syntax import YamlMap, read
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
-    from linkforge_compile.expand.semantic import Semantic
-    from linkforge_compile.formats.urdf.sensor import Gazebo
+    from linkforge_compile.expand.merge_srdf import Semantic
+    from linkforge_compile.formats.urdf import Gazebo
 
-_RENDERED = (render_urdf, render_srdf)
-"""What makes the documents of an import again, in their order."""
+_IMPORTED = (URDF, SRDF)
+"""The formats of the documents of an import, in their order."""
 
 _WRONG_ARGUMENTS = (NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER)
 """What is told of arguments that are not those that the files take: another robot is meant than the one read."""
@@ -117,7 +117,7 @@ def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     if imported is None:
         return None
     judge = _judge_of(SpecFile(file, imported.tree, None), loader)
-    semantic = SourceFile("<srdf>", render_srdf(robot)) if robot.says_semantic else None
+    semantic = SourceFile("<srdf>", render_srdf(robot)) if robot.has_semantic else None
     both = with_srdf(imported, semantic, judge, sink) if semantic else (imported, judge(imported.tree))
     if both is None:
         return None
@@ -161,7 +161,7 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
         return None
     file, robot = found
     # Before it is judged: of what is too large for a spec no more is to be known.
-    count_entries(robot.tree, 1, Budget())
+    charge_entries(robot.tree, 1, Budget())
     text = None if semantic else _spec_text(robot, sink)
     judge = _judge_of(SpecFile(file, robot.tree, urdf.path.parent), loader)
     both = with_srdf(robot, semantic.text, judge, sink, semantic.moved) if semantic else (robot, judge(robot.tree))
@@ -190,7 +190,7 @@ def _spec_text(imported: Imported, sink: Diagnostics) -> str:
     from linkforge_compile.syntax.writer import write
 
     budget = Budget()
-    count_entries(imported.tree, 1, budget)  # an SRDF has added to them
+    charge_entries(imported.tree, 1, budget)  # an SRDF has added to them
     text = write(imported.tree, *imported.comments)
     try:
         again = read(SourceFile("<spec>", text), Diagnostics(), budget)
@@ -204,12 +204,12 @@ _Read = tuple[SourceFile, Imported]
 
 
 def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnostics) -> Semantic | None:
-    from linkforge_compile.expand.semantic import open_semantic
-    from linkforge_compile.expand.xacro import XacroUse
+    from linkforge_compile.expand.merge_srdf import open_semantic
+    from linkforge_compile.expand.xacro_use import XacroUse
 
     # Its user named it as he named the URDF, and a xacro of MoveIt includes what lies in a package of its own.
     loader.roots = loader.roots.with_those_around(srdf)
-    return open_semantic(XacroUse(srdf, Used(str(srdf), None), arguments), loader, sink)
+    return open_semantic(XacroUse(srdf, ImportSite(str(srdf), None), arguments), loader, sink)
 
 
 _Taken = Collection[str] | None
@@ -220,7 +220,7 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader,
     from linkforge_compile.importers.urdf import read_urdf
 
     named, text = urdf
-    file = loader.open_xml(named, sink) if text is None else loader.given_xml(str(named), text)
+    file = loader.open_xml(named, sink) if text is None else loader.add_xml(str(named), text)
     robot = read_urdf(file, sink, keeps_refused=True) if file else None
     # A xacro that is not named as one, and is told as that, would take them.
     if file and robot and taken is not None:
@@ -231,10 +231,11 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader,
 
 
 def _read_xacro(xacro: Path, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
-    from linkforge_compile.expand.xacro import XacroUse, read_xacro
+    from linkforge_compile.expand.xacro import read_xacro
+    from linkforge_compile.expand.xacro_use import XacroUse
 
     expanded = read_xacro(
-        XacroUse(xacro, Used(str(xacro), None), arguments, taken=taken), loader, sink, keeps_refused=True
+        XacroUse(xacro, ImportSite(str(xacro), None), arguments, used_elsewhere=taken), loader, sink, keeps_refused=True
     )
     return (expanded.file, expanded.imported) if expanded else None
 
@@ -244,7 +245,7 @@ def _losses(imported: Imported, robot: Robot, told: Collection[Span]) -> Iterato
     from linkforge_compile.importers.losses import losses
     from linkforge_compile.importers.xml import read_xml
 
-    for document, render in zip(imported.documents, _RENDERED, strict=False):
-        again = read_xml(SourceFile("<compiled>", render(robot)), Diagnostics(), is_ours=True)
+    for document, format_ in zip(imported.documents, _IMPORTED, strict=False):
+        again = read_xml(SourceFile("<compiled>", format_.text(robot)), Diagnostics(), is_ours=True)
         assert again, "what we render is XML"
         yield from (loss for loss in losses(document, again) if loss.span not in told)

@@ -26,7 +26,8 @@ from launch_ros.parameter_descriptions import ParameterValue
 
 from linkforge_compile.expand import XACRO
 from linkforge_compile.file_watcher import FileWatcher
-from linkforge_compile.pipeline import CompileError, Packages, Told, compile_file, parameters_of
+from linkforge_compile.formats import SRDF, URDF, Format, Rendering
+from linkforge_compile.pipeline import CliArgument, CompileError, Packages, compile_file, parameters_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,9 +36,9 @@ if TYPE_CHECKING:
 
     from linkforge_compile.core import Robot
     from linkforge_compile.expand.listing import ListedParameter
-    from linkforge_compile.formats.urdf.sensor import Gazebo
+    from linkforge_compile.formats.urdf import Gazebo
 
-    Asked: TypeAlias = tuple[str | None, Mapping[str, Told]]
+    Values: TypeAlias = tuple[str | None, Mapping[str, CliArgument]]
     Words: TypeAlias = str | Substitution | Sequence[str | Substitution]
     Given: TypeAlias = Mapping[str, bool | int | float | Words | Sequence[float | str | Substitution]]
 
@@ -47,30 +48,28 @@ __all__ = ["RobotDescription"]
 class _Text(Substitution):  # type: ignore[misc]  # the launch package has no types
     """A text that is made of the robot when it is launched."""
 
-    def __init__(self, robot: RobotDescription, *, semantic: bool) -> None:
+    def __init__(self, robot: RobotDescription, format_: Format) -> None:
         super().__init__()
-        self._robot, self._semantic = robot, semantic
+        self._robot, self._format = robot, format_
 
     def describe(self) -> str:
-        return f"{'SRDF' if self._semantic else 'URDF'} of {self._robot.spec}"
+        return f"{self._format.name.upper()} of {self._robot.spec}"
 
     def perform(self, context: LaunchContext) -> str:
-        made = self._robot.made(context)
-        return made.srdf if self._semantic else made.urdf
+        return self._robot.compiled(context).texts[self._format.name]
 
 
-class _Made(NamedTuple):
-    """The texts of one compile: in which launch it was, with which variant and values, and of which files."""
+class _Compiled(NamedTuple):
+    """The texts of one compile by format, with its launch, its variant and values, and its files."""
 
     launch: ref[LaunchContext]
-    asked: Asked
+    values: Values
     files: FileWatcher
-    urdf: str
-    srdf: str
+    texts: Mapping[str, str]
 
-    def holds(self, context: LaunchContext, asked: Asked) -> bool:
-        # Another launch is told the warnings as well, and may have another environment.
-        return self.launch() is context and self.asked == asked and not self.files.poll()
+    def is_current(self, context: LaunchContext, values: Values) -> bool:
+        # Another launch reports the warnings as well, and may have another environment.
+        return self.launch() is context and self.values == values and not self.files.poll()
 
 
 class RobotDescription:
@@ -122,8 +121,8 @@ class RobotDescription:
         sets = self._sets_of(variant) if isinstance(variant, str) else {}
         self._defaults = {one.name: sets.get(one.name, one.default) for one in listing.parameters}
         self.arguments = [self._argument(one) for one in listing.parameters if one.name not in self._given]
-        self._made: _Made | None = None
-        self.urdf, self.srdf = _Text(self, semantic=False), _Text(self, semantic=True)
+        self._compiled: _Compiled | None = None
+        self.urdf, self.srdf = _Text(self, URDF), _Text(self, SRDF)
         # Without a type, ROS would read the text as YAML.
         self.description = {"robot_description": ParameterValue(self.urdf, value_type=str)}
         self.semantic = {"robot_description_semantic": ParameterValue(self.srdf, value_type=str)}
@@ -155,10 +154,10 @@ class RobotDescription:
                     f"{self.spec} has no parameter named '{name}'{did_you_mean(name, declared) or there_are}"
                 )
 
-    def made(self, context: LaunchContext) -> _Made:
-        """Compile the spec with the values that hold in a launch, and tell of it in the launch's log.
+    def compiled(self, context: LaunchContext) -> _Compiled:
+        """Compile the spec with the values of a launch, and report in the launch's log.
 
-        That is done once for all texts, and again for one that is asked for when a file of the robot has changed.
+        All texts share one compile, until a file of the robot changes.
 
         Raises:
             SubstitutionFailure: The spec has errors, a parameter no value, or it has no such variant.
@@ -166,18 +165,16 @@ class RobotDescription:
         """
         variant, values = self._variant_of(context), self._assignments(context)
         self._require_values(variant, values)
-        asked = (variant, values)
-        if self._made is None or not self._made.holds(context, asked):
-            from linkforge_compile.formats import render_srdf, render_urdf
-
-            began, files = time_ns(), FileWatcher()
+        if self._compiled is None or not self._compiled.is_current(context, (variant, values)):
+            began, files = time_ns(), FileWatcher(())
             robot, read = self._compile(variant, values)
             files.track(read, began)
-            urdf, srdf = render_urdf(robot, gazebo=self.gazebo), render_srdf(robot)
-            self._made = _Made(ref(context), asked, files, urdf, srdf)
-        return self._made
+            rendering = Rendering({"gazebo": self.gazebo})
+            texts = {one.name: one.render(robot, rendering)[0].text for one in (URDF, SRDF)}
+            self._compiled = _Compiled(ref(context), (variant, values), files, texts)
+        return self._compiled
 
-    def _compile(self, variant: str | None, values: Mapping[str, Told]) -> tuple[Robot, Sequence[Path]]:
+    def _compile(self, variant: str | None, values: Mapping[str, CliArgument]) -> tuple[Robot, Sequence[Path]]:
         """Return the robot, and the files on which it depends, those that are missing as well."""
         compilation = compile_file(
             self.spec,
@@ -198,7 +195,7 @@ class RobotDescription:
                 log(render_text(told))
         return compilation.robot, (*compilation.files, *compilation.unread)
 
-    def _require_values(self, variant: str | None, values: Mapping[str, Told]) -> None:
+    def _require_values(self, variant: str | None, values: Mapping[str, CliArgument]) -> None:
         """Refuse what the compiler would tell as its commands do, which have no launch arguments."""
         try:
             sets = self._sets_of(variant)
@@ -227,17 +224,17 @@ class RobotDescription:
     def _variant_of(self, context: LaunchContext) -> str | None:
         return None if self._variant is None else str(perform_substitutions(context, self._variant)) or None
 
-    def _assignments(self, context: LaunchContext) -> dict[str, Told]:
+    def _assignments(self, context: LaunchContext) -> dict[str, CliArgument]:
         """Return what sets parameters; one that has its default is left to the spec, which may compute it."""
         values = {
-            name: Told("<launch file>", name, perform_substitutions(context, value))
+            name: CliArgument("<launch file>", name, perform_substitutions(context, value))
             for name, value in self._given.items()
         }
         for name, default in self._defaults.items():
             spelt = self._prefix + name
             value = context.launch_configurations.get(spelt)
             if name not in values and value is not None and value != default:
-                values[name] = Told("<launch argument>", spelt, value)
+                values[name] = CliArgument("<launch argument>", spelt, value)
         return values
 
 

@@ -1,4 +1,4 @@
-"""The name of a package of ROS, as the package.xml in its folder says it."""
+"""Read the name of a ROS package from its package.xml."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from pathlib import Path
 
 from linkforge_compile.roots import ANYWHERE, Roots, is_file
 
-# A stranger wrote what it is searched in: no character is tried twice.
+# The file may be hostile: this pattern does not backtrack.
 _NAME = re.compile(r"<name>([^<]*)</name>")
-_MOST_BYTES = 1024 * 1024
+_MAX_BYTES = 1024 * 1024
 
 
 def package_name(folder: Path, roots: Roots = ANYWHERE) -> str | None:
-    """Return the name in a folder's package.xml, None where there is none, or a link that leads out of the roots.
+    """Return the name in a folder's package.xml; None if there is none, or it is a link that leaves the roots.
 
-    Read as text: one tag of a file that strangers wrote is not worth an XML parser and its entities.
+    It is searched as text, because one tag does not justify parsing untrusted XML with its entities.
     """
     manifest = folder / "package.xml"
-    if roots.are_left_by(manifest) or not is_file(manifest):  # a pipe of that name would make us wait
+    if roots.are_left_by(manifest) or not is_file(manifest):  # reading a pipe would block
         return None
     try:
         with manifest.open("rb") as stream:
-            text = stream.read(_MOST_BYTES).decode("utf-8", errors="replace")
+            text = stream.read(_MAX_BYTES).decode("utf-8", errors="replace")
     except OSError:
         return None
-    first, *behind = text.split("<!--")
-    match = _NAME.search("".join((first, *(piece.partition("-->")[2] for piece in behind))))
+    first, *rest = text.split("<!--")
+    match = _NAME.search("".join((first, *(piece.partition("-->")[2] for piece in rest))))
     return match[1].strip() if match else None

@@ -20,16 +20,16 @@ from linkforge_compile.diagnostics.suggest import suggesting
 from linkforge_compile.expand import (
     XACRO,
     Arguments,
+    CliArgument,
+    ImportSite,
     Loader,
     SpecFile,
-    Told,
     Unset,
-    Used,
     arguments_from_text,
     arguments_from_values,
     expand,
 )
-from linkforge_compile.formats import require_dialect, srdf_limits, urdf_limits
+from linkforge_compile.formats import NO_OPTIONS, Options, limits, require_options
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.limits import Budget
 from linkforge_compile.lower import MeshSolids, lower
@@ -39,15 +39,15 @@ if TYPE_CHECKING:
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics.ignores import Ignore
     from linkforge_compile.expand.listing import Listing
-    from linkforge_compile.formats.urdf.sensor import Gazebo
+    from linkforge_compile.formats.urdf import Gazebo
 
 __all__ = [
+    "CliArgument",
     "Compilation",
     "CompileError",
     "Packages",
     "Parameters",
     "Settings",
-    "Told",
     "check_file",
     "check_text",
     "check_variants",
@@ -140,8 +140,8 @@ def compile_file(
 
     """
     folder = Path(output) if output is not None else None
-    settings = Settings(parameters, packages, variant, gazebo, output=folder, allow_outside=allow_outside)
-    return _compile_file(path, settings)
+    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, output=folder, allow_outside=allow_outside)
+    return compile_path(path, settings)
 
 
 def compile_text(
@@ -156,8 +156,8 @@ def compile_text(
     allow_outside: bool = False,
 ) -> Compilation:
     """Compile a spec given as text; `name` stands in its diagnostics, `folder` is where relative paths start."""
-    settings = Settings(parameters, packages, variant, gazebo, allow_outside=allow_outside)
-    return _compile_text(text, name, folder, settings)
+    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, allow_outside=allow_outside)
+    return compile_source(text, name, folder, settings)
 
 
 def check_file(
@@ -170,8 +170,8 @@ def check_file(
     allow_outside: bool = False,
 ) -> Compilation:
     """Tell all that is wrong with a spec file; what depends on a required parameter without a value is not judged."""
-    settings = Settings(parameters, packages, variant, gazebo, Unset.NOTE, allow_outside=allow_outside)
-    return _compile_file(path, settings)
+    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, Unset.NOTE, allow_outside=allow_outside)
+    return compile_path(path, settings)
 
 
 def check_text(
@@ -186,8 +186,8 @@ def check_text(
     allow_outside: bool = False,
 ) -> Compilation:
     """Tell all that is wrong with a spec given as text, as `check_file` does."""
-    settings = Settings(parameters, packages, variant, gazebo, Unset.NOTE, allow_outside=allow_outside)
-    return _compile_text(text, name, folder, settings)
+    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, Unset.NOTE, allow_outside=allow_outside)
+    return compile_source(text, name, folder, settings)
 
 
 def check_variants(
@@ -202,12 +202,18 @@ def check_variants(
 
     Together they may take what five compiles may: LF3304 is told of the one that takes more, the last that is checked.
     """
+    settings = Settings(parameters, packages, None, {"gazebo": gazebo}, Unset.NOTE, allow_outside=allow_outside)
+    return check_each_variant(Path(path), settings)
+
+
+def check_each_variant(file: Path, settings: Settings) -> dict[str | None, Compilation | None]:
+    """Check a spec file as `check_variants` does, with settings."""
     from linkforge_compile.expand.variants import names_of_variants
 
-    file, whole = Path(path), Budget(times=5, code=VARIANTS_BEYOND_LIMIT)
-    settings = Settings(parameters, packages, None, gazebo, Unset.NOTE, allow_outside=allow_outside, whole=whole)
+    whole = Budget(times=5, code=VARIANTS_BEYOND_LIMIT)
+    settings = settings._replace(whole=whole)
     names = (None, *names_of_variants(file, settings.loader(file)))
-    return {name: None if whole.is_spent else _compile_file(file, settings._replace(variant=name)) for name in names}
+    return {name: None if whole.is_spent else compile_path(file, settings._replace(variant=name)) for name in names}
 
 
 @suggesting()
@@ -224,7 +230,7 @@ def parameters_of(
     listing = None
     try:
         if Path(path).suffix.lower() == XACRO:
-            from linkforge_compile.expand.xacro_arguments import list_arguments
+            from linkforge_compile.expand.listing import list_arguments
 
             listing = list_arguments(Path(path), loader, sink)
         elif spec := loader.open(Path(path), sink):
@@ -238,15 +244,20 @@ _Read: TypeAlias = Callable[[Loader, Diagnostics], SpecFile | None]
 
 
 class Settings(NamedTuple):
-    """How to compile a spec; `whole` is what it and other compiles together may take."""
+    """How to compile a spec.
+
+    `options` are those of the output formats, and `formats` the ones requested, whose limits are reported beside those
+    of the default ones. `whole` is the budget that this compile shares with others.
+    """
 
     parameters: Parameters | None = None
     packages: Packages | None = None
     variant: str | None = None
-    gazebo: Gazebo = "gz"
+    options: Options = NO_OPTIONS
     unset: Unset = Unset.ERROR
     output: Path | None = None
     allow_outside: bool = False
+    formats: tuple[str, ...] = ()
     whole: Budget | None = None
 
     def loader(self, place: Path | None) -> Loader:
@@ -263,21 +274,22 @@ class Settings(NamedTuple):
         return arguments
 
 
-def _compile_file(path: str | Path, settings: Settings) -> Compilation:
+def compile_path(path: str | Path, settings: Settings) -> Compilation:
     file = Path(path)
     if file.suffix.lower() != XACRO:
         return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
 
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
-        from linkforge_compile.expand.xacro import XacroUse, open_xacro
+        from linkforge_compile.expand.xacro import open_xacro
+        from linkforge_compile.expand.xacro_use import XacroUse
 
-        return open_xacro(XacroUse(file, Used(str(path), None), settings.arguments(loader, sink)), loader, sink)
+        return open_xacro(XacroUse(file, ImportSite(str(path), None), settings.arguments(loader, sink)), loader, sink)
 
     # The expansion has no parameters any more.
     return _compile(read, file, settings._replace(parameters=None))
 
 
-def _compile_text(text: str, name: str, folder: str | Path | None, settings: Settings) -> Compilation:
+def compile_source(text: str, name: str, folder: str | Path | None, settings: Settings) -> Compilation:
     place = Path(folder) if folder is not None else None
     return _compile(lambda loader, sink: loader.parse(text, name, place, sink), place, settings)
 
@@ -289,11 +301,11 @@ def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation
 @gc_paused()
 @suggesting()
 def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compilation:
-    require_dialect(settings.gazebo)
+    require_options(settings.options)
     sink = Diagnostics()
     loader = settings.loader(place)
     meshes = MeshSolids(loader.budget)
-    loader.judge = lambda spec, loader: judged(meshes, spec, loader).faults
+    loader.check_spec = lambda spec, loader: judged(meshes, spec, loader).faults
     robot = None
     ignores: tuple[Ignore, ...] = ()
     try:
@@ -330,8 +342,7 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
         robot.resource_resolver = resolver
         sink.report_all(check(robot, unresolved.with_access(loader.roots.hold)))
     if lowered.robot is not None:
-        sink.report_all(urdf_limits(lowered.robot, gazebo=settings.gazebo))
-        sink.report_all(srdf_limits(lowered.robot))
+        sink.report_all(limits(lowered.robot, settings.options, settings.formats))
         if settings.output is not None:
             from linkforge_compile.formats.relative_paths import lost_on_the_way
 
@@ -349,7 +360,7 @@ class Judged(NamedTuple):
 def judged(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Judged:
     """Compile a spec by itself at a cost of its own; it reads the meshes that are read for the whole."""
     sink, was_told = Diagnostics(), meshes.is_without_library
-    with loader.judging():
+    with loader.separate_budget():
         robot = robot_of(spec, Settings(), loader, meshes, sink)
     meshes.is_without_library = was_told  # this sink is nobody's: the robot tells it where it is used
     faults = tuple(fault for fault in sink if fault.severity is Severity.ERROR)

@@ -1,4 +1,4 @@
-"""Which files a compile may read: whoever wrote the spec, it reaches nothing but what its user gave."""
+"""Decide which files a compile may read, so that an untrusted spec reads only what its user allows."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 MARKERS = ("package.xml", ".git")
-"""What the top folder of a package or repository holds."""
+"""One of these is in the top folder of a package or repository."""
 
 
 @dataclass(frozen=True)
 class Roots:
-    """The folders in which a file must lie that a spec names, wherever links and `..` lead.
+    """The folders in which every file that a spec names must lie, after links and `..` are resolved.
 
-    `folders` are those of the spec and those that its user named, `files` single files that he named, all as real
-    paths. `installed` are the prefixes of installations in the environment, as it names them: links below them were
-    made by whoever installed it, such as those by which colcon leads each file into its source tree.
+    `folders` are those of the spec and those that the user names, `files` single files that the user names, all as
+    real paths. `installed` are the installation prefixes in the environment; links below them are trusted, such as
+    those of colcon into the source tree.
     """
 
     folders: tuple[Path, ...] = ()
@@ -27,22 +27,22 @@ class Roots:
 
     @classmethod
     def around(cls, place: Path | None, named: Iterable[Path] = ()) -> Roots:
-        """Return the roots of a spec file, or of a text in a folder; None for a text that lies nowhere.
+        """Return the roots of a spec file, or of a text in a folder, None for no folder.
 
-        `named` are folders that the user named himself.
+        `named` are further folders that the user names.
         """
-        # A spec that is reached by a link may use what lies beside the link, and beside itself.
-        ways = () if place is None else dict.fromkeys((as_walked(place), *_real((place,))))
-        folders = (*map(_top_of, ways), *named, *_search_path("ROS_PACKAGE_PATH"))
+        # A spec reached through a link may use files next to the link and next to the spec.
+        starts = () if place is None else dict.fromkeys((as_walked(place), *_real((place,))))
+        folders = (*map(_top_of, starts), *named, *_search_path("ROS_PACKAGE_PATH"))
         installed = tuple(_search_path("AMENT_PREFIX_PATH"))
         return cls(_real(folders), installed=installed)
 
     def naming(self, files: Iterable[Path]) -> Roots:
-        """Return the same roots with single files that the user named himself."""
+        """Return the roots with further files that the user names."""
         return replace(self, files=self.files.union(_real(files)))
 
     def with_those_around(self, place: Path) -> Roots:
-        """Return the same roots with those of another file that the user named beside the spec."""
+        """Return the roots with those of another file that the user names."""
         return replace(self, folders=tuple(dict.fromkeys((*self.folders, *Roots.around(place).folders))))
 
     def __str__(self) -> str:
@@ -50,7 +50,7 @@ class Roots:
         return ", ".join(folders) or "no folder"
 
     def hold(self, path: Path) -> bool:
-        """Whether a file may be read, be it there or not."""
+        """Whether a file may be read, whether or not it exists."""
         if self.is_anywhere:
             return True
         followed = real_path(path)
@@ -64,28 +64,28 @@ class Roots:
         return is_installed or any(real.is_relative_to(prefix) for prefix in _real(self.installed))
 
     def are_left_by(self, path: Path) -> bool:
-        """Whether a path is a link that leads out of them, which no search follows: it may be a stranger's."""
-        # os.path answers for what may not be looked at as well, where pathlib raises.
+        """Whether a path is a link that leaves the roots; searches do not follow it."""
+        # os.path handles paths without access; pathlib raises.
         return os.path.islink(path) and not self.hold(path)  # noqa: PTH114
 
     def reasons(self, path: Path) -> tuple[str, str]:
-        """Return why a path may not be read that they do not hold, for notes: how it leads out, and of what."""
+        """Return the notes for a path outside of the roots: how it leaves them, and what they are."""
         return self.way_out(path), f"what may be read lies in {self}"
 
     def way_out(self, path: Path) -> str:
-        """Return how a path that they do not hold leads out of them, for a message: by what in them, or to where.
+        """Return how a path leaves the roots, for a message.
 
-        Where links lead is none of a stranger's business, who may have made one to `/proc/self/exe`: none is followed.
+        The target of a link is not shown, because it may be secret: a spec may come with a link to `/proc/self/exe`.
         """
         links = [step for step in (path, *path.parents) if self._has_link(step)]
         for link in links:
             if not self.hold(link):
                 return f"the link '{link}' leads out"
-        # Behind a link that stays within, `..` climbs from where it leads: to name that would tell of the link.
+        # `..` after a link that stays inside starts at the link's target, which is not shown.
         return "it leads out by '..'" if links else f"it leads to {os.path.normpath(path.absolute())}"
 
     def _has_link(self, path: Path) -> bool:
-        # os.path answers for what may not be looked at as well, where pathlib raises.
+        # os.path handles paths without access; pathlib raises.
         around = real_path(path.parent) if os.path.islink(path) else None  # noqa: PTH114
         return around is not None and any(Path(around).is_relative_to(folder) for folder in self.folders)
 
@@ -94,10 +94,7 @@ ANYWHERE = Roots(is_anywhere=True)
 
 
 def real_path(path: Path | str) -> str | None:
-    """Return where links and `..` lead, be there a file or not; None where a link may not be looked at.
-
-    Links to what a process of somebody else has open are such: `/proc/1/exe`.
-    """
+    """Resolve links and `..`, whether or not the file exists; None for a link without access such as `/proc/1/exe`."""
     try:
         return os.path.realpath(path)
     except OSError:
@@ -105,14 +102,14 @@ def real_path(path: Path | str) -> str | None:
 
 
 def identity(path: Path | str) -> str:
-    """Return what all paths to one file have in common; of one that may not be looked at, the path."""
+    """Return the same string for all paths to one file; the path itself if it cannot be resolved."""
     return real_path(path) or str(path)
 
 
 def as_walked(path: Path) -> Path:
-    """Return an absolute path whose parents are the folders above it: with links as they were walked, without `..`.
+    """Return an absolute path without `..` whose parents are the folders above it, with links kept.
 
-    `here/../there` does not lie in `here`, and `..` behind a link is the folder above where it leads.
+    A link before a `..` is resolved, since `..` leads to the folder above its target.
     """
     steps = path.absolute().parts
     climbed = len(steps) - steps[::-1].index("..") if ".." in steps else 0
@@ -120,10 +117,10 @@ def as_walked(path: Path) -> Path:
 
 
 def _top_of(place: Path) -> Path:
-    """Return the package or repository in which a file or folder lies, else its folder, or the folder itself."""
-    # os.path answers for names that no file can have and what may not be looked at, where pathlib raises.
+    """Return the package or repository of a file or folder, else the file's folder or the folder itself."""
+    # os.path handles invalid names and paths without access; pathlib raises.
     folder = place if os.path.isdir(place) else place.parent  # noqa: PTH112
-    # A marker that is a link is one wherever that leads: whether there is anything is none of a stranger's business.
+    # A marker that is a link counts without following it, so as not to reveal whether its target exists.
     tops = (top for top in (folder, *folder.parents) if any(map(os.path.lexists, (top / marker for marker in MARKERS))))
     return next(tops, folder)
 
@@ -133,23 +130,23 @@ def _search_path(variable: str) -> Iterator[Path]:
 
 
 def _real(paths: Iterable[Path]) -> tuple[Path, ...]:
-    """Return the real ones of paths, without those that may not be looked at."""
+    """Return the real paths of those that can be resolved."""
     return tuple(dict.fromkeys(Path(real) for real in map(real_path, paths) if real is not None))
 
 
-# os.path answers for what may not be looked at as well, where pathlib raises.
+# os.path handles paths without access; pathlib raises.
 
 
 def exists(path: Path) -> bool:
-    """Whether there is anything at a path; no where that may not be looked at."""
+    """Whether there is anything at a path; False without access."""
     return os.path.exists(path)  # noqa: PTH110 see above
 
 
 def is_file(path: Path) -> bool:
-    """Whether there is a regular file at a path; no where that may not be looked at."""
+    """Whether there is a regular file at a path; False without access."""
     return os.path.isfile(path)  # noqa: PTH113 see above
 
 
 def is_folder(path: Path) -> bool:
-    """Whether there is a folder at a path; no where that may not be looked at."""
+    """Whether there is a folder at a path; False without access."""
     return os.path.isdir(path)  # noqa: PTH112 see above

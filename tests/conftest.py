@@ -1,4 +1,4 @@
-"""Where the tests find the shared corpus, and how golden files are renewed."""
+"""The shared corpus, the option to renew golden files, and the settings of Hypothesis."""
 
 import os
 from pathlib import Path
@@ -12,7 +12,7 @@ ROOT = Path(__file__).parents[1]
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption("--update-golden", action="store_true", help="write the golden files; look at the diff afterwards")
+    parser.addoption("--update-golden", action="store_true", help="write the golden files; read the diff afterwards")
 
 
 @pytest.fixture
@@ -22,9 +22,9 @@ def update_golden(request: pytest.FixtureRequest) -> bool:
 
 @pytest.fixture(scope="session")
 def shared() -> Path:
-    """The folder with the corpus of real robots and the tools that judge.
+    """The folder with the corpus of real robots and the tools that compare them.
 
-    Skips where it is absent, fails where LINKFORGE_REQUIRE_SHARED is set, as in CI.
+    Skip the test if it is absent, or fail if LINKFORGE_REQUIRE_SHARED is set, as in CI.
     """
     folder = Path(os.environ.get("LINKFORGE_SHARED", ROOT.parent / "shared"))
     if (folder / "corpus").is_dir() and (folder / "tools" / "urdf_equiv.py").is_file():
@@ -34,7 +34,7 @@ def shared() -> Path:
     pytest.skip(f"no shared corpus at {folder}; LINKFORGE_SHARED says where it is")
 
 
-# A loaded machine must not fail a law that holds, and all laws together have a few minutes in CI.
+# No deadline, so that a busy machine fails no test; 50 examples, so that all property tests take a few minutes in CI.
 hypothesis.settings.register_profile("steady", deadline=None, max_examples=50)
 hypothesis.settings.load_profile("steady")
 # pytest tests/test_any_spec.py --hypothesis-profile long

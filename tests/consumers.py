@@ -1,4 +1,4 @@
-"""Real readers of URDF: urdfdom, Pinocchio and MuJoCo judge what we write."""
+"""Loads URDF with other programs: urdfdom, Pinocchio and MuJoCo."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ PREFIX = Path(sysconfig.get_path("purelib")) / "cmeel.prefix"
 
 
 def check_urdf(text: str) -> str:
-    """Return the root link that urdfdom's `check_urdf` finds; fails with its words where it refuses the text."""
-    # Absent on Windows, where the tests of the other rooms still run.
+    """Return the root link that urdfdom's `check_urdf` finds; fail with its message if it rejects the text."""
+    # Not available on Windows.
     if not (PREFIX / "bin" / "check_urdf").exists():
         pytest.skip("check_urdf is not installed; it comes with cmeel-urdfdom")
     libraries = {name: str(PREFIX / "lib") for name in ("LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH")}
@@ -29,16 +29,16 @@ def check_urdf(text: str) -> str:
         timeout=60,
         check=False,
     )
-    told = run.stdout + run.stderr
-    root = re.search(r"^root Link: (\S+) has ", told, re.MULTILINE)
-    assert run.returncode == 0, told
-    assert "Error" not in told, told
-    assert root, told
+    output = run.stdout + run.stderr
+    root = re.search(r"^root Link: (\S+) has ", output, re.MULTILINE)
+    assert run.returncode == 0, output
+    assert "Error" not in output, output
+    assert root, output
     return root[1]
 
 
 def pinocchio_model(text: str, *, free_flyer: bool = False):
-    """Return Pinocchio's model, with a free-flyer root joint so that the root link's mass counts, or a fixed base."""
+    """Return Pinocchio's model with a fixed base, or with a free-flyer root joint to include the root link's mass."""
     pinocchio = pytest.importorskip("pinocchio")
     if free_flyer:
         return pinocchio.buildModelFromXML(text, pinocchio.JointModelFreeFlyer())
@@ -46,7 +46,7 @@ def pinocchio_model(text: str, *, free_flyer: bool = False):
 
 
 def mujoco_model(text: str):
-    """Return MuJoCo's model with every body of its own (no static ones fused) and boxes in place of meshes."""
+    """Return MuJoCo's model with a body for each link, also static ones, and boxes instead of meshes."""
     mujoco = pytest.importorskip("mujoco")
     robot = _with_boxes_for_meshes(etree.fromstring(text.encode()))
     options = etree.SubElement(robot, "mujoco")
@@ -55,7 +55,7 @@ def mujoco_model(text: str):
 
 
 def _with_boxes_for_meshes(robot: etree._Element) -> etree._Element:
-    """No mesh file is at hand in the tests; masses and joints do not depend on the shapes."""
+    """Replace meshes, whose files the tests do not have; masses and joints do not depend on shapes."""
     for mesh in robot.iter("mesh"):
         mesh.tag = "box"
         mesh.attrib.clear()

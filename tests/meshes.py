@@ -1,4 +1,4 @@
-"""Mesh files made in the tests: what a CAD tool exports, and what it should not."""
+"""Writes mesh files for tests, such as CAD tools export, and faulty ones."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -43,7 +43,7 @@ def with_a_flipped_face(mesh: Trimesh) -> Trimesh:
 
 
 def content(mesh: Trimesh, form: str) -> bytes:
-    """Return the mesh as a file of one of FORMATS holds it."""
+    """Return the content of a mesh file in one of FORMATS."""
     if form == "dae":
         return collada(f"<node>{GEOMETRY}</node>", mesh=mesh)
     written = mesh.export(file_type=form, include_normals=False) if form == "obj" else mesh.export(file_type=form)
@@ -64,7 +64,7 @@ GEOMETRY = '<instance_geometry url="#part"/>'
 
 
 def collada(nodes: str, asset: str = "", library_nodes: str = "", mesh: Trimesh | None = None) -> bytes:
-    """Return a COLLADA file with a mesh as the geometry `part` (a cube of edge 2 unless said), and a scene of nodes."""
+    """Return a COLLADA file with a mesh as the geometry `part` (default: a cube of edge 2), and a scene of nodes."""
     mesh = mesh or block(2, 2, 2)
     positions = " ".join(map(repr, mesh.vertices.ravel().tolist()))
     indices = " ".join(map(str, mesh.faces.ravel()))

@@ -1,4 +1,4 @@
-"""The programs of others that the tests run."""
+"""Finds the external programs that the tests run."""
 
 import os
 import shutil
@@ -9,8 +9,8 @@ import pytest
 
 
 def program(name: str) -> str:
-    """Return the path of a program; skips where it is absent, and fails in CI, which has all of them."""
-    # Those that pip installs lie beside the interpreter, which need not be on the PATH.
+    """Return the path of a program; skip the test if it is absent, or fail in CI, which has all of them."""
+    # pip installs some beside the interpreter, whose folder need not be on the PATH.
     found = shutil.which(name) or shutil.which(name, path=str(Path(sys.executable).parent))
     if found is None and os.environ.get("LINKFORGE_REQUIRE_SHARED"):
         pytest.fail(f"there is no program '{name}'")

@@ -1,4 +1,4 @@
-"""Hypothesis strategies for whole specs, drawn from the schemas: what they admit, of which some makes a robot."""
+"""Hypothesis strategies that draw specs from the schemas; some of them are valid robots."""
 
 from collections.abc import Mapping, Sequence
 from functools import cache
@@ -10,10 +10,10 @@ from linkforge_compile.schema.registry import definitions_with_patches
 Strategy = st.SearchStrategy
 
 RAW = frozenset({"extra", "extra_attributes", "extra_inside"})
-"""Keys under which anything well-formed may stand, whether or not a reader of URDF takes it."""
+"""Keys whose values may be any well-formed XML, which readers of URDF may reject."""
 
-_OF_OTHER_FILES = frozenset({"modules", "include", "data", "packages", "mount"})
-_DEEPEST = 6
+_USES_OTHER_FILES = frozenset({"modules", "include", "data", "packages", "mount"})
+_MAX_DEPTH = 6
 
 _NAMES = st.sampled_from(["a", "b", "c", "ab", "bc", "tool", "m"])
 _NUMBERS = st.sampled_from([0, 1, -1, 0.5, 1e-3, 2, 1e6, 3.14])
@@ -29,7 +29,7 @@ _SHAPES = st.sampled_from(
     [{"box": [1, 2, 3]}, {"sphere": 1}, {"cylinder": {"radius": 1, "length": 2}}, {"mesh": "package://p/a.stl"}]
 )
 
-_FITTING: Mapping[str, Strategy] = {
+_TYPICAL: Mapping[str, Strategy] = {
     "number": _NUMBERS | st.just("$(n / 2)"),
     "length": _NUMBERS | st.sampled_from(["25 mm", "$(n * 1)"]),
     "lengths": st.lists(st.sampled_from([0.1, 1, "25 mm"]), min_size=3, max_size=3),
@@ -59,7 +59,7 @@ _FITTING: Mapping[str, Strategy] = {
     "visual": _SHAPES,
     "collision": _SHAPES,
 }
-"""What an author writes for a definition, most of the time."""
+"""Typical values for some definitions of the schemas."""
 
 _SCALARS: Mapping[str, Strategy] = {
     "number": _NUMBERS,
@@ -75,8 +75,8 @@ _ENTRY = ("when", "for")
 
 @st.composite
 def specs(draw: st.DrawFn, without: frozenset[str] = frozenset()) -> dict[str, object]:
-    """Draw a spec of three links in a row, with whatever the schema knows on them; `without` some keys anywhere."""
-    keys = frozenset((*without, *_OF_OTHER_FILES))
+    """Draw a spec of three links in a chain with any other keys of the schema; leave out the keys `without`."""
+    keys = frozenset((*without, *_USES_OTHER_FILES))
     spec = draw(
         _of_definition("robot", keys | {"linkforge", "name", "links", "joints"}, 0).filter(
             lambda it: isinstance(it, dict)
@@ -105,14 +105,14 @@ def specs(draw: st.DrawFn, without: frozenset[str] = frozenset()) -> dict[str, o
 
 @cache
 def _of_definition(name: str, without: frozenset[str], depth: int) -> Strategy:
-    admitted = st.deferred(lambda: _of(definitions_with_patches()[name], without, depth))
-    if name not in _FITTING:
-        return admitted
-    return _mostly(_near(_FITTING[name], admitted), admitted)
+    allowed = st.deferred(lambda: _of(definitions_with_patches()[name], without, depth))
+    if name not in _TYPICAL:
+        return allowed
+    return _mostly(_near(_TYPICAL[name], allowed), allowed)
 
 
 def _of(schema: Mapping, without: frozenset[str], depth: int) -> Strategy:
-    """Draw what a schema admits: mostly near its examples, now and then anything."""
+    """Draw a value that a schema allows: mostly one like its examples, sometimes any other."""
     if "$ref" in schema:
         return _of_definition(schema["$ref"].rpartition("/")[2], without, depth)
     if "enum" in schema or "const" in schema:
@@ -132,12 +132,12 @@ def _is_expression(schema: Mapping) -> bool:
 
 
 def _mostly(usual: Strategy, odd: Strategy) -> Strategy:
-    # No end of the range, which Hypothesis likes to draw.
+    # Hypothesis prefers the ends of a range, so use a number inside it.
     return st.integers(0, 63).flatmap(lambda dice: odd if dice == 41 else usual)
 
 
 def _near(examples: Strategy, others: Strategy) -> Strategy:
-    """Draw an example, if it is an object with some of what else the schema knows in it."""
+    """Draw an example; if it is an object, add other keys that the schema allows."""
 
     def filled(both: tuple[object, object]) -> object:
         example, other = both
@@ -151,7 +151,7 @@ def _of_type(kind: str, schema: Mapping, without: frozenset[str], depth: int) ->
         return _SCALARS[kind]
     if kind == "string":
         return _EXPRESSIONS if "\\$\\(" in str(schema.get("pattern", "")) else _NAMES | _TEXTS
-    if depth >= _DEEPEST:
+    if depth >= _MAX_DEPTH:
         return st.just([] if kind == "array" else {})
     if kind == "array":
         least, most = schema.get("minItems", 0), schema.get("maxItems", 3)

@@ -1,4 +1,4 @@
-"""Hypothesis strategies for the parts of a robot; whatever they draw, the constructors accept."""
+"""Hypothesis strategies that draw valid parts of robots."""
 
 from collections.abc import Sequence
 
@@ -178,7 +178,7 @@ topics = st.sampled_from(["scan", "camera/image", "/camera", "~/camera"])
 
 @st.composite
 def sensors(draw: st.DrawFn, named: Strategy = names, on: Strategy = names) -> Sensor:
-    """Draw a sensor of any type, with the info that its type wants, on a link that `on` names."""
+    """Draw a sensor of any type, with the info of its type, on a link that `on` draws."""
     kind = draw(st.sampled_from(SensorType))
     info, values = sensor_infos[kind]
     return Sensor(
@@ -203,7 +203,7 @@ def transmission_end(kind: type, named: Strategy) -> Strategy:
 
 @st.composite
 def transmissions(draw: st.DrawFn, named: Strategy = names, moved: Strategy = names) -> Transmission:
-    """Draw a transmission of any type, whose joints `moved` names."""
+    """Draw a transmission of any type, with joints that `moved` draws."""
     kind = draw(st.sampled_from(TransmissionType))
     count = {TransmissionType.SIMPLE: 1, TransmissionType.CUSTOM: draw(st.integers(1, 3))}.get(kind, 2)
     actuators = transmission_end(TransmissionActuator, names)
@@ -217,7 +217,7 @@ def transmissions(draw: st.DrawFn, named: Strategy = names, moved: Strategy = na
 
 
 def ros2_controls(named: Strategy = names, moved: Strategy = names) -> Strategy:
-    """Hardware systems, whose joints `moved` names."""
+    """Return hardware systems with joints that `moved` draws."""
     joint = st.builds(Ros2ControlJoint, moved, tuples_of(interfaces, min_size=1), tuples_of(interfaces), parameters)
     return st.builds(
         Ros2Control,
@@ -272,13 +272,13 @@ PREFIXED: Sequence[Strategy] = (
     ros2_controls(),
     semantics,
 )
-"""Every kind of part that takes a prefix; what they hold takes it with them."""
+"""Every kind of part with `with_prefix`, which also prefixes the parts inside."""
 
 parts = st.one_of(*PREFIXED, poses, tensors, inertials, link_physics, geometries)
 
 
 def semantics_about(links: Strategy, joints: Strategy) -> Strategy:
-    """Semantic descriptions that say nothing twice."""
+    """Return semantic descriptions without duplicates."""
     group = st.builds(PlanningGroup, names, tuples_of(links, min_size=1), tuples_of(joints))
     state = st.builds(GroupState, names, names, st.dictionaries(joints, numbers, max_size=2))
     return st.builds(
@@ -294,7 +294,7 @@ def semantics_about(links: Strategy, joints: Strategy) -> Strategy:
 
 @st.composite
 def robots(draw: st.DrawFn) -> Robot:
-    """Draw a robot whose links form one tree, with a little of everything on it."""
+    """Draw a robot whose links form one tree, with other parts of every kind."""
     robot = Robot(draw(names), materials={material.name: material for material in draw(tuples_of(materials))})
     link_names = draw(st.lists(names, min_size=1, max_size=4, unique=True))
     joint_names = draw(st.lists(names, min_size=len(link_names), max_size=len(link_names), unique=True))

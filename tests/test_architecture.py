@@ -1,4 +1,4 @@
-"""The house, held true: which room may import from which. Read downward, the table is the compiler."""
+"""Which package may import which; read from top to bottom, the table is the order of the compiler's stages."""
 
 import ast
 import subprocess
@@ -45,14 +45,14 @@ MAY_IMPORT = {
     ),
 }
 
-# `Robot.export_urdf` and `export_srdf` are methods because the contract says so: the one place that reaches up.
-REACHES_UP = {("core/models/robot.py", room) for room in ("diagnostics", "checks", "formats")}
+# LinkForge's API has the methods `Robot.export_urdf` and `export_srdf`, so this file imports packages below it.
+EXCEPTIONS = {("core/models/robot.py", package) for package in ("diagnostics", "checks", "formats")}
 
-FACES = {"__init__", "__main__"}
+ENTRY_POINTS = {"__init__", "__main__"}
 
 
-def rooms_imported_by(path: Path) -> Iterator[str]:
-    """Yield the room of every import of ours in a file, those inside functions too."""
+def imported_packages(path: Path) -> Iterator[str]:
+    """Yield the package of each import from linkforge_compile in a file, also inside functions."""
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         match node:
             case ast.Import(names=names):
@@ -62,16 +62,16 @@ def rooms_imported_by(path: Path) -> Iterator[str]:
             case ast.ImportFrom(module=module, level=0):
                 modules = [module or ""]
             case ast.ImportFrom():
-                pytest.fail(f"{path}:{node.lineno}: relative import; the table reads absolute ones")
+                pytest.fail(f"{path}:{node.lineno}: relative import; the table needs absolute ones")
             case _:
                 continue
         for module in modules:
-            package, _, rest = module.partition(".")
-            if package == "linkforge_compile" and rest:
+            top, _, rest = module.partition(".")
+            if top == "linkforge_compile" and rest:
                 yield rest.split(".")[0]
 
 
-def room_of(path: Path) -> str:
+def package_of(path: Path) -> str:
     return path.relative_to(PACKAGE).with_suffix("").parts[0]
 
 
@@ -79,38 +79,38 @@ FILES = sorted(path for path in PACKAGE.rglob("*.py") if "_data" not in path.par
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
-def test_a_room_imports_only_what_lies_below_it(path: Path):
-    room = room_of(path)
-    if room in FACES:
+def test_a_package_imports_only_packages_above_it_in_the_table(path: Path):
+    package = package_of(path)
+    if package in ENTRY_POINTS:
         return
-    allowed = {room, *MAY_IMPORT[room].split()}
-    above = {
+    allowed = {package, *MAY_IMPORT[package].split()}
+    others = {
         other
-        for other in rooms_imported_by(path)
-        if other not in allowed and (path.relative_to(PACKAGE).as_posix(), other) not in REACHES_UP
+        for other in imported_packages(path)
+        if other not in allowed and (path.relative_to(PACKAGE).as_posix(), other) not in EXCEPTIONS
     }
-    assert not above, f"{room} may import {sorted(allowed - {room})}"
+    assert not others, f"{package} may import {sorted(allowed - {package})}"
 
 
 def test_the_table_has_no_cycle():
     order: list[str] = []
-    for room, below in MAY_IMPORT.items():
-        assert set(below.split()) <= set(order), f"{room} imports a room that stands further down"
-        order.append(room)
+    for package, imported in MAY_IMPORT.items():
+        assert set(imported.split()) <= set(order), f"{package} imports a package below it in the table"
+        order.append(package)
 
 
-def test_every_room_is_in_the_table():
-    assert {room_of(path) for path in FILES} - FACES == set(MAY_IMPORT)
+def test_every_package_is_in_the_table():
+    assert {package_of(path) for path in FILES} - ENTRY_POINTS == set(MAY_IMPORT)
 
 
-# What the user fixed, and what stands beside it.
+# The layout that the project prescribes, and further folders.
 TOP_LEVEL = "pyproject.toml linkforge_compile schemas templates tests examples README.md LICENSE CHANGELOG.md"
-BESIDE = "benchmarks cmake docs"
+FURTHER = "benchmarks cmake docs"
 
 
-def test_nothing_else_is_kept_at_the_top_level():
+def test_nothing_else_is_at_the_top_level():
     if not (PACKAGE.parent / ".git").exists():
-        pytest.skip("not a checkout: what is kept is not known")
+        pytest.skip("not a checkout of git")
     kept = subprocess.run(["git", "ls-files", "-z"], cwd=PACKAGE.parent, capture_output=True, text=True, check=True)
     names = {path.split("/")[0] for path in kept.stdout.split("\0") if path and not path.startswith(".")}
-    assert names == {*TOP_LEVEL.split(), *BESIDE.split()}
+    assert names == {*TOP_LEVEL.split(), *FURTHER.split()}

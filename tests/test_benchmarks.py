@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks.chain import make_chain, make_repeated_chain
+from benchmarks.same_outputs import commands_for, digest, run_all
 from benchmarks.table import Budget, Row, Side, average_rows, format_row, make_record
 from benchmarks.worker import ACTIONS, run_process, run_turn
 from linkforge_compile import compile_text, render_urdf
@@ -87,6 +88,22 @@ def test_the_command_line_has_help_and_refuses_what_it_cannot_measure(tmp_path: 
         run = compare(*arguments)
         assert run.returncode
         assert message in run.stderr
+
+
+def test_outputs_are_those_of_the_code_that_is_given(tmp_path: Path):
+    cli = tmp_path / "linkforge_compile" / "cli"
+    cli.mkdir(parents=True)
+    for name in ("__init__.py", "cli/__init__.py"):
+        (cli.parent / name).touch()
+    main = "import os\ndef main(words):\n  print('a', flush=True)\n  os.write(2, b'b')\n  raise SystemExit(3)\n"
+    (cli / "main.py").write_text(main, "utf-8")
+    robot = ROOT / "examples" / "arm.robot.yaml"
+    outputs = run_all([robot], tmp_path)
+    assert set(outputs.values()) == {digest("exit 3\na\nb")}
+    assert len(outputs) == len([*commands_for(str(robot), tmp_path)])
+    (tmp_path / "linkforge_compile").rename(tmp_path / "elsewhere")
+    with pytest.raises(SystemExit, match="linkforge ended"):
+        run_all([robot], tmp_path)
 
 
 @pytest.mark.skipif(not Path(sys.prefix, "bin", "linkforge").exists(), reason="not installed in an environment")

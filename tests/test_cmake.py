@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import pytest
 
 from linkforge_compile import __version__
 from linkforge_compile.cli.targets import name_of
+from linkforge_compile.formats import FORMATS
 from tests.conftest import ROOT
 from tests.programs import program
 
@@ -291,3 +293,9 @@ def test_a_missing_command_is_told(tmp_path: Path):
     assert run.returncode != 0
     said = " ".join(run.stderr.split())
     assert "there is no command 'linkforge' beside it nor on the PATH; set LINKFORGE_EXECUTABLE" in said
+
+
+def test_the_formats_that_cmake_knows_are_those_of_the_package():
+    text = (ROOT / "cmake" / "linkforge_add_robot.cmake").read_text("utf-8")
+    known = re.findall(r"^  set\(formats (.*)\)$", text, re.MULTILINE)
+    assert known == [" ".join(one.name for one in FORMATS if one.suffix == f".{one.name}")]

@@ -58,14 +58,14 @@ def test_readers_take_the_urdf_of_collisions():
 
 
 def test_the_names_and_filters_of_the_page_are_those_that_there_are():
+    from linkforge_compile.formats import FORMATS
     from linkforge_compile.formats.environment import FILTERS
-    from linkforge_compile.formats.sandbox import NAMES
 
     named, filters = (
         set(re.findall(r"^\| `(\w+)` \|", PAGE.partition(head)[2].partition("\n\n")[0], re.MULTILINE))
         for head in ("| name |", "| filter |")
     )
-    assert named == set(NAMES)
+    assert named == {"robot", "banner", *(one.name for one in FORMATS)}
     assert filters == set(FILTERS)
 
 

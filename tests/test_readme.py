@@ -6,6 +6,7 @@ import pytest
 
 from benchmarks import lines
 from linkforge_compile import compile_text, render_urdf
+from linkforge_compile.cli.main import COMMANDS
 from linkforge_compile.diagnostics.render.text import render_text
 from linkforge_compile.units import UNITS
 from tests.conftest import ROOT
@@ -21,6 +22,11 @@ def test_ci_runs_the_test_command_of_the_readme():
 def test_every_file_that_the_readme_names_exists():
     for target in re.findall(r"\]\((?!http)([^)#]+)", README):
         assert (ROOT / target).exists(), target
+
+
+def test_the_readme_lists_every_command():
+    listed = re.findall(r"^linkforge (\w+) ", README, re.MULTILINE)
+    assert set(listed) == set(COMMANDS)
 
 
 def block(language: str) -> str:

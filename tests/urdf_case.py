@@ -1,4 +1,4 @@
-"""Expected diagnostics stand in the URDF itself, as comments on their line, in the form that yaml_case.py tells."""
+"""Tests of URDF files with their expected diagnostics as comments on the line, in the form of yaml_case.py."""
 
 import re
 from collections.abc import Iterator
@@ -16,9 +16,9 @@ def expected_in_xml(file: str, text: str) -> Iterator[Told]:
 
 
 def check_urdf_case(path: Path) -> None:
-    """Import a URDF file, with the SRDF of its name if there is one, and compare what is told with what they expect.
+    """Import a URDF file, with the SRDF of its name if any, and compare its diagnostics with the expected ones.
 
-    What readers of URDF refuse is told where the file is compiled, not where it is imported.
+    Compiling a file reports what readers of URDF reject, importing it does not.
     """
     is_compiled = path.parent.name == "refused_urdf"
     judged = check_file(path) if is_compiled else import_urdf(path, srdf=srdf_of(path))

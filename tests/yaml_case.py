@@ -1,4 +1,4 @@
-"""Expected diagnostics stand in the spec itself, at the end of their line, and are compared as sets.
+"""Tests of specs with their expected diagnostics at the end of the line, compared as sets.
 
     child: fore_arm   # E[LF4102]:12 no link named 'fore_arm'; did you mean 'forearm'?
 
@@ -64,7 +64,7 @@ def told(compilation: Compilation | Import) -> set[Told]:
 
 
 def check_case(path: Path) -> None:
-    """Compile a spec file and compare what is told with what it and the modules it reads expect."""
+    """Compile a spec file; compare its diagnostics with those expected in it and in its modules."""
     compilation = compile_file(path, parameters=[])  # as the command line does, which the cases speak of
     files = {path, *compilation.files}
     wanted = {one for file in files for one in expected(file.name, file.read_text("utf-8", errors="replace"))}
@@ -72,7 +72,7 @@ def check_case(path: Path) -> None:
 
 
 def compile_yaml(text: str, **options: object) -> Compilation:
-    """Compile a spec written in a test, compare what is told with what it expects, and return the compilation."""
+    """Compile a spec in a test, compare its diagnostics with the expected ones, and return the compilation."""
     text = dedent(text).lstrip("\n")
     compilation = compile_text(text, name="test.robot.yaml", **options)  # type: ignore[arg-type]  # passed on as they are
     assert told(compilation) == set(expected("test.robot.yaml", text))

@@ -112,7 +112,7 @@ def check(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     for check_robot in ROBOT_CHECKS:
         yield from check_robot(robot, unresolved)
     # Reading the semantic part of a robot that has none creates one, and imports its classes.
-    for check_semantic in SEMANTIC_CHECKS if robot.says_semantic else ():
+    for check_semantic in SEMANTIC_CHECKS if robot.has_semantic else ():
         yield from check_semantic(robot, unresolved)
     meshes = RobotMeshes(robot, unresolved)
     for check_meshes in MESH_CHECKS:

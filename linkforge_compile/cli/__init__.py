@@ -1,1 +1,1 @@
-"""The `linkforge` command: the only room that prints and exits."""
+"""The `linkforge` command. Only this package prints and exits."""

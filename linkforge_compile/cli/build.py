@@ -1,20 +1,26 @@
-"""One build: a spec compiled, and what comes out of it told, written or compared."""
+"""Compiles a spec, and writes its outputs or compares them with existing files."""
 
 from __future__ import annotations
 
+from itertools import zip_longest
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.banner import banner_of
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK
-from linkforge_compile.cli.one_spec import compile_spec
+from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.inputs import compile_spec
+from linkforge_compile.cli.options import format_options_of
+from linkforge_compile.cli.reports import print_status, report
 from linkforge_compile.cli.targets import file_to_write
-from linkforge_compile.cli.telling import say, tell
+from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics.codes.formats import MISSING_OUTPUT, STALE_OUTPUT
+from linkforge_compile.formats import Rendering, format_named, render_documents
+from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Sequence
 
     from linkforge_compile.cli.targets import Targets
     from linkforge_compile.core import Robot
@@ -22,19 +28,20 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.user_templates import TemplateFolder
     from linkforge_compile.pipeline import Compilation
 
-_Options: TypeAlias = "Mapping[str, Mapping[str, object]]"
-"""What the renderer of each format takes besides the robot and a banner."""
+
+_LONGEST_QUOTE = 120
+"""The most characters of a line that a message quotes."""
 
 
 class Output(NamedTuple):
-    """A text and where it goes; None is standard output."""
+    """A text and its file, None for standard output."""
 
     path: Path | None
     text: str
 
 
-class Order(NamedTuple):
-    """What is to be built: a spec, with its parameters as typed, into targets, by a user's templates if any."""
+class BuildRequest(NamedTuple):
+    """What to build: a spec with assignments to its parameters, the targets, and the user's templates if any."""
 
     spec: str
     assignments: list[str]
@@ -47,124 +54,144 @@ class Order(NamedTuple):
         return self.templates.files if self.templates else ()
 
 
-def targets_for(robot: Robot, targets: Targets) -> Targets | None:
-    """Return those that are written of a robot; None where an SRDF is asked for in vain."""
-    if robot.says_semantic and not robot.semantic.is_empty:
-        return targets
-    if targets.is_srdf_asked_for and "srdf" in targets.paths:
-        return None
-    return targets.without_srdf()
+def targets_for(robot: Robot, targets: Targets) -> tuple[Targets, tuple[Diagnostic, ...]]:
+    """Return the targets for which the robot has content, and diagnostics about requested ones without."""
+    missing = {name: why for name in targets.formats if (why := format_named(name).missing(robot))}
+    return targets.without(missing), tuple(missing.values()) if targets.is_requested else ()
 
 
-def compile_order(order: Order, arguments: argparse.Namespace) -> Compilation:
-    """Compile the spec, as the options of `linkforge compile` say."""
-    folder = order.targets.folder if arguments.installed_in is None else Path(arguments.installed_in)
-    return compile_spec(order.spec, order.assignments, arguments, folder)
+def paths_for(robot: Robot, targets: Targets) -> tuple[Path, ...]:
+    """Return the files that rendering a robot to the targets writes."""
+    return tuple(
+        _place(path, name)
+        for format_, path in targets.paths.items()
+        if path is not None
+        for name in format_named(format_).file_names(robot)
+    )
 
 
-def deliver(order: Order, compilation: Compilation, arguments: argparse.Namespace) -> int:
-    """Tell of a compilation and write or compare what comes out of it; return the exit code."""
-    outputs, faults = ((), ()) if compilation.robot is None else _outputs(compilation.robot, order, arguments)
+def _place(target: Path, name: str) -> Path:
+    """Return the file of a document: the target, or a file below it for a format of several files."""
+    return target / name if name else target
+
+
+def compile_request(request: BuildRequest, arguments: argparse.Namespace) -> Compilation:
+    """Compile the spec of a request with the options of `linkforge compile`."""
+    folder = request.targets.folder if arguments.installed_in is None else Path(arguments.installed_in)
+    return compile_spec(request.spec, request.assignments, arguments, output=folder, formats=request.targets.formats)
+
+
+def write_outputs(request: BuildRequest, compilation: Compilation, arguments: argparse.Namespace) -> int:
+    """Report on a compilation, and render and write its outputs, or compare them; return the exit code."""
+    outputs, faults = ((), ()) if compilation.robot is None else _render(compilation.robot, request, arguments)
+    sources = (*compilation.files, *request.template_files)
     if outputs:
         from linkforge_compile.cli.output import refuse_to_replace
 
-        made_from = (*compilation.files, *order.template_files)
-        refuse_to_replace(made_from, (*(output.path for output in outputs), file_to_write(arguments.depfile)))
-    stale = _stale(outputs, order, compilation.robot) if arguments.check else ()
-    report = (
-        sorted((*compilation.diagnostics, *faults), key=lambda one: one.order) if faults else compilation.diagnostics
-    )
-    if tell((*report, *stale), arguments) or not outputs:
+        refuse_to_replace(sources, (*(output.path for output in outputs), file_to_write(arguments.depfile)))
+    stale = _find_stale(outputs, request, compilation.robot) if arguments.check else ()
+    diagnostics = compilation.diagnostics
+    if faults:
+        diagnostics = tuple(sorted((*diagnostics, *faults), key=lambda one: one.order))
+    if report((*diagnostics, *stale), arguments) or not outputs:
         return FAULTY_SPEC
-    if arguments.depfile is None:
-        _put(outputs, arguments)
-    else:
-        # Who asks for a depfile is a build, which tells itself what it makes; colcon takes a word on standard error
-        # for a warning.
-        inputs = (*compilation.files, *order.template_files)
-        _write((*outputs, _depfile(outputs, inputs, arguments.depfile)))
+    if arguments.depfile is not None:
+        # A build system prints its own status, and colcon shows any output on standard error as a warning.
+        _write((*outputs, _depfile(outputs, sources, arguments.depfile)))
+        return OK
+    written = frozenset() if arguments.check else _write(outputs)
+    for path, _ in outputs:
+        if path is not None:
+            print_status(f"wrote {path}" if path in written else f"{path} is up to date", arguments)
     return OK
 
 
-def _outputs(
-    robot: Robot, order: Order, arguments: argparse.Namespace
+def _render(
+    robot: Robot, request: BuildRequest, arguments: argparse.Namespace
 ) -> tuple[tuple[Output, ...], tuple[Diagnostic, ...]]:
-    """Return what goes where, all of it rendered before any is written; nothing, and why, where that cannot be."""
-    targets = targets_for(robot, order.targets)
-    if targets is None:
-        from linkforge_compile.diagnostics.codes.backends import NO_SEMANTIC_PART
-
-        return (), (NO_SEMANTIC_PART.at(robot.source, "name", robot=robot.name),)
-    name = Path(order.spec).name
-    banner = None if order.spec == "-" else banner_of(on_one_line(name))
-    if order.templates is not None:
-        return _of_templates(robot, banner, targets, order.templates, arguments)
-    if arguments.source_map:
-        return tuple(_with_maps(robot, banner, targets, _options(arguments))), ()
-    return _rendered(robot, banner, targets, _options(arguments)), ()
-
-
-def _options(arguments: argparse.Namespace) -> _Options:
-    return {"urdf": {"gazebo": arguments.gazebo}, "srdf": {}}
-
-
-def _rendered(robot: Robot, banner: str | None, targets: Targets, options: _Options) -> tuple[Output, ...]:
-    from linkforge_compile.formats import BACKENDS
-
-    return tuple(
-        Output(path, BACKENDS[format_](robot, banner=banner, **options[format_]))
-        for format_, path in targets.paths.items()
-    )
-
-
-def _of_templates(
-    robot: Robot, banner: str | None, targets: Targets, templates: TemplateFolder, arguments: argparse.Namespace
-) -> tuple[tuple[Output, ...], tuple[Diagnostic, ...]]:
+    """Return all outputs, or none if one cannot be rendered, and diagnostics about them."""
+    targets, faults = targets_for(robot, request.targets)
+    if faults:
+        return (), faults
+    name = Path(request.spec).name
+    banner = None if request.spec == "-" else banner_of(on_one_line(name))
+    options = format_options_of(arguments)
+    if request.templates is None:
+        rendering = Rendering(options, banner=banner, has_map=arguments.source_map)
+        return tuple(_render_formats(robot, targets, rendering)), ()
     from linkforge_compile.formats.user_templates import TemplateError
 
     try:
         if targets.are_documents:
-            texts = templates.render(robot, banner=banner or "", gazebo=arguments.gazebo)
-            return tuple(Output(path, texts[name]) for name, path in targets.paths.items()), templates.unused
-        options = {format_: {**more, "templates": templates} for format_, more in _options(arguments).items()}
-        return _rendered(robot, banner, targets, options), templates.unused
+            texts = render_documents(robot, request.templates, options, banner or "")
+            outputs = tuple(Output(path, texts[name]) for name, path in targets.paths.items())
+        else:
+            rendering = Rendering(options, banner=banner, templates=request.templates)
+            outputs = tuple(_render_formats(robot, targets, rendering))
+        return outputs, request.templates.unused
     except TemplateError as error:
         return (), error.diagnostics
 
 
-def _with_maps(robot: Robot, banner: str | None, targets: Targets, options: _Options) -> Iterator[Output]:
-    from linkforge_compile.formats.map_file import ENDING, map_text
-    from linkforge_compile.formats.source_map import WITH_MAP
+def _render_formats(robot: Robot, targets: Targets, rendering: Rendering) -> Iterator[Output]:
+    """Yield the documents of each format, each with its source map if that is requested."""
+    for format_, target in targets.paths.items():
+        documents = format_named(format_).render(robot, rendering)
+        if target is None:
+            if len(documents) > 1:
+                raise UsageError(
+                    f"{format_} is {len(documents)} files, and standard output takes one; write -o FOLDER/"
+                )
+            yield Output(None, documents[0].text)
+            continue
+        for text, name, map_ in documents:
+            path = _place(target, name)
+            yield Output(path, text)
+            if map_ is not None:
+                from linkforge_compile.formats.map_file import ENDING, map_text
 
-    for format_, path in targets.paths.items():
-        assert path is not None, "a map lies beside a file"
-        mapped = WITH_MAP[format_](robot, banner=banner, **options[format_])
-        yield Output(path, mapped.text)
-        yield Output(path.with_name(path.name + ENDING), map_text(mapped, path.name, path.parent))
+                yield Output(path.with_name(path.name + ENDING), map_text(text, map_, path.name, path.parent))
 
 
-def _stale(outputs: Sequence[Output], order: Order, robot: Robot | None) -> Iterator[Diagnostic]:
-    from linkforge_compile.cli.uptodate import difference
-    from linkforge_compile.source import Span
-
-    # Tools that gather diagnostics show those that have a place only.
-    whole = Span(robot.source.span.file, 1, 1, 1, 1) if robot and robot.source else None
-    templates = order.templates.folder if order.templates else None
+def _find_stale(outputs: Sequence[Output], request: BuildRequest, robot: Robot | None) -> Iterator[Diagnostic]:
+    """Yield a diagnostic for each file that is missing or differs from its output."""
+    # Tools that collect diagnostics show only those with a place.
+    place = Span(robot.source.span.file, 1, 1, 1, 1) if robot and robot.source else None
     for path, text in outputs:
         assert path is not None, "only files are compared"
-        if found := difference(path, text, order.spec, whole, templates):
-            yield found
+        try:
+            found = path.read_bytes().decode("utf-8", errors="replace")
+        except FileNotFoundError:
+            yield MISSING_OUTPUT.at(place, path=path, spec=request.spec)
+            continue
+        except OSError as error:
+            raise UsageError(f"cannot read '{path}': {error.strerror}") from error
+        # git may have converted line ends to those of the system.
+        found = found.replace("\r\n", "\n")
+        if found != text:
+            yield _first_difference(SourceFile(str(path), found, path), text, request)
 
 
-def _put(outputs: Sequence[Output], arguments: argparse.Namespace) -> None:
-    written = frozenset() if arguments.check else _write(outputs)
-    for path, _ in outputs:
-        if path is not None:
-            say(f"wrote {path}" if path in written else f"{path} is up to date", arguments)
+def _first_difference(file: SourceFile, text: str, request: BuildRequest) -> Diagnostic:
+    """Return the diagnostic for a file that should contain the text, at the first line that differs."""
+    pairs = zip_longest(file.text.split("\n"), text.split("\n"))
+    number, found, expected = next((at, *pair) for at, pair in enumerate(pairs, 1) if pair[0] != pair[1])
+    span = Span(file, number, 1, number, 1 + len(found or ""))
+    notes = []
+    if request.templates:
+        notes = [Note(f"the templates in '{request.templates.folder}' make it of the spec, and may have changed")]
+    return STALE_OUTPUT.at(span, spec=request.spec, expected=_quote(expected), notes=notes)
+
+
+def _quote(line: str | None) -> str:
+    line = (line or "").strip()
+    if not line:
+        return "nothing"
+    return f"'{line if len(line) <= _LONGEST_QUOTE else line[:_LONGEST_QUOTE] + '…'}'"
 
 
 def _write(outputs: Sequence[Output]) -> frozenset[Path]:
-    """Write all outputs, or none where one cannot be; return the files that had to be written."""
+    """Write all outputs; return the files that were written, without those that are up to date."""
     from linkforge_compile.cli.output import write_changed
 
     texts = {output.path: output.text for output in outputs if output.path is not None}

@@ -1,4 +1,4 @@
-"""The manual: one page a code, as `linkforge explain LF4102` prints it."""
+"""The manual: a page for each diagnostic code, as `linkforge explain LF4102` prints it."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ _BOLD, _CYAN, _RESET = "\033[1m", "\033[36m", "\033[0m"
 
 
 class UnknownCodeError(Exception):
-    """No diagnostic has this code; the message says which was probably meant."""
+    """No diagnostic has this code; the message suggests a similar one."""
 
 
 def is_code(word: str) -> bool:
-    """Whether a word of the command line means a diagnostic, known or not: LF and digits, in either case."""
+    """Whether a word has the form of a code, LF and digits in either case; the code may be unknown."""
     return re.fullmatch(r"LF\d+", word, re.IGNORECASE) is not None
 
 
@@ -38,19 +38,19 @@ def heading(code: Code) -> str:
 
 
 def register_table() -> str:
-    """Return every code with its severity and title, a line each."""
+    """Return a line for each code, with its severity and title."""
     width = max(len(code.severity) for code in REGISTER.values())
     codes = sorted(REGISTER.values(), key=lambda code: code.id)
     return "".join(f"{code.id}  {code.severity:{width}}  {code.title}\n" for code in codes)
 
 
 def _styled(text: str) -> Iterator[str]:
-    """Yield Markdown's lines with its signs turned into weight, colour and indentation."""
+    """Yield lines of Markdown with headings in bold, code in color and examples indented."""
     is_example = False
     for line in text.splitlines():
         if line.startswith("```"):
             is_example = not is_example
-            # The one part of a fence that is more than layout: the name of the example's file.
+            # A fence may name the example's file.
             _, _, file = line.partition(" file=")
             if file:
                 yield f"{file}:"

@@ -1,4 +1,4 @@
-"""The options that every command on a spec has."""
+"""The argument parser, and options that several commands share."""
 
 from __future__ import annotations
 
@@ -8,22 +8,20 @@ from pathlib import Path
 from typing import NoReturn
 
 from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.formats import declared_options
 from linkforge_compile.source.characters import on_one_line
 
 
 class Parser(argparse.ArgumentParser):
-    """Reads the words of one command."""
+    """Parses the arguments of one command; its errors cannot send control characters to a terminal."""
 
     def error(self, message: str) -> NoReturn:
-        # It quotes words, and a script may take those from the names of files: they have no say over a terminal.
+        # The message quotes words, which a script may have taken from names of files.
         super().error(on_one_line(message))
 
 
-class Once(argparse.Action):
-    """Takes the value of an option that may be given once, as every one is that collects nothing.
-
-    Of two values, none is forgotten in silence.
-    """
+class StoreOnce(argparse.Action):
+    """Stores the value of an option, and rejects a second value, which argparse's own action would prefer silently."""
 
     def __call__(
         self,
@@ -40,28 +38,30 @@ class Once(argparse.Action):
 
 
 def add_spec_and_values(parser: argparse.ArgumentParser) -> None:
-    """Add the one spec of a command and the values of its parameters, which `split_assignments` tells apart."""
+    """Add a spec and ROS's NAME:=VALUE as one list of words, which `split_assignments` separates."""
     parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
 
 
 def add_spec_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options that choose how a spec is compiled."""
     add_parameter_option(parser, "set a parameter of the spec, such as reach=0.7m")
     parser.add_argument(
         "--variant",
         metavar="NAME",
-        help="the variant of the spec that sets what -p does not, before the defaults",
+        help="the variant of the spec whose values replace the defaults; -p replaces those of the variant",
     )
     add_package_option(parser)
     add_outside_option(parser)
-    parser.add_argument(
-        "--gazebo",
-        choices=("gz", "classic"),
-        default="gz",
-        help="the simulator that reads the sensors (gz unless said)",
-    )
+    for option in declared_options():
+        parser.add_argument(f"--{option.name}", choices=option.choices, default=option.default, help=option.help)
 
 
-def add_parameter_option(parser: argparse.ArgumentParser, what: str) -> None:
+def format_options_of(arguments: argparse.Namespace) -> dict[str, str]:
+    """Return the values of the options that output formats declare."""
+    return {option.name: getattr(arguments, option.name) for option in declared_options()}
+
+
+def add_parameter_option(parser: argparse.ArgumentParser, description: str) -> None:
     parser.add_argument(
         "-p",
         "--parameter",
@@ -69,7 +69,7 @@ def add_parameter_option(parser: argparse.ArgumentParser, what: str) -> None:
         dest="parameters",
         action="append",
         default=[],
-        help=f"{what}; ROS's NAME:=VALUE works too, with or without -p",
+        help=f"{description}; ROS's NAME:=VALUE works too, with or without -p",
     )
 
 
@@ -80,7 +80,7 @@ def add_package_option(parser: argparse.ArgumentParser) -> None:
         dest="packages",
         action="append",
         default=[],
-        help="the folder that package://NAME/ stands for, before any other place it is looked for",
+        help="the folder of package://NAME/, which is used before any other place is searched",
     )
 
 
@@ -88,13 +88,13 @@ def add_outside_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--allow-outside",
         action="store_true",
-        help="let the spec read any file; else what it names lies in its package or repository (or its folder), in"
-        " --package, AMENT_PREFIX_PATH or ROS_PACKAGE_PATH",
+        help="let the spec read any file (default: only files in its package or repository, or else its folder, and"
+        " in --package, AMENT_PREFIX_PATH and ROS_PACKAGE_PATH)",
     )
 
 
 def packages_of(arguments: argparse.Namespace) -> dict[str, str]:
-    """Return the `--package` options as folder by name; UsageError for one that is not NAME=PATH."""
+    """Return the `--package` options as folders by name; UsageError if one is not NAME=PATH."""
     packages: dict[str, str] = {}
     for pair in arguments.packages:
         name, separator, folder = pair.partition("=")
@@ -112,7 +112,7 @@ def name_set_by(pair: str) -> str:
 
 
 def split_assignments(words: Iterable[str]) -> tuple[list[str], list[str]]:
-    """Part the words of a command line into specs and ROS's `name:=value`."""
+    """Separate the words of a command line into specs and `NAME:=VALUE`."""
     specs: list[str] = []
     assignments: list[str] = []
     for word in words:

@@ -1,55 +1,68 @@
-"""Where a compile writes: from `-o` and `--format` to a file for each format."""
+"""Chooses the file of each output from `-o` and `--format`."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
+from linkforge_compile import formats
 from linkforge_compile.cli.exits import UsageError
 
 if TYPE_CHECKING:
     import argparse
 
-FORMATS = ("urdf", "srdf")
-_FILE_ENDINGS = (".urdf", ".srdf", ".xml")
 _SPEC_ENDINGS = (".yaml", ".yml")
 _STANDARD_OUTPUT = "-"
 
 
 class Targets(NamedTuple):
-    """Where each format goes, by name, None for standard output; `srdf` may be left out unless it was asked for.
+    """The target of each format, by the format's name; None for standard output.
 
-    In place of formats, `are_documents`, they may be the documents of a folder of templates.
+    Formats that the robot has nothing for are left out unless `is_requested`, by `--format` or by name of a file. With
+    `are_documents`, the targets are those of the documents of a folder of templates, by the document's name.
     """
 
     paths: Mapping[str, Path | None]
-    is_srdf_asked_for: bool = True
+    is_requested: bool = True
     are_documents: bool = False
 
     @property
-    def folder(self) -> Path | None:
-        """The folder that the URDF is for, None where that is not known."""
-        urdf = self.paths.get("urdf")
-        return urdf.parent if urdf else None
+    def formats(self) -> tuple[str, ...]:
+        """The names of the formats."""
+        return () if self.are_documents else tuple(self.paths)
 
-    def without_srdf(self) -> Targets:
-        paths = {format_: path for format_, path in self.paths.items() if format_ != "srdf"}
+    @property
+    def folder(self) -> Path | None:
+        """The folder where relative paths in the documents start; None where that is not known."""
+        names = (name for name in self.formats if formats.format_named(name).has_relative_paths)
+        path = self.paths.get(next(names, ""))
+        return path.parent if path else None
+
+    def without(self, names: Collection[str]) -> Targets:
+        paths = {name: path for name, path in self.paths.items() if name not in names}
         return self._replace(paths=MappingProxyType(paths))
 
     def require_files(self, option: str, why: str) -> None:
-        """Refuse an option that has no meaning where the output is no file."""
-        if any(path is None or (path.exists() and not path.is_file()) for path in self.paths.values()):
+        """Refuse an option that needs files as outputs, not standard output, a device or a pipe."""
+        if any(
+            path is None or (path.exists() and not (path.is_file() or path.is_dir())) for path in self.paths.values()
+        ):
             raise UsageError(f"{option} {why}, so it takes -o with a folder or a file")
 
 
 def add_target_options(parser: argparse.ArgumentParser) -> None:
     add_output_option(parser)
-    parser.add_argument("--format", choices=FORMATS, help="only this one (standard output: urdf unless said)")
+    names = [one.name for one in formats.FORMATS]
+    about = "; ".join(f"{one.name}: {one.description}" for one in formats.FORMATS)
+    parser.add_argument(
+        "--format", choices=names, help=f"only this one (default on standard output: {names[0]}); {about}"
+    )
 
 
 def add_output_option(parser: argparse.ArgumentParser) -> None:
+    written = " and ".join(f"NAME{one.suffix}" for one in formats.FORMATS if one.is_default)
     parser.add_argument(
         "-o",
         "--output",
@@ -57,32 +70,37 @@ def add_output_option(parser: argparse.ArgumentParser) -> None:
         dest="outputs",
         action="append",
         default=[],
-        help="a folder for NAME.urdf and NAME.srdf, or a file that ends in .urdf, .srdf or .xml; "
-        "once more for the file of the other format",
+        help=f"a folder for {written}, or a file that ends in {_listed(_file_endings())}; "
+        "once more for the file of another format",
     )
 
 
 def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets:
-    """Return where each format of a spec goes; UsageError for outputs that cannot be meant together."""
+    """Return the target of each format of a spec; UsageError for outputs that contradict each other."""
     if "" in outputs:
         raise UsageError("-o takes a file or a folder, found '': is a variable of the shell empty?")
     if not outputs or (len(outputs) == 1 and file_to_write(outputs[0]) is None):
-        return Targets({chosen or "urdf": None})
+        return Targets({chosen or default_format().name: None})
     if len(outputs) > 1:
         return Targets(_several(outputs, chosen))
     (output,) = outputs
-    if _is_file(output):
+    if _is_file(output, _file_endings()):
         return Targets({_format_of_file(output, chosen): Path(output)})
     folder, name = Path(output), name_of(spec)
-    paths = {format_: folder / f"{name}.{format_}" for format_ in FORMATS if chosen in (None, format_)}
-    return Targets(paths, is_srdf_asked_for=chosen == "srdf")
+    written = [one for one in formats.FORMATS if (one.name == chosen if chosen else one.is_default)]
+    return Targets({one.name: folder / f"{name}{one.suffix}" for one in written}, is_requested=chosen is not None)
+
+
+def default_format() -> formats.Format:
+    """Return the format on standard output unless another is requested."""
+    return formats.FORMATS[0]
 
 
 def targets_of_documents(names: Sequence[str], outputs: Sequence[str]) -> Targets | None:
-    """Return where the documents of a folder of templates go; None where `outputs` name files of URDF or SRDF.
+    """Return the targets of a folder of templates' documents; None if `outputs` name files of formats.
 
     Raises:
-        UsageError: for several documents that would go to standard output.
+        UsageError: Several documents would go to standard output.
 
     """
     if not outputs or (len(outputs) == 1 and file_to_write(outputs[0]) is None):
@@ -92,26 +110,26 @@ def targets_of_documents(names: Sequence[str], outputs: Sequence[str]) -> Target
         return Targets({names[0]: None}, are_documents=True)
     if len(outputs) == len(names) == 1 and _is_document(outputs[0], names[0]):
         return Targets({names[0]: Path(outputs[0])}, are_documents=True)
-    if len(outputs) > 1 or not outputs[0] or _is_file(outputs[0]):
+    if len(outputs) > 1 or not outputs[0] or _is_file(outputs[0], _file_endings()):
         return None
     return Targets({name: Path(outputs[0], name) for name in names}, are_documents=True)
 
 
 def _is_document(output: str, name: str) -> bool:
-    """Whether `-o` names the file of a document: one with an ending, that of a format if the document has it."""
+    """Whether `-o` names a document's file: one with a suffix, but not of a format that the document has not."""
     path = Path(output)
     is_folder = output.endswith(("/", "\\")) or path.is_dir()
-    is_of_format = path.suffix in {".urdf", ".srdf"} and path.suffix != Path(name).suffix
+    is_of_format = path.suffix in _suffixes() and path.suffix != Path(name).suffix
     return not is_folder and bool(path.suffix) and not is_of_format
 
 
 def file_to_write(output: str | None) -> Path | None:
-    """Return the file that an option names to write, None for standard output: nothing, or `-`."""
+    """Return the output file that an option names, None for standard output: no option, or `-`."""
     return None if output is None or output == _STANDARD_OUTPUT else Path(output)
 
 
 def imported_spec(robot: str, output: str | None) -> Path | None:
-    """Return where an imported spec goes: a file, NAME.robot.yaml in a folder, None for standard output."""
+    """Return the file of an imported spec, which is NAME.robot.yaml in a folder; None for standard output."""
     path = file_to_write(output)
     if output is None or path is None:
         return None
@@ -119,7 +137,7 @@ def imported_spec(robot: str, output: str | None) -> Path | None:
 
 
 def name_of(spec: str) -> str:
-    """Return what the files of a spec are named after: arm for arm.robot.yaml, arm.xml and arm.urdf.xacro."""
+    """Return the name of a spec's outputs: arm for arm.robot.yaml, arm.xml and arm.urdf.xacro."""
     if spec == "-":
         return "robot"
     name = Path(spec).name
@@ -133,7 +151,7 @@ def _several(outputs: Sequence[str], chosen: str | None) -> dict[str, Path | Non
     for output in outputs:
         if file_to_write(output) is None:
             raise UsageError("-o - is standard output, which takes one format; leave the other -o out")
-        if not _is_file(output):
+        if not _is_file(output, _file_endings()):
             raise UsageError(f"-o takes several files, one a format, or one folder; found the folder '{output}'")
         format_ = _format_of_file(output, chosen)
         if format_ in paths:
@@ -142,25 +160,39 @@ def _several(outputs: Sequence[str], chosen: str | None) -> dict[str, Path | Non
     return paths
 
 
+def _suffixes() -> dict[str, str]:
+    """Return the names of the formats of one file by suffix."""
+    return {one.suffix: one.name for one in formats.FORMATS if one.suffix.startswith(".")}
+
+
+def _file_endings() -> tuple[str, ...]:
+    return (*_suffixes(), ".xml")
+
+
+def _listed(endings: Sequence[str]) -> str:
+    *others, last = endings
+    return f"{', '.join(others)} or {last}"
+
+
 def _format_of_file(output: str, chosen: str | None) -> str:
-    other = "srdf" if chosen == "urdf" else "urdf"
-    if chosen and Path(output).suffix == f".{other}":
+    """Return the format of a file by its suffix; a file with any other suffix may have any format."""
+    of_suffix = _suffixes().get(Path(output).suffix)
+    if chosen and of_suffix not in (None, chosen):
         raise UsageError(f"--format {chosen} does not go into '{output}'")
-    return chosen or ("srdf" if Path(output).suffix == ".srdf" else "urdf")
+    return chosen or of_suffix or default_format().name
 
 
-def _is_file(output: str, endings: Sequence[str] = _FILE_ENDINGS) -> bool:
-    """Whether `-o` names a file: one with one of the endings, a device or a pipe; all else are folders.
+def _is_file(output: str, endings: Sequence[str]) -> bool:
+    """Whether `-o` names a file: one with one of the endings, a device or a pipe. Other words name folders.
 
-    An ending that is neither is refused: `-o arm.robot.yaml` would else replace the spec, or make a folder of it.
+    UsageError for any other suffix: `-o arm.robot.yaml` would replace the spec, or create a folder of that name.
     """
     path = Path(output)
     if output.endswith(("/", "\\")) or path.is_dir():
         return False
     if path.suffix and path.suffix not in endings:
-        *others, last = endings
         raise UsageError(
-            f"-o takes a folder, or a file that ends in {', '.join(others)} or {last}; found '{output}'"
+            f"-o takes a folder, or a file that ends in {_listed(endings)}; found '{output}'"
             f" (for a folder of that name, write '{output}/')"
         )
     return bool(path.suffix) or (path.exists() and not path.is_file())

@@ -10,7 +10,7 @@ PI: Final = math.pi
 HALF_PI: Final = math.pi / 2
 
 UNKNOWN: Final = sys.float_info.max
-"""Stands in for a number whose fault was told, so that what bears it stays; never written or spoken of."""
+"""Replaces a faulty number after its error is reported, so that its element can be built; never written."""
 
 EPSILON: Final = 1e-9
 """How far a unit vector's length may be from 1, and below which a length, an axis or a reduction counts as zero."""
@@ -19,9 +19,9 @@ IR_VERSION: Final = "1.1"
 
 # Links
 WORLD: Final = "world"
-"""The link that stands for the world: Gazebo takes it for that, and it needs no mass."""
+"""The link that represents the world, to Gazebo as well; it needs no mass."""
 DEFAULT_LINK_MASS: Final = 1.0  # [kg]
-MIN_REASONABLE_INERTIA: Final = 1e-9  # [kg·m²], the diagonal of a tensor that nobody stated
+MIN_REASONABLE_INERTIA: Final = 1e-9  # [kg·m²], the diagonal of a tensor that is not given
 DEFAULT_SELF_COLLIDE: Final = False
 GRAVITY_ENABLED: Final = True
 DEFAULT_FRICTION_MU: Final = 1.0  # Coulomb, first direction

@@ -1,4 +1,4 @@
-"""The exceptions of the IR: what a constructor or a robot refuses, why, and which field is at fault."""
+"""The exceptions of the model, with a code, the field at fault and the value found."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class LinkForgeError(Exception):
     """Anything that LinkForge refuses. Every error pickles, so that a process pool hands it back whole."""
 
     def __reduce__(self) -> tuple[object, ...]:
-        # Exception's own way calls the constructor with the finished sentence, which most of these cannot take.
+        # Exception.__reduce__ calls the constructor with the finished sentence, which most of these do not accept.
         return _revive, (type(self), self.args, self.__dict__)
 
 
@@ -50,7 +50,7 @@ def _revive(kind: type[LinkForgeError], args: tuple[object, ...], facts: dict[st
 
 
 class RobotModelError(LinkForgeError):
-    """A robot, or a part of one, that cannot be.
+    """A robot or a part of one that is not valid.
 
     `message` is the sentence by itself, `str(error)` the sentence with code, target and value around it.
     `target` names the rule's subject for programs ("JointLimits"), `value` is what was found; None for neither.
@@ -67,7 +67,7 @@ class RobotModelError(LinkForgeError):
 
 
 class _CodedModelError(RobotModelError):
-    """A model error with its facts; `prefix` stands before the code in the text."""
+    """A model error with its facts; `prefix` precedes the code in the text."""
 
     prefix = ""
 
@@ -98,19 +98,19 @@ class RobotValidationError(_CodedModelError):
 
 
 class RobotPhysicsError(_CodedModelError):
-    """A size or a mass that no body has."""
+    """A size or a mass that is physically impossible."""
 
     prefix = "PHYSICS_"
 
 
 class RobotMathError(_CodedModelError):
-    """A number that is none: NaN, infinite, or beyond a double."""
+    """A number that is NaN, infinite, or beyond a double."""
 
     prefix = "MATH_"
 
 
 class RobotSecurityError(RobotModelError):
-    """A path that leads where it must not."""
+    """A path outside of the allowed folders."""
 
     def __init__(self, path: str = "unknown", reason: str = "violation") -> None:
         super().__init__(f"Security Violation: {reason} (path: {path})")
@@ -123,7 +123,7 @@ class RobotGeneratorError(LinkForgeError):
 
 
 class RobotGeneratorUnsupportedTypeError(RobotGeneratorError):
-    """A content that a generator has no form for."""
+    """Content that a generator cannot write."""
 
     def __init__(self, content_type: object, generator_name: str) -> None:
         super().__init__(f"{generator_name} cannot write content of type '{content_type}'")
@@ -192,7 +192,7 @@ class RobotXacroExpressionError(RobotXacroError):
 
 
 class XacroDetectedError(RobotParserError):
-    """Xacro where plain URDF was promised."""
+    """Xacro where plain URDF was expected."""
 
     def __init__(self, message: str = "XACRO detected") -> None:
         super().__init__(f"this is xacro, not URDF: {message}; expand it first")

@@ -1,136 +1,224 @@
-"""What a field of a model class says about itself, for the walkers that read, write and compare its values.
+"""Specs of the fields of model classes, for the walkers that read, write, compare and prefix their values.
 
 A field is annotated with a spec: `effort: Annotated[float, Number(EFFORT, NOT_NEGATIVE)]`. Type checkers, constructors
-and `typing.get_type_hints` see the plain type; a walker asks `field_specs` for the specs.
+and `typing.get_type_hints` see the plain type; a walker asks `field_specs` for the specs of a class. A field without
+a spec is not part of the language: where an element was written, and how.
 """
 
 from __future__ import annotations
 
 import math
-import sys
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import MISSING, dataclass, fields
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import KW_ONLY, MISSING, dataclass, fields, replace
 from enum import StrEnum
 from functools import cache
 from types import NoneType
-from typing import Any, NamedTuple, TypeAlias, get_args, get_type_hints
+from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 from linkforge_compile.core.constants import EPSILON
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.rules import not_finite, require_finite
 from linkforge_compile.units import BARE, FieldUnit, Motion
 
-_LARGEST, _SMALLEST = sys.float_info.max, math.ulp(0.0)
 
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Bound:
-    """A range that a number must keep to, and its words in "must be …"; all from `least` to `most` keep to it."""
+    """The range of a number, or with `is_of_magnitude` of its distance from 0, and its words in "must be …"."""
 
     words: str
-    holds: Callable[[float], bool]
-    least: float = -_LARGEST
-    most: float = _LARGEST
+    least: float = -math.inf
+    most: float = math.inf
+    is_of_magnitude: bool = False
+
+    def holds(self, value: float) -> bool:
+        """Whether a number is in the range; NaN is in none."""
+        return self.least <= (abs(value) if self.is_of_magnitude else value) <= self.most
 
 
-ABOVE_ZERO = Bound("above 0", lambda value: value > 0, least=_SMALLEST)
-NOT_NEGATIVE = Bound("0 or above", lambda value: value >= 0, least=0.0)
-NOT_ZERO = Bound("other than 0", lambda value: value != 0, least=_SMALLEST)
-BEYOND_EPSILON = Bound("further than 1e-9 from 0", lambda value: abs(value) >= EPSILON, least=EPSILON)
-UP_TO_HALF_A_TURN = Bound(
-    "above 0 and at most pi", lambda value: 0 < value <= math.pi * (1 + 1e-9), least=_SMALLEST, most=math.pi
-)
-ZERO_TO_ONE = Bound("from 0 to 1", lambda value: 0 <= value <= 1, least=0.0, most=1.0)
+_SMALLEST = math.ulp(0.0)
+
+ABOVE_ZERO = Bound("above 0", least=_SMALLEST)
+NOT_NEGATIVE = Bound("0 or above", least=0.0)
+NOT_ZERO = Bound("other than 0", least=_SMALLEST, is_of_magnitude=True)
+BEYOND_EPSILON = Bound("further than 1e-9 from 0", least=EPSILON, is_of_magnitude=True)
+UP_TO_HALF_A_TURN = Bound("above 0 and at most pi", least=_SMALLEST, most=math.pi * (1 + 1e-9))
+ZERO_TO_ONE = Bound("from 0 to 1", least=0.0, most=1.0)
 
 
-class Number(NamedTuple):
-    """A number: its unit and range, and what takes its place.
+@dataclass(frozen=True, kw_only=True)
+class Spec:
+    """The spelling of a field, its default and whether it is required.
 
-    `example` is what to write where the language requires the number, by motion if that matters; empty where it does
-    not. `stand_in` takes the place of a faulty one, so that its element stays for the checks; None for `implied`.
-    `implied` is what the absence of the number means: the default of its class, which `field_specs` fills in, unless
-    it is required. `may_be_none` is filled in from the annotation. A length that `may_be_far` is not taken for
-    millimetres.
+    `key` is its key in the language: the name of the field where none is given, empty where the value is itself a key
+    (of the map that holds the element) or is spelled by several keys.
+    `xml` is an XPath from the element in XML, `@lower` or `mass/@value`: where none is given, the attribute or child
+    element of the field's name; empty where the value has no place of its own.
+    `example` is what to write where the language requires the field, by motion if that matters; empty where it does
+    not require it.
+
+    `field_specs` fills in the rest. `implied` is the value of a field that is not written: the default of its class,
+    None for a required one. `may_be_none` and `container` (None, Sequence or Mapping) follow from the annotation.
+    """
+
+    key: str | None = None
+    xml: str | None = None
+    example: str | Mapping[Motion, str] = ""
+    implied: Any = None  # a value of the field's own type
+    may_be_none: bool = False
+    container: type | None = None
+
+    def example_for(self, motion: Motion) -> str:
+        """Return what to write where the field is required; empty where it is not."""
+        return self.example if isinstance(self.example, str) else self.example.get(motion, "")
+
+
+@dataclass(frozen=True)
+class Number(Spec):
+    """A number, with its unit and range.
+
+    `stand_in` replaces a faulty one, so that its element can be checked further; None for `implied`. A length
+    that `may_be_far` is not taken for millimetres.
     """
 
     unit: FieldUnit = BARE
     bound: Bound | None = None
-    example: str | Mapping[Motion, str] = ""
+    _: KW_ONLY
     stand_in: float | None = None
-    implied: float | None = None
     is_whole: bool = False
     may_be_far: bool = False
-    may_be_none: bool = False
     is_required_in_urdf: bool = False
 
-    def example_for(self, motion: Motion) -> str:
-        """Return what to write where the number is required; empty where it is not."""
-        return self.example if isinstance(self.example, str) else self.example.get(motion, "")
+
+@dataclass(frozen=True)
+class Vector(Spec):
+    """Three numbers along x, y, z, each with this unit and range."""
+
+    unit: FieldUnit = BARE
+    bound: Bound | None = None
 
 
-class Text(NamedTuple):
-    """A text; `example` and `implied` are as for Number."""
-
-    example: str = ""
-    implied: str | None = None
+@dataclass(frozen=True)
+class Axis(Vector):
+    """A direction of length 1; the language has words for those along an axis of the frame."""
 
 
-class Flag(NamedTuple):
-    """True or false; `implied` is as for Number."""
+@dataclass(frozen=True)
+class Text(Spec):
+    """A text, or a sequence of them."""
 
-    implied: bool | None = None
+
+@dataclass(frozen=True)
+class Name(Text):
+    """The element's own name, which takes the prefix; in the language mostly the key of the map around it."""
+
+    key: str | None = ""
 
 
-class Choice(NamedTuple):
-    """One word of an enumeration; `implied` is as for Number."""
+@dataclass(frozen=True)
+class Reference(Text):
+    """The name of another element, which takes the prefix; or a sequence of names, or a mapping with names as keys.
+
+    `to` is the kind of what is named: link, joint, part (a link or joint), collision, group, frame or topic. Absolute
+    topics take no prefix.
+    """
+
+    to: str = ""
+
+
+@dataclass(frozen=True)
+class Flag(Spec):
+    """True or false."""
+
+
+@dataclass(frozen=True)
+class Choice(Spec):
+    """One word of an enumeration."""
 
     words: type[StrEnum]
-    implied: str | None = None
 
 
-class Noise(NamedTuple):
+@dataclass(frozen=True)
+class Child(Spec):
+    """An element of its own class, or one of several classes: `kinds`, which `field_specs` fills in."""
+
+    _: KW_ONLY
+    kinds: tuple[type, ...] = ()
+
+
+@dataclass(frozen=True)
+class Pose(Child):
+    """A Transform, which moves nothing where it is not given."""
+
+
+@dataclass(frozen=True)
+class Colour(Child):
+    """A Color: three or four numbers from 0 to 1 in one."""
+
+
+@dataclass(frozen=True)
+class Noise(Child):
     """The noise on a value of a unit."""
 
     unit: FieldUnit = BARE
 
 
-Spec: TypeAlias = Number | Text | Flag | Choice | Noise
+@dataclass(frozen=True)
+class Children(Child):
+    """A sequence of elements: in the language a map by their names where they have a Name, else a list."""
+
+
+@dataclass(frozen=True)
+class Parameters(Spec):
+    """A mapping whose names and texts the format does not know, such as what a plugin reads."""
+
+
+class _Described(NamedTuple):
+    specs: Mapping[str, Spec]
+    numbers: Mapping[str, Number]
 
 
 def field_specs(kind: type) -> Mapping[str, Spec]:
-    """Return what the fields of a model class say about themselves, in their order, those that say something."""
-    return _field_specs(kind)
-
-
-@cache
-def _field_specs(kind: type) -> Mapping[str, Spec]:
-    hints = get_type_hints(kind, include_extras=True)
-    specs = {name: spec for name, hint in hints.items() if (spec := _spec_in(hint)) is not None}
-    return {name: _with_default(spec, kind, name) for name, spec in specs.items()}
-
-
-def _spec_in(hint: Any) -> Spec | None:
-    """Return the spec in an annotation, None for one without; a number knows whether it may be None."""
-    spec = next((spec for spec in getattr(hint, "__metadata__", ()) if isinstance(spec, Spec)), None)
-    return spec._replace(may_be_none=NoneType in get_args(hint.__origin__)) if isinstance(spec, Number) else spec
-
-
-def _with_default(spec: Spec, kind: type[Any], name: str) -> Spec:
-    default = next((one.default for one in fields(kind) if one.name == name), MISSING)
-    match spec:
-        case Number(example="") | Text(example="") | Flag() | Choice() if default is not MISSING:
-            return spec._replace(implied=default)
-    return spec
+    """Return the specs of the fields of a model class, in their order; fields without one are left out."""
+    return _describe(kind).specs
 
 
 def number_fields(kind: type) -> Mapping[str, Number]:
     """Return the specs of the numbers of a model class, in the order of its fields."""
-    return _number_fields(kind)
+    return _describe(kind).numbers
 
 
-@cache
-def _number_fields(kind: type) -> Mapping[str, Number]:
-    return {name: spec for name, spec in _field_specs(kind).items() if isinstance(spec, Number)}
+@cache  # not on the public functions: for mypy, a class whose instances define `__hash__` is not hashable itself
+def _describe(kind: type) -> _Described:
+    defaults = {field.name: field.default for field in fields(kind) if field.default is not MISSING}
+    specs: dict[str, Spec] = {}
+    for name, hint in get_type_hints(kind, include_extras=True).items():
+        spec = next((given for given in getattr(hint, "__metadata__", ()) if isinstance(given, Spec)), None)
+        if spec is not None:
+            specs[name] = _complete(spec, name, hint.__origin__, defaults.get(name))
+    return _Described(specs, {name: spec for name, spec in specs.items() if isinstance(spec, Number)})
+
+
+def _complete(spec: Spec, name: str, annotation: Any, default: object) -> Spec:
+    """Fill in what follows from a field's name, type and default."""
+    may_be_none = NoneType in get_args(annotation)
+    container = get_origin(annotation) if get_origin(annotation) in {Sequence, Mapping} else None
+    spec = replace(
+        spec,
+        key=name if spec.key is None else spec.key,
+        implied=None if spec.example else default,
+        may_be_none=may_be_none,
+        container=container,
+    )
+    if not isinstance(spec, Child):
+        return replace(spec, xml=f"@{name}" if spec.xml is None else spec.xml)
+    kinds = spec.kinds or tuple(kind for kind in get_args(annotation) or (annotation,) if kind is not NoneType)
+    return replace(spec, kinds=kinds, xml=getattr(kinds[0], "TAG", name) if spec.xml is None else spec.xml)
+
+
+def tags_with_text(kind: type) -> dict[str, str]:
+    """Return the tags of the fields of a model class that become elements with a text, by field, in their order."""
+    spellings = ((name, spec.xml or "") for name, spec in field_specs(kind).items())
+    return {name: xml.removesuffix("/text()") for name, xml in spellings if xml.endswith("/text()")}
 
 
 def written_numbers(part: object) -> Iterator[tuple[str, float]]:
@@ -146,11 +234,11 @@ def written_numbers(part: object) -> Iterator[tuple[str, float]]:
 
 
 def check_numbers(part: object) -> None:
-    """Refuse a number of a part outside of its bound, NaN, infinity, and None where the field has no place for it.
+    """Refuse numbers of a part that are out of their range or not finite, and None where the field may not be None.
 
     Raises:
         RobotValidationError: OUT_OF_RANGE.
-        RobotMathError: INVALID_VALUE for NaN or infinity.
+        RobotMathError: INVALID_VALUE for NaN or infinity, and for None.
 
     """
     kind = type(part)

@@ -18,10 +18,10 @@ class FrozenMap(dict[K, V]):
 
     __slots__ = ()
 
-    def __hash__(self) -> int:  # type: ignore[override]  # dict says that it has none
+    def __hash__(self) -> int:  # type: ignore[override]  # dict sets it to None
         return hash(frozenset(self.items()))
 
-    def __or__(self, other: Mapping[K, V]) -> FrozenMap[K, V]:  # type: ignore[override]  # dict takes dicts alone
+    def __or__(self, other: Mapping[K, V]) -> FrozenMap[K, V]:  # type: ignore[override]  # dict accepts only dicts
         return FrozenMap({**self, **other})
 
     def __ror__(self, other: Mapping[K, V]) -> FrozenMap[K, V]:  # type: ignore[override]  # as above
@@ -33,7 +33,7 @@ class FrozenMap(dict[K, V]):
     def _refuse(self, *given: object, **named: object) -> NoReturn:
         raise TypeError("a FrozenMap cannot be changed")
 
-    if not TYPE_CHECKING:  # to whom a dict without these would be no dict
+    if not TYPE_CHECKING:  # mypy refuses a dict without these
         __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refuse
 
 

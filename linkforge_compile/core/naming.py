@@ -1,4 +1,4 @@
-"""What is a name, and how names take a prefix."""
+"""Which names are valid, and how a prefix is put before them."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ def is_valid_name(name: str, allow_hyphen: bool = True) -> bool:
     """Tell whether links, joints, transmissions and robots may have this name.
 
     Letters and digits of any script with the marks that belong to them, and `_ - . /`, in any order. Space,
-    control characters and all other punctuation are refused. What URDF readers accept, ROS tools may still
-    dislike (`.`, `/`, a leading digit): that is a lint's business.
+    control characters and all other punctuation are refused. ROS tools refuse more than URDF readers do (`.`, `/`, a
+    leading digit); a check warns of that.
     """
     if not allow_hyphen and "-" in name:
         return False
     if name.isascii() and name.isidentifier():
-        return True  # nearly all, in a fifth of the time that the pattern takes
+        return True  # most names; the pattern below takes five times as long
     if _PLAIN_NAME.fullmatch(name):
         return True
     # `\w` leaves out combining marks, without which Hindi, Thai or a decomposed é cannot be written.
@@ -35,13 +35,13 @@ def prefixed(prefix: str, name: str) -> str: ...
 @overload
 def prefixed(prefix: str, name: str | None) -> str | None: ...
 def prefixed(prefix: str, name: str | None) -> str | None:
-    """Return the name with the prefix before it; what has no name gets none."""
+    """Return the name with the prefix before it; None and an empty name stay."""
     return f"{prefix}{name}" if name else name
 
 
 def prefixed_topic(prefix: str, topic: str | None) -> str | None:
     """Return a relative topic with the prefix before it.
 
-    An absolute topic (`/camera`) or a private one (`~/camera`) says for itself where it lives and is kept.
+    An absolute topic (`/camera`) and a private one (`~/camera`) do not depend on where they are used and are kept.
     """
     return topic if topic and topic[0] in "/~" else prefixed(prefix, topic)

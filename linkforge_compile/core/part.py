@@ -1,27 +1,27 @@
-"""What every frozen part of the IR has: where it was written, what no field says, and copies that are itself."""
+"""Base classes of the model: frozen parts with their source, and elements with the raw XML that no field covers."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, is_dataclass, replace
+from functools import cache
 from operator import is_
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Self
 
-from linkforge_compile.core.fields import check_numbers
+from linkforge_compile.core.fields import Child, Name, Reference, Spec, check_numbers, field_specs
 from linkforge_compile.core.frozen_map import FrozenMap, frozen
+from linkforge_compile.core.naming import prefixed_topic
 from linkforge_compile.source import Sourced
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Part(Sourced):
-    """A frozen value: nothing in it ever changes, so a copy of it, deep or not, is the part itself."""
-
-    PREFIXED: ClassVar[tuple[str, ...]] = ()
-    """The fields that hold names which a prefix goes before: of the part, of others it refers to, of parts in it."""
+    """A frozen value; since nothing in it changes, a copy of it is the part itself."""
 
     def __init_subclass__(cls) -> None:
-        # For its slots, dataclass makes a class twice, and knows its fields the second time. It puts inherited ones
-        # first; `astuple` and `fields` shall give those of the class itself first, and then what every part has.
+        # dataclasses puts inherited fields first, but `fields` and `astuple` have to begin with LinkForge's fields:
+        # those of the class itself, none of which is keyword-only. With `slots=True`, dataclass makes each class a
+        # second time, and that one has its fields by now.
         if fields := vars(cls).get("__dataclass_fields__"):
             cls.__dataclass_fields__ = dict(sorted(fields.items(), key=lambda item: item[1].kw_only is True))
 
@@ -44,14 +44,41 @@ class Part(Sourced):
             RobotModelError: What the constructor raises, where the prefix makes a name that it refuses.
 
         """
-        values: dict[str, Any] = {name: getattr(self, name) for name in self.PREFIXED}  # Any: names, parts, or mappings
-        changed = {name: _put_prefix(value, prefix) for name, value in values.items() if value and prefix}
-        if all(value is values[name] for name, value in changed.items()):
-            return self
-        return replace(self, **changed)
+        changed = prefixed_fields(self, prefix)
+        return replace(self, **changed) if changed else self
 
 
-def _put_prefix(value: Any, prefix: str) -> Any:
+def prefixed_fields(part: object, prefix: str) -> dict[str, Any]:  # Any: names, parts, sequences and mappings of them
+    """Return the fields of a part that a prefix changes, by name, with the prefix put before the names in them."""
+    changed: dict[str, Any] = {}
+    kind: type = type(part)
+    for name, put_prefix in _prefixers(kind).items():
+        value = getattr(part, name)
+        if value and prefix and (new := put_prefix(prefix, value)) is not value:
+            changed[name] = new
+    return changed
+
+
+@cache
+def _prefixers(kind: type) -> Mapping[str, Callable[[str, Any], Any]]:
+    """Return the fields of a class with names that take a prefix: its own, of others, and in the elements in it."""
+    prefixers: dict[str, Callable[[str, Any], Any]] = {}
+    for name, spec in field_specs(kind).items():
+        if isinstance(spec, Reference) and spec.to == "topic":
+            prefixers[name] = prefixed_topic
+        elif isinstance(spec, Name | Reference) or _holds_names(spec):
+            prefixers[name] = _put_prefix
+    if getattr(kind, "NAMES_INSIDE_TAKE_PREFIX", False):
+        prefixers["extra_inside"] = _put_prefix
+    return prefixers
+
+
+def _holds_names(spec: Spec) -> bool:
+    """Whether a field has elements with names that take a prefix."""
+    return isinstance(spec, Child) and any(is_dataclass(kind) and _prefixers(kind) for kind in spec.kinds)
+
+
+def _put_prefix(prefix: str, value: Any) -> Any:
     """Return a name, parts, or a mapping by names under a prefix; the value itself where nothing changes."""
     if isinstance(value, str):
         return prefix + value if value else value
@@ -59,8 +86,8 @@ def _put_prefix(value: Any, prefix: str) -> Any:
         return FrozenMap({prefix + name: each for name, each in value.items()})
     if isinstance(value, Iterable):
         values = tuple(value)
-        copies = tuple(_put_prefix(each, prefix) for each in values)
-        return value if all(map(is_, copies, values)) else copies
+        copies = tuple(_put_prefix(prefix, each) for each in values)
+        return values if all(map(is_, copies, values)) else copies
     return value.with_prefix(prefix)
 
 
@@ -70,7 +97,7 @@ _NOTHING: Final = ()
 def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) -> None:
     """Make tuples of the named sequences and FrozenMaps of the named mappings, all the way down; extras are tuples.
 
-    For `__post_init__` only. An element without collections of its own inherits it; one that has them calls it.
+    For `__post_init__` only, of elements with collections of their own; others inherit it.
     """
     for name in sequences:
         set_field(element, name, tuple(getattr(element, name)))
@@ -78,7 +105,7 @@ def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) ->
         set_field(element, name, frozen(FrozenMap(getattr(element, name))))
     has_no_elements, has_no_attributes = element.extra_elements is _NOTHING, element.extra_attributes is _NOTHING
     if has_no_elements and has_no_attributes and element.extra_inside is _NOTHING:
-        return  # nearly all, of which a robot has many
+        return  # most elements
     set_field(element, "extra_elements", tuple(element.extra_elements))
     set_field(element, "extra_attributes", attribute_pairs(element.extra_attributes))
     set_field(element, "extra_inside", tuple(element.extra_inside))
@@ -88,15 +115,15 @@ def freeze(element: Element, *sequences: str, mappings: tuple[str, ...] = ()) ->
 class Element(Part):
     """A part that becomes an XML element.
 
-    `extra_attributes` are (name, value) pairs and `extra_elements` the texts of child elements, both for what no
-    field says; they are written as they stand and take no prefix. `extra_inside` says the same of the elements
-    inside that are no part of their own. They are compared, but not shown by `repr`.
+    `extra_attributes` are (name, value) pairs and `extra_elements` the texts of child elements that no field covers;
+    they are written unchanged and take no prefix. `extra_inside` has the same for child elements that have no class of
+    their own. They are compared, but not shown by `repr`.
     """
 
     TAG: ClassVar[str] = ""
     """The tag of the element; empty where it depends on what holds the part."""
-    KEYS_ARE_TAGS: ClassVar[bool] = False
-    """Whether the keys of a mapping in it become elements, and not attributes."""
+    NAMES_INSIDE_TAKE_PREFIX: ClassVar[bool] = False
+    """Whether the names in `extra_inside` are those of links, joints and groups, which take a prefix."""
 
     extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False)
     extra_elements: Sequence[str] = field(default=(), repr=False)
@@ -109,22 +136,20 @@ class Element(Part):
 
 @dataclass(frozen=True, slots=True)
 class Inside(Element):
-    """What no field says of an element inside of another that only a field of its part makes: `<parent>` of a joint.
+    """Raw XML of a child element that has no class of its own, such as `<parent>` of a joint.
 
-    `tag` is its tag. `name` is its attribute `name` or `link`, or its text, where a tag stands several times: the
-    `<joint name>` of a group, a `<param name>`; None for the only one.
+    `tag` is its tag. `name` tells several of one tag apart: the attribute `name` or `link`, or the text, of a
+    `<joint name>` of a group or a `<param name>`; None where there is only one.
     """
 
-    PREFIXED = ("name",)
-
     tag: str
-    name: str | None = None
+    name: Annotated[str | None, Reference("part")] = None
 
 
 def attribute_pairs(attributes: Sequence[tuple[str, str]] | Mapping[str, str]) -> tuple[tuple[str, str], ...]:
     """Return (name, value) pairs in the order given."""
     if attributes is _NOTHING:
-        return attributes  # nearly all
+        return attributes  # most elements
     pairs = attributes.items() if isinstance(attributes, Mapping) else attributes
     return tuple((name, value) for name, value in pairs)
 

@@ -69,7 +69,7 @@ def _capsule_inertia(capsule: Capsule, mass: float) -> InertiaTensor:
     ball_length = 4 / 3 * radius  # of a cylinder that holds as much as both caps
     barrel = mass * length / (length + ball_length)
     caps = mass * ball_length / (length + ball_length)
-    # A half sphere's centre lies 3/8 of its radius behind its face, which stands half the length away.
+    # The centre of a half sphere is 3/8 of its radius from its face, which is half the length from the middle.
     across = barrel * (length * length / 12 + radius * radius / 4) + caps * (
         2 / 5 * radius * radius + length * length / 4 + 3 / 8 * length * radius
     )
@@ -77,9 +77,9 @@ def _capsule_inertia(capsule: Capsule, mass: float) -> InertiaTensor:
 
 
 def rotation_matrix(rpy: Vector3) -> Matrix:
-    """Return the rotation by roll, pitch and yaw [rad] about the fixed axes x, then y, then z, as URDF means it.
+    """Return the rotation by roll, pitch and yaw [rad] about the fixed axes x, then y, then z, as URDF defines it.
 
-    Its columns are the turned axes, so it takes a vector of the turned frame to the frame around it.
+    Its columns are the turned axes, so it maps a vector of the turned frame to the frame around it.
     """
     (sr, cr), (sp, cp), (sy, cy) = ((math.sin(angle), math.cos(angle)) for angle in rpy)
     return (
@@ -96,8 +96,8 @@ def rotated(inertia: InertiaTensor, rpy: Vector3) -> InertiaTensor:
     turn = rotation_matrix(rpy)
     half = _product(turn, _matrix(inertia))
     (ixx, ixy, ixz), (_, iyy, iyz), (_, _, izz) = _product(half, _transposed(turn))
-    # The sine of half a turn is 1.2e-16 and not 0, and another platform's may be the next double: no product of
-    # inertia is meant by that, and no byte of the output may depend on it.
+    # The sine of half a turn is 1.2e-16 and not 0, and another platform's may be the next double. Such
+    # a product of inertia is rounding, and no byte of the output may depend on it.
     noise = _TURNING_NOISE * (abs(ixx) + abs(iyy) + abs(izz))
     ixy, ixz, iyz = (product if abs(product) > noise else 0.0 for product in (ixy, ixz, iyz))
     return InertiaTensor(ixx, iyy, izz, ixy, ixz, iyz)
@@ -124,7 +124,7 @@ def shifted(inertia: InertiaTensor, mass: float, lever_arm: Vector3) -> InertiaT
 
 
 def combined_inertial(bodies: Sequence[Inertial]) -> Inertial:
-    """Return several bodies, given in one frame, as the one that they are when joined rigidly.
+    """Return the inertial of several bodies, given in one frame, joined rigidly.
 
     Its origin is the common centre of mass in that frame, its tensor is about that point, in the frame's axes.
 
@@ -162,7 +162,7 @@ def inertial_of_shapes(
     The origin is the centre of mass in the link frame, the tensor is in the axes of the link.
 
     Raises:
-        RobotPhysicsError: VALUE_EMPTY without shapes, INVALID_VALUE for a mesh that `meshes` has not, or unless
+        RobotPhysicsError: VALUE_EMPTY without shapes, INVALID_VALUE for a mesh that is not in `meshes`, or unless
             exactly one of mass and density is given, OUT_OF_RANGE if that is not above 0.
 
     """
@@ -175,7 +175,7 @@ def inertial_of_shapes(
     body = combined_inertial(
         [_body(share, geometry, pose, solids) for share, (geometry, pose) in zip(masses, shapes, strict=True)]
     )
-    # The shares may add up to a last digit more or less than what was asked for.
+    # The shares may add up to a last digit more or less than the mass given.
     return body if mass is None else replace(body, mass=mass)
 
 

@@ -6,10 +6,10 @@ from linkforge_compile.source import SourceRef
 
 
 class RawXml(str):
-    """A text of `extra_elements`, or the name of an attribute; `source` says where it was written, None if nowhere.
+    """A text of `extra_elements`, or the name of an attribute, with its `source`, None if it was not read.
 
-    It compares, hashes and prints as that text. When robots are merged, the raw XML of several files is in one list, so
-    that the owner of the list cannot say where each was written. The `source` of a name is the map that it is in.
+    It compares, hashes and prints as that text. Merging robots puts raw XML of several files into one list, so the
+    source of the list's owner would not do. The `source` of an attribute's name is the map that it is in.
     """
 
     __slots__ = ("source",)

@@ -19,7 +19,7 @@ _LEVELS_UP = 10
 
 @runtime_checkable
 class IResourceResolver(Protocol):
-    """Whatever finds the file behind a URI."""
+    """Finds the file of a URI."""
 
     def resolve(self, uri: str, relative_to: Path | None = None) -> Path:
         """Return the absolute path of an existing file or folder.
@@ -36,10 +36,10 @@ class IResourceResolver(Protocol):
 class FileSystemResolver:
     """Finds `package://`, `file://`, absolute and relative paths in the file system.
 
-    Packages are in the folders that `packages` says by their names; others are looked for in
+    Packages are in the folders that `packages` gives by their names; others are looked for in
     `additional_search_paths`, then in those of ROS_PACKAGE_PATH, then under `share` of those of AMENT_PREFIX_PATH,
     then from `relative_to` up to ten folders outwards, where a package is a folder of its name or with a package.xml
-    that says the name; one that is a link out of `roots` says nothing. The first of them that holds the file wins.
+    with that name, unless it is a symbolic link out of `roots`. The first folder that holds the file wins.
     Relative paths are looked for in `relative_to`, then in the current folder.
     """
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterable
+from enum import StrEnum
 from typing import Protocol
 
 from linkforge_compile.core.exceptions import FieldPath, RobotMathError, RobotValidationError, ValidationErrorCode
@@ -63,8 +64,25 @@ def require_valid_characters(name: str, what: str, target: str) -> None:
         )
 
 
+def require_choice(found: str, words: type[StrEnum], what: str, target: str, field: str) -> None:
+    """Refuse a text that is none of an enumeration's words.
+
+    Raises:
+        RobotValidationError: INVALID_VALUE.
+
+    """
+    if found not in tuple(words):
+        raise RobotValidationError(
+            ValidationErrorCode.INVALID_VALUE,
+            f"{what} must be one of {', '.join(words)}, found '{found}'",
+            target=target,
+            value=found,
+            field=(field,),
+        )
+
+
 def require_unique_names(named: Iterable[Named], owner: str, target: str, field: str) -> None:
-    """Refuse two things of one name in one collection; the path of the field ends in that name.
+    """Refuse two items of one name in one collection; the path of the field ends in that name.
 
     Raises:
         RobotValidationError: DUPLICATE_NAME.
@@ -84,7 +102,7 @@ def require_unique_names(named: Iterable[Named], owner: str, target: str, field:
 
 
 def require_finite(part: object, *names: str) -> None:
-    """Refuse NaN and infinity in the named fields; None is no number and passes.
+    """Refuse NaN and infinity in the named fields; None passes.
 
     Raises:
         RobotMathError: INVALID_VALUE.
@@ -93,13 +111,13 @@ def require_finite(part: object, *names: str) -> None:
     for name in names:
         value: float | None = getattr(part, name)
         if value.__class__ is float and -_LARGEST <= value <= _LARGEST:
-            continue  # nearly all, without a call
+            continue  # most numbers, without a call
         if value is not None and not is_finite(value):
             raise not_finite(value, name, f"{type(part).__name__}.{name}", (name,))
 
 
 def is_finite(value: float) -> bool:
-    """Tell whether a double holds the number: NaN, infinity and an integer beyond 1e308 are no numbers here."""
+    """Return whether a number is finite as a double, which an integer beyond 1e308 is not."""
     try:
         return math.isfinite(value)
     except OverflowError:

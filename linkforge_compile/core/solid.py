@@ -1,4 +1,4 @@
-"""A body of even density as integrals over its shape, which is all that its mass properties depend on."""
+"""Solid bodies of even density: the integrals over a shape that its mass properties depend on."""
 
 from __future__ import annotations
 

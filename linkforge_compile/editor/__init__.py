@@ -1,7 +1,7 @@
-"""What people's editors get of a repository of robots: a schema that knows its names, and a folder to begin with."""
+"""Files for editors: the schema of a repository, with completions for its names, and those of a new robot's folder."""
 
-from linkforge_compile.editor.specs import TooManyFilesError, specs_below
-from linkforge_compile.editor.vocabulary import Vocabulary, vocabulary_of
-from linkforge_compile.editor.workspace import without_parts, workspace_text
+from linkforge_compile.editor.spec_files import TooManyFilesError, find_specs
+from linkforge_compile.editor.vocabulary import Vocabulary, read_vocabulary
+from linkforge_compile.editor.workspace_schema import without_parts, workspace_text
 
-__all__ = ["TooManyFilesError", "Vocabulary", "specs_below", "vocabulary_of", "without_parts", "workspace_text"]
+__all__ = ["TooManyFilesError", "Vocabulary", "find_specs", "read_vocabulary", "without_parts", "workspace_text"]

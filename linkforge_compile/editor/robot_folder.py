@@ -1,4 +1,4 @@
-"""The files of a new robot: a first spec, and what editors, git, pre-commit and CMake want beside it."""
+"""The files of a new robot: a first spec, and files for editors, git, pre-commit and CMake."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path, PurePath
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
-"""What a robot may be called whose name is that of files and of a CMake project as well."""
+"""A name of a robot that files and a CMake project can have too."""
 
 SCHEMA = PurePath(".linkforge", "robot.schema.json")
-"""Where the schema of a repository lies in it, unless said."""
+"""The default path of a repository's schema."""
 
 _SPEC, _CMAKE, _PRE_COMMIT, _GITIGNORE = "{name}.robot.yaml", "CMakeLists.txt", ".pre-commit-config.yaml", ".gitignore"
 _SETTINGS, _EXTENSIONS = ".vscode/settings.json", ".vscode/extensions.json"
@@ -33,9 +33,10 @@ _FIND = "find_package(linkforge_compile REQUIRED)"
 
 @dataclass(frozen=True)
 class RobotFolder:
-    """Where a new robot goes, and the folders at or above that which have what stands once for all robots below.
+    """The folder of a new robot, and the folders at or above it with files that several robots share.
 
-    `workspace` has the schema, `package` the CMakeLists.txt, `repository` is that of git, the folder itself for none.
+    `workspace` has the schema, `package` the CMakeLists.txt, and `repository` is the top of the git repository, or
+    the folder itself without one.
     """
 
     folder: Path
@@ -52,52 +53,56 @@ class RobotFolder:
 
     @property
     def folders(self) -> tuple[Path, ...]:
-        """All folders in which something may be written."""
+        """All folders in which files may be written."""
         return self.folder, self.workspace, self.package, self.repository
 
     def files(self, name: str) -> dict[Path, str]:
-        """Return the text of each file by its path; the schema that the spec names is not among them.
+        """Return the text of each file to write by its path, without the schema.
 
-        What stands once for all robots is among them where it is that of the folder itself, or there is none yet.
+        A file that several robots share is included if it belongs into the folder itself, or if tools read it only at
+        the top of the repository and it does not exist.
         """
         texts = self._texts(name)
-        homes = {path: self._home(path) for path in texts}
+        homes = {path: self._folder_of(path) for path in texts}
         return {
             homes[path] / path.format(name=name): text
             for path, text in texts.items()
-            if text and (homes[path] == self.folder or (path in _AT_THE_TOP and not (homes[path] / path).exists()))
+            if text and (homes[path] == self.folder or (path in _AT_TOP and not (homes[path] / path).exists()))
         }
 
     def _texts(self, name: str) -> dict[str, str]:
         from linkforge_compile.formats.own_templates import render_own
 
-        words = {
+        values = {
             "name": name,
-            "schema": _way(self.folder, self.workspace / SCHEMA),
+            "schema": _relative(self.folder, self.workspace / SCHEMA),
             "find": _FIND,
             "add_robot": self._add_robot(name),
             "folder": _prefix(self.repository, self.folder),
             "yaml_schemas": self._yaml_schemas(),
         }
-        texts = {path: render_own(f"init/{template}.j2", words) for path, template in _TEMPLATES.items()}
+        texts = {path: render_own(f"init/{template}.j2", values) for path, template in _TEMPLATES.items()}
         ignored = self._ignored_above()
         lines = [line for line in texts[_GITIGNORE].splitlines(keepends=True) if line.strip().strip("/") not in ignored]
         return {**texts, _GITIGNORE: "".join(lines)}
 
     def _ignored_above(self) -> set[str]:
-        """Return the names that a .gitignore above the workspace ignores in every folder below it."""
+        """Return the names that a .gitignore above the workspace ignores in every folder."""
         files = (above / _GITIGNORE for above in _up_to(self.workspace, ".git"))
         texts = (path.read_text("utf-8", "replace") for path in files if path.is_file())
         lines = (line.strip() for text in texts for line in text.splitlines())
         return {line.removeprefix("**/").rstrip("/") for line in lines if not line.startswith("/")}
 
-    def _home(self, path: str) -> Path:
-        homes = {_SPEC: self.folder, _CMAKE: self.package, _GITIGNORE: self.workspace}
-        return homes.get(path, self.repository)
+    def _folder_of(self, path: str) -> Path:
+        folders = {_SPEC: self.folder, _CMAKE: self.package, _GITIGNORE: self.workspace}
+        return folders.get(path, self.repository)
 
     def _add_robot(self, name: str) -> str:
-        spec = _way(self.package, self.folder / _SPEC.format(name=name))
-        return f"linkforge_add_robot({spec} FORMATS urdf srdf INSTALL)"
+        from linkforge_compile.formats import FORMATS
+
+        spec = _relative(self.package, self.folder / _SPEC.format(name=name))
+        formats = " ".join(one.name for one in FORMATS if one.is_default)
+        return f"linkforge_add_robot({spec} FORMATS {formats} INSTALL)"
 
     def _yaml_schemas(self) -> str:
         below = _prefix(self.repository, self.workspace)
@@ -105,55 +110,55 @@ class RobotFolder:
         return f'"yaml.schemas": {json.dumps({f"{below}{SCHEMA.as_posix()}": patterns}, ensure_ascii=False)}'
 
     def missing(self, name: str) -> dict[Path, tuple[str, ...]]:
-        """Return the lines that files which were there before lack of the robot."""
-        lacks: dict[str, Callable[[str, str], list[str]]] = {
-            _CMAKE: _lines_of_cmake,
-            _PRE_COMMIT: _hooks,
-            _GITIGNORE: _ignored,
-            _SETTINGS: self._settings,
-            _EXTENSIONS: _extensions,
+        """Return the lines about the robot that existing files lack."""
+        finders: dict[str, Callable[[str, str], list[str]]] = {
+            _CMAKE: _missing_cmake,
+            _PRE_COMMIT: _missing_hooks,
+            _GITIGNORE: _missing_patterns,
+            _SETTINGS: self._missing_settings,
+            _EXTENSIONS: _missing_extensions,
         }
         texts = self._texts(name)
-        homes = {self._home(path) / path: path for path in lacks}
+        homes = {self._folder_of(path) / path: path for path in finders}
         found = {path: path.read_text("utf-8", "replace") for path in homes if path.is_file()}
-        missed = {path: tuple(lacks[homes[path]](text, texts[homes[path]])) for path, text in found.items()}
-        return {path: lines for path, lines in missed.items() if lines}
+        missing = {path: tuple(finders[homes[path]](text, texts[homes[path]])) for path, text in found.items()}
+        return {path: lines for path, lines in missing.items() if lines}
 
-    def _settings(self, found: str, _text: str) -> list[str]:
+    def _missing_settings(self, found: str, _text: str) -> list[str]:
         schema = f"{_prefix(self.repository, self.workspace)}{SCHEMA.as_posix()}"
         return [] if f'"{schema}"' in found or f'"./{schema}"' in found else [self._yaml_schemas()]
 
 
-_AT_THE_TOP = (_PRE_COMMIT, _SETTINGS, _EXTENSIONS)
-"""What tools read at the top of a repository only."""
+_AT_TOP = (_PRE_COMMIT, _SETTINGS, _EXTENSIONS)
+"""Files that tools read only at the top of a repository."""
 
 
-def _lines_of_cmake(found: str, text: str) -> list[str]:
-    # Whoever wrote a line himself may have given it other options.
+def _missing_cmake(found: str, text: str) -> list[str]:
+    # A line of the user's own may have other options.
     return [line for line in text.splitlines()[-2:] if line.partition(" FORMATS")[0] not in found]
 
 
-def _hooks(found: str, text: str) -> list[str]:
+def _missing_hooks(found: str, text: str) -> list[str]:
     block = text.partition("repos:\n")[2]
     return [] if "id: linkforge-check" in found else textwrap.dedent(block).splitlines()
 
 
-def _ignored(found: str, text: str) -> list[str]:
+def _missing_patterns(found: str, text: str) -> list[str]:
     there = {line.strip().strip("/") for line in found.splitlines()}
     return [line for line in text.splitlines() if line.strip("/") not in there]
 
 
-def _extensions(found: str, text: str) -> list[str]:
+def _missing_extensions(found: str, text: str) -> list[str]:
     return [] if "redhat.vscode-yaml" in found else [line.strip() for line in text.splitlines()[1:-1]]
 
 
 def workspace_of(folder: Path) -> Path:
-    """Return the folder at or above one, in its repository, that has a schema; else the folder itself."""
+    """Return the nearest folder at or above one, within its repository, that has a schema; else the folder itself."""
     return next((one for one in (folder, *_up_to(folder, ".git")) if (one / SCHEMA).is_file()), folder)
 
 
 def _up_to(folder: Path, *markers: str) -> tuple[Path, ...]:
-    """Return the folders above one up to the first that holds a marker; none where it does itself, or none does."""
+    """Return the folders above one, up to the first with a marker; () if the folder has one itself, or none has."""
     places = (folder.absolute(), *folder.absolute().parents)
     held = (number for number, one in enumerate(places) if any((one / marker).exists() for marker in markers))
     above = places[1 : next(held, 0) + 1]
@@ -161,16 +166,16 @@ def _up_to(folder: Path, *markers: str) -> tuple[Path, ...]:
 
 
 def schemas_below(root: Path, specs: Iterable[Path]) -> tuple[Path, ...]:
-    """Return the folders between one and its specs that have a schema of their own, which editors read there."""
+    """Return the folders between `root` and its specs that have a schema of their own."""
     between = {folder for spec in specs for folder in spec.parents if folder != root and folder.is_relative_to(root)}
     return tuple(sorted(folder for folder in between if (folder / SCHEMA).is_file()))
 
 
 def _prefix(start: Path, folder: Path) -> str:
-    """Return what stands before a path from the folder to make it one from the start: nothing where they are one."""
-    way = _way(start, folder)
-    return "" if way == "." else f"{way}/"
+    """Return the prefix that turns a path relative to the folder into one relative to the start; "" for the same."""
+    path = _relative(start, folder)
+    return "" if path == "." else f"{path}/"
 
 
-def _way(start: Path, path: Path) -> str:
+def _relative(start: Path, path: Path) -> str:
     return Path(os.path.relpath(path, start)).as_posix()

@@ -1,4 +1,4 @@
-"""The words that a spec may use: the names of what is in its robot, its parameters, and those of its modules."""
+"""The words that an editor completes in a spec: the names of its robot's parts, its parameters and its modules'."""
 
 from __future__ import annotations
 
@@ -27,12 +27,13 @@ from linkforge_compile.syntax import YamlEntry, YamlMap
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """The words of a spec, final names with their prefixes, each kind in the robot's order.
+    """The words of one spec.
 
-    `files` are the spec and what it includes, relative to the workspace, with `/`. `arguments` are the parameters of
-    the modules that it uses, by the text of `use`. `entries` are what an override of it reaches: its own names, without
-    those of its modules, by section. `is_whole` says that nothing is missing because of errors; what depends on a
-    parameter without a value is always. `has_name` says that the spec is a robot, and no part for others to include.
+    `files` are the spec and the files it includes, relative to the workspace, with `/`. `names` are final names with
+    their prefixes, by kind of part, in the robot's order. `arguments` are the parameters of the modules that it uses,
+    by the text of `use`. `entries` are the names in the spec itself, by section, which an override of it can address.
+    `is_whole` is False if names are missing because of errors; those that depend on a parameter without a value are
+    missing in any case. `has_name` is False if the spec is a part that other specs include.
     """
 
     files: tuple[str, ...]
@@ -44,13 +45,13 @@ class Vocabulary:
     has_name: bool = True
 
 
-def vocabulary_of(
+def read_vocabulary(
     path: Path, root: Path, packages: Mapping[str, Path] | None = None, *, runs_xacro: bool = True
 ) -> Vocabulary:
-    """Read a spec as far as its faults leave it; `root` is the folder of the workspace.
+    """Return the words of a spec, also of one with errors; `root` is the folder of the workspace.
 
-    `packages` are where `package://` leads first. Meshes are not read: they bear no names. Without `runs_xacro`, the
-    names in xacro files are missing.
+    `packages` are the folders of `package://`. Meshes are not read, since they declare no names. Unless `runs_xacro`,
+    the names in xacro files are missing.
     """
     return on_fresh_stack(lambda: _read_vocabulary(path, root, packages or {}, runs_xacro=runs_xacro))
 
@@ -84,7 +85,7 @@ def _without_meshes(instance: Instance) -> Instance:
 
 
 def _entries(instance: Instance) -> dict[str, tuple[str, ...]]:
-    """Return the names in each section of a file; a frame is a link and a joint, as an override finds it."""
+    """Return the names in each section of a file; for an override, a frame is a link and a joint."""
     frames = _section(instance, "frames")
     names = {section: [entry.name for entry in _section(instance, section)] for section in _SECTIONS}
     names["links"] += [frame.name for frame in frames]

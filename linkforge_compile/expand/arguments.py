@@ -1,4 +1,4 @@
-"""What sets the parameters of a file, before the declarations give it a type."""
+"""Read the values that a user sets for parameters, from the command line, from Python or from a launch file."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ COMMAND_LINE = "<command line>"
 
 
 class Unset(Enum):
-    """What it is when nothing sets a required parameter of the compiled file."""
+    """How to report required parameters of the compiled file that have no value."""
 
     ERROR = "error"
     NOTE = "note"
-    """Told once for all of them; what depends on them is not judged."""
+    """One note for all; what depends on them is not checked."""
 
 
-class Told(NamedTuple):
-    """What another program sets, and how that says it, for diagnostics to name: `left_reach:=1 m` at `place`."""
+class CliArgument(NamedTuple):
+    """A value that another program sets, spelled as there: `left_reach:=1 m` at `place`."""
 
     place: str
     name: str
@@ -41,9 +41,9 @@ class Told(NamedTuple):
 class Arguments:
     """Values by parameter name, each with its place.
 
-    `folder` is where their relative paths start, None for nowhere. Typed on a command line (`as_text`), a list or
-    map is still text: what it means is known only with the parameter's type. `is_partial` where some could not be
-    had, which was reported: then nobody asks for those that are missing. `from_python` says how others are set.
+    `folder` is where relative paths among them start, None for nowhere. With `as_text` they were typed: a list or map
+    is still text, to be read once the parameter's type is known. `is_partial` if some had reported errors, so that
+    missing ones are not reported. `from_python` selects the wording of messages about missing ones.
     """
 
     entries: Mapping[str, YamlEntry] = field(default_factory=dict)
@@ -53,19 +53,18 @@ class Arguments:
     from_python: bool = False
 
     def without(self, names: Collection[str]) -> Arguments:
-        """Return the others."""
         return replace(self, entries={name: entry for name, entry in self.entries.items() if name not in names})
 
     @property
     def named_files(self) -> Iterator[Path]:
-        """The files that would be meant by values that are text, were they paths."""
+        """The paths that text values would name if they were paths."""
         for entry in self.entries.values():
             if isinstance(entry.value, YamlScalar) and "\0" not in entry.value.text:
                 yield (self.folder or Path()) / entry.value.text.removeprefix("file://")
 
 
 def arguments_from_text(pairs: Sequence[str], sink: Diagnostics) -> Arguments:
-    """Read `name=value` or ROS's `name:=value`; what is neither, and what is set twice, is reported."""
+    """Read `name=value` or ROS's `name:=value`; malformed and duplicate ones are reported."""
     entries: dict[str, YamlEntry] = {}
     for pair in pairs:
         name, equals, text = pair.partition("=")
@@ -79,53 +78,53 @@ def arguments_from_text(pairs: Sequence[str], sink: Diagnostics) -> Arguments:
             first = Note("set here first", entries[name].key.span)
             sink.report(SET_TWICE.at(key.span, name=name, notes=[first]))
             continue
-        entries[name] = YamlEntry(key, _typed(text, _span(file, len(pair) - len(text), len(text))))
-    return Arguments(entries, Path(), as_text=True)
-
-
-def _from_told(values: Mapping[str, Told]) -> Arguments:
-    """Take values by parameter name, which are read as on the command line."""
-    entries: dict[str, YamlEntry] = {}
-    for name, (place, spelt, text) in values.items():
-        file = SourceFile(place, f"{spelt}:={text}")
-        value = _typed(text, _span(file, len(spelt) + 2, len(text)))
-        entries[name] = YamlEntry(YamlScalar(name, name, _span(file, 0, len(spelt))), value)
+        entries[name] = YamlEntry(key, _scalar(text, _span(file, len(pair) - len(text), len(text))))
     return Arguments(entries, Path(), as_text=True)
 
 
 def arguments_from_values(values: Mapping[str, object]) -> Arguments:
-    """Take Python values: text is read as on the command line, None sets nothing; TypeError for what no spec says.
+    """Read Python values; text is read as on the command line, None sets nothing.
 
-    Where all of them are what another program told, they are read as it says them.
+    If all of them are CliArguments, they are reported as the other program spells them. Raises TypeError for a value
+    that no spec can hold.
     """
     if not values:
         return Arguments(folder=Path(), as_text=True, from_python=True)
-    told = {name: value for name, value in values.items() if isinstance(value, Told)}
-    if len(told) == len(values):
-        return _from_told(told)
+    cli_arguments = {name: value for name, value in values.items() if isinstance(value, CliArgument)}
+    if len(cli_arguments) == len(values):
+        return _from_cli_arguments(cli_arguments)
     from linkforge_compile.expand.values import node_of
 
     entries: dict[str, YamlEntry] = {}
-    for name, given in values.items():
+    for name, item in values.items():
         if not isinstance(name, str):
             raise TypeError(f"a parameter is set by its name, which is text, found {name!r}")
-        value = _spec_value(name, given)
-        shown = value if isinstance(value, str) else repr(given)
+        value = _spec_value(name, item)
+        shown = value if isinstance(value, str) else repr(item)
         file = SourceFile("<parameters>", f"{name}={shown}")
         key = YamlScalar(name, name, _span(file, 0, len(name)))
         span = _span(file, len(name) + 1, len(shown))
-        entries[name] = YamlEntry(key, _typed(value, span) if isinstance(value, str) else node_of(value, span))
+        entries[name] = YamlEntry(key, _scalar(value, span) if isinstance(value, str) else node_of(value, span))
     return Arguments(entries, Path(), as_text=True, from_python=True)
 
 
-def _typed(text: str, span: Span) -> YamlNode:
-    """Read a scalar that was typed; `name=` and `name=null` are text, since to set nothing one need not say so."""
+def _from_cli_arguments(values: Mapping[str, CliArgument]) -> Arguments:
+    entries: dict[str, YamlEntry] = {}
+    for name, (place, spelled, text) in values.items():
+        file = SourceFile(place, f"{spelled}:={text}")
+        value = _scalar(text, _span(file, len(spelled) + 2, len(text)))
+        entries[name] = YamlEntry(YamlScalar(name, name, _span(file, 0, len(spelled))), value)
+    return Arguments(entries, Path(), as_text=True)
+
+
+def _scalar(text: str, span: Span) -> YamlNode:
+    """Read a typed scalar; `name=` and `name=null` are text, because leaving the argument out sets nothing."""
     value = scalar_value(text)
     return YamlScalar(text, text if value is None else value, span)
 
 
 def _span(file: SourceFile, start: int, length: int) -> Span:
-    """Return a stretch of text that may hold line breaks."""
+    """Return a part of a text that may contain line breaks."""
     ends = []
     for offset in (start, start + length):
         before = file.text[:offset].split("\n")
@@ -133,17 +132,17 @@ def _span(file: SourceFile, start: int, length: int) -> Span:
     return Span(file, *ends)
 
 
-def _spec_value(name: str, given: object) -> Value:
-    if given is None or isinstance(given, bool | int | float | str | Quantity):
-        return given
-    if isinstance(given, os.PathLike):
-        return str(given)
+def _spec_value(name: str, value: object) -> Value:
+    if value is None or isinstance(value, bool | int | float | str | Quantity):
+        return value
+    if isinstance(value, os.PathLike):
+        return str(value)
     from numbers import Real
 
-    if isinstance(given, Real):  # numpy's, among others
-        return float(given)
-    if isinstance(given, Mapping):
-        return {str(key): _spec_value(name, item) for key, item in given.items()}
-    if isinstance(given, Iterable):
-        return tuple(_spec_value(name, item) for item in given)
-    raise TypeError(f"parameter {name!r} cannot be {type(given).__name__}")
+    if isinstance(value, Real):  # such as numpy's
+        return float(value)
+    if isinstance(value, Mapping):
+        return {str(key): _spec_value(name, item) for key, item in value.items()}
+    if isinstance(value, Iterable):
+        return tuple(_spec_value(name, item) for item in value)
+    raise TypeError(f"parameter {name!r} cannot be {type(value).__name__}")

@@ -1,171 +1,167 @@
-"""`defaults`: what the links, joints and sensors of one file have where they say nothing themselves."""
+"""Merge `defaults` into the links, joints and sensors of their file."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from functools import lru_cache
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.repetition import REPEATED_DEFAULT
 from linkforge_compile.diagnostics.codes.schema import WRONG_KIND
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.module_entry import found
-from linkforge_compile.expand.normal_form import CHOICES, is_said, long_form, long_object
+from linkforge_compile.expand.evaluate import Evaluator
+from linkforge_compile.expand.expand_tree import expand_part
+from linkforge_compile.expand.normal_form import CHOICES, is_set, long_form, long_object
+from linkforge_compile.expand.values import describe_node
 from linkforge_compile.schema.shapes import Shape, shapes
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
-
-if TYPE_CHECKING:
-    from linkforge_compile.expand.evaluate_tree import TreeEvaluator
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null, read
 
 _SECTIONS: Mapping[str, str] = {"links": "link", "joints": "joint", "sensors": "sensor"}
-"""The default for the entries of each section."""
+"""By section, the key of `defaults` for its entries."""
 
-_OF_MOTION = ("axis", "limits", "dynamics", "mimic", "safety_controller", "calibration")
+_MOTION_KEYS = ("axis", "limits", "dynamics", "mimic", "safety_controller", "calibration")
 
-_NOT_FOR: Mapping[str, tuple[str, ...]] = {
-    "fixed": _OF_MOTION,
-    "floating": _OF_MOTION,
-    "planar": _OF_MOTION[1:],
+_KEYS_NOT_FOR: Mapping[str, tuple[str, ...]] = {
+    "fixed": _MOTION_KEYS,
+    "floating": _MOTION_KEYS,
+    "planar": _MOTION_KEYS[1:],
 }
-"""What a joint of a type does not get: it may not have it, or has no one motion that its units could be of."""
+"""By joint type, the defaults that it does not get: it may not have them, or has no single motion for their units."""
 
 
-def defaults_of(file: YamlMap, tree: TreeEvaluator) -> YamlMap | None:
-    """Return the defaults of a file that has some, computed; None where they are no map."""
-    written = file.get("defaults")
-    assert written is not None, "the file has some"
-    filling = tree.part(_without_repetition(written, tree.sink), shapes().under("defaults"), "defaults")
-    if filling is None or isinstance(filling, YamlMap):
-        return filling
-    if not (isinstance(filling, YamlFault) or is_null(filling)):
-        tree.sink.report(WRONG_KIND.at(filling.span, field="'defaults'", expected="a map", found=found(filling)))
+def compute_defaults(file: YamlMap, evaluator: Evaluator) -> YamlMap | None:
+    """Return the computed `defaults` of a file that has some; None after a reported error."""
+    section, shape = file.entries["defaults"].value, shapes().under("defaults")
+    keys = [*_keys_of_for(section, shape)]
+    for key in keys:
+        evaluator.sink.report(REPEATED_DEFAULT.at(key.span))
+    computed = expand_part(_without_for(section, shape) if keys else section, evaluator, shape, "defaults")
+    if computed is None or isinstance(computed, YamlMap):
+        return computed
+    if not (isinstance(computed, YamlFault) or is_null(computed)):
+        found = describe_node(computed)
+        evaluator.sink.report(WRONG_KIND.at(computed.span, field="'defaults'", expected="a map", found=found))
     return None
 
 
-def _without_repetition(defaults: YamlNode, sink: Diagnostics) -> YamlNode:
-    """Return `defaults` as written without any `for`, each of which is reported."""
-    shape = shapes().under("defaults")
-    for key in _keys_of_for(defaults, shape):
-        sink.report(REPEATED_DEFAULT.at(key.span))
-    return _without_for(defaults, shape) if any(_keys_of_for(defaults, shape)) else defaults
-
-
 def with_defaults(tree: YamlMap, defaults: YamlMap) -> YamlMap:
-    """Return a file's tree with its computed defaults in every link, joint and sensor; both are left as they are.
+    """Return a file's tree with its computed defaults merged into every link, joint and sensor.
 
-    An entry's own word goes first: maps merge, a list is as the entry has it, one of a choice leaves the others out.
+    An entry's own value overrides the default: maps are merged, lists are not, and a key that excludes others removes
+    their defaults.
     """
     sections = dict(tree.entries)
     for name, kind in _SECTIONS.items():
-        section, default = tree.get(name), defaults.get(kind) or _misspelt(kind, defaults)
+        section, default = tree.get(name), defaults.get(kind) or _faulty_default(kind, defaults)
         if isinstance(section, YamlMap) and isinstance(default, YamlMap):
             shape = shapes().under(name)
-            sections[name] = YamlEntry(sections[name].key, _filled(section, default, shape))
+            sections[name] = YamlEntry(sections[name].key, _merge_section(section, default, shape))
     links = sections["links"].value if "links" in sections else None
     if isinstance(links, YamlMap):
-        sections["links"] = YamlEntry(sections["links"].key, _with_shapes_filled(links, defaults))
+        sections["links"] = YamlEntry(sections["links"].key, _merge_visuals_and_collisions(links, defaults))
     return YamlMap(sections, tree.span)
 
 
-def _misspelt(kind: str, defaults: YamlMap) -> YamlMap | None:
-    """Return what is left of the defaults of a kind where its key is at fault: just that, for each entry to know."""
-    lost = {one.name: one for one in defaults if isinstance(one.value, YamlFault) and nearest(one.name, [kind])}
-    return YamlMap(lost, defaults.span) if lost else None
+def _faulty_default(kind: str, defaults: YamlMap) -> YamlMap | None:
+    """Return the faulty defaults whose keys look like a kind, as its default, so that entries know of them."""
+    faulty = {one.name: one for one in defaults if isinstance(one.value, YamlFault) and nearest(one.name, [kind])}
+    return YamlMap(faulty, defaults.span) if faulty else None
 
 
-def _filled(section: YamlMap, default: YamlMap, shape: Shape) -> YamlMap:
+def _merge_section(section: YamlMap, default: YamlMap, shape: Shape) -> YamlMap:
     entries = {}
     for entry in section:
-        said = entry.value if is_said(entry.value) else YamlMap({}, entry.key.span)
-        if isinstance(said, YamlMap):
-            said = over(_fit(default, said, shape), said, shape.under(entry.name))
-        entries[entry.name] = YamlEntry(entry.key, said)
+        value = entry.value if is_set(entry.value) else YamlMap({}, entry.key.span)
+        if isinstance(value, YamlMap):
+            value = merge(_applicable(default, value, shape), value, shape.under(entry.name))
+        entries[entry.name] = YamlEntry(entry.key, value)
     return YamlMap(entries, section.span)
 
 
-def _fit(default: YamlMap, entry: YamlMap, section: Shape) -> YamlMap:
-    """Return of a default what an entry may have."""
-    left_out: tuple[str, ...] = ()
+def _applicable(default: YamlMap, entry: YamlMap, section: Shape) -> YamlMap:
+    """Return the part of a default that an entry may have."""
+    excluded: tuple[str, ...] = ()
     kind = entry.get("type") or default.get("type")
     if section is shapes().under("joints") and isinstance(kind, YamlScalar):
-        left_out = _NOT_FOR.get(kind.text, ())
+        excluded = _KEYS_NOT_FOR.get(kind.text, ())
     if section is shapes().under("links"):
-        left_out = tuple(_needing_shapes(default, entry))
-    return YamlMap({name: one for name, one in default.entries.items() if name not in left_out}, default.span)
+        excluded = tuple(_keys_needing_shapes(default, entry))
+    return YamlMap({name: one for name, one in default.entries.items() if name not in excluded}, default.span)
 
 
-def _needing_shapes(default: YamlMap, link: YamlMap) -> Iterator[str]:
-    """Yield what a default cannot give to a link without visual and collision: a copy, and an inertial to compute."""
+def _keys_needing_shapes(default: YamlMap, link: YamlMap) -> Iterator[str]:
+    """Yield defaults that a link without shapes cannot have: a copy of visuals, and an inertial to compute."""
     visual = link.get("visual") or default.get("visual")
     collision, inertial = default.get("collision"), default.get("inertial")
-    copies = isinstance(collision, YamlScalar)
-    if visual is None and copies:
+    is_copy = isinstance(collision, YamlScalar)
+    if visual is None and is_copy:
         yield "collision"
-    bare = visual is None and (link.get("collision") or (None if copies else collision)) is None
-    if bare and isinstance(inertial, YamlMap) and inertial.get("inertia") is None and link.get("inertial") is None:
+    has_shapes = visual is not None or (link.get("collision") or (None if is_copy else collision)) is not None
+    is_computed = isinstance(inertial, YamlMap) and inertial.get("inertia") is None
+    if not has_shapes and is_computed and link.get("inertial") is None:
         yield "inertial"
 
 
-def _with_shapes_filled(links: YamlMap, defaults: YamlMap) -> YamlMap:
-    """Return the links with the defaults of visuals and collisions in each that is written."""
-    made = {}
+def _merge_visuals_and_collisions(links: YamlMap, defaults: YamlMap) -> YamlMap:
+    """Return the links with the defaults of visuals and collisions in each that they have."""
+    merged = {}
     for entry in links:
-        link = entry.value
+        link, link_shape = entry.value, shapes().under("links").under(entry.name)
         for key in ("visual", "collision"):
-            shape = shapes().under("links").under(entry.name).under(key)
-            default, said = defaults.get(key), link.get(key) if isinstance(link, YamlMap) else None
-            if isinstance(default, YamlMap) and isinstance(link, YamlMap) and isinstance(said, YamlScalar):
-                # A copy of the visuals takes the default of collisions as if it were written out.
-                link = long_object(link, shapes().under("links").under(entry.name))
-                said = link.get(key)
-            if isinstance(default, YamlMap) and isinstance(link, YamlMap) and isinstance(said, YamlMap | YamlList):
-                filled = _each_filled(said, default, shape)
-                link = YamlMap({**link.entries, key: YamlEntry(link.entries[key].key, filled)}, link.span)
-        made[entry.name] = YamlEntry(entry.key, link)
-    return YamlMap(made, links.span)
+            default = defaults.get(key)
+            if not isinstance(link, YamlMap) or not isinstance(default, YamlMap):
+                continue
+            if isinstance(link.get(key), YamlScalar):
+                link = long_object(link, link_shape)  # the copies of `collision: visual` get the default of collisions
+            value = link.get(key)
+            if isinstance(value, YamlMap | YamlList):
+                value = _merge_each(value, default, link_shape.under(key))
+                link = YamlMap({**link.entries, key: YamlEntry(link.entries[key].key, value)}, link.span)
+        merged[entry.name] = YamlEntry(entry.key, link)
+    return YamlMap(merged, links.span)
 
 
-def _each_filled(said: YamlMap | YamlList, default: YamlMap, shape: Shape) -> YamlNode:
+def _merge_each(value: YamlMap | YamlList, default: YamlMap, shape: Shape) -> YamlNode:
     item = shape.item or shape
-    if isinstance(said, YamlMap):
-        return over(default, said, item)
-    return YamlList(tuple(over(default, one, item) if isinstance(one, YamlMap) else one for one in said), said.span)
+    if isinstance(value, YamlMap):
+        return merge(default, value, item)
+    return YamlList(tuple(merge(default, one, item) if isinstance(one, YamlMap) else one for one in value), value.span)
 
 
-def over(default: YamlNode, said: YamlNode, shape: Shape) -> YamlNode:
-    """Return what is said with the default in its gaps."""
-    if not is_said(said):
+def merge(default: YamlNode, value: YamlNode, shape: Shape) -> YamlNode:
+    """Return a value with the default for what it leaves out."""
+    if not is_set(value):
         return default
-    if isinstance(said, YamlList) and shape.item:
-        return said
-    below, above = long_form(default, shape), long_form(said, shape)
+    if isinstance(value, YamlList) and shape.item:
+        return value
+    below, above = long_form(default, shape), long_form(value, shape)
     if shape.item and isinstance(below, YamlList) and isinstance(above, YamlList) and len(below) == len(above) == 1:
-        return YamlList((over(below.items[0], above.items[0], shape.item),), said.span)
+        return YamlList((merge(below.items[0], above.items[0], shape.item),), value.span)
     if not isinstance(below, YamlMap) or not isinstance(above, YamlMap):
-        return said
-    chosen = [name for name in CHOICES.get(shape.title, ()) if is_said(above.get(name))]
-    rivals = CHOICES.get(shape.title, ()) if chosen else ()
+        return value
+    choices = CHOICES.get(shape.title, ())
+    rivals = choices if any(is_set(above.get(name)) for name in choices) else ()
     entries = dict(above.entries)
     for entry in below:
-        if not is_said(above.get(entry.name)):
-            if entry.name not in rivals:
-                entries[entry.name] = entry
-        else:
+        if is_set(above.get(entry.name)):
             own = above.entries[entry.name]
-            value = over(entry.value, own.value, shape.under(entry.name))
-            is_merged = isinstance(value, YamlMap) and isinstance(entry.value, YamlMap)
-            entries[entry.name] = YamlEntry(own.key, value, None if is_merged else entry)
-    lost = {one.name: one.value for one in below if isinstance(one.value, YamlFault)}
-    return YamlMap({one.name: _knowing(lost, one) for one in entries.values()} if lost else entries, above.span)
+            merged = merge(entry.value, own.value, shape.under(entry.name))
+            is_merged = isinstance(merged, YamlMap) and isinstance(entry.value, YamlMap)
+            entries[entry.name] = YamlEntry(own.key, merged, None if is_merged else entry)
+        elif entry.name not in rivals:
+            entries[entry.name] = entry
+    faults = {one.name: one.value for one in below if isinstance(one.value, YamlFault)}
+    return YamlMap({one.name: _with_faults(faults, one) for one in entries.values()} if faults else entries, above.span)
 
 
-def _knowing(lost: Mapping[str, YamlFault], entry: YamlEntry) -> YamlEntry:
-    """Return an entry with the faulty defaults in its map that may have been for it: what it lacks is in those."""
+def _with_faults(faults: Mapping[str, YamlFault], entry: YamlEntry) -> YamlEntry:
+    """Return an entry with the faulty defaults that may belong into its map, which excuse what it lacks."""
     if not isinstance(entry.value, YamlMap):
         return entry
-    ours = {name: value for name, value in lost.items() if entry.name in value.keys or nearest(name, [entry.name])}
-    faults = {name: YamlEntry(YamlScalar(name, name, value.span), value) for name, value in ours.items()}
-    return YamlEntry(entry.key, YamlMap({**entry.value.entries, **faults}, entry.value.span), entry.replaced)
+    ours = {name: value for name, value in faults.items() if entry.name in value.keys or nearest(name, [entry.name])}
+    added = {name: YamlEntry(YamlScalar(name, name, value.span), value) for name, value in ours.items()}
+    return YamlEntry(entry.key, YamlMap({**entry.value.entries, **added}, entry.value.span), entry.replaced)
 
 
 def _keys_of_for(node: YamlNode, shape: Shape) -> Iterator[YamlScalar]:
@@ -191,3 +187,20 @@ def _without_for(node: YamlNode, shape: Shape) -> YamlNode:
             made = {one.name: YamlEntry(one.key, _without_for(one.value, shape.under(one.name))) for one in kept}
             return YamlMap(made, node.span)
     return node
+
+
+def is_default(place: Span) -> bool:
+    """Whether a place of a compiled spec lies in its `defaults`.
+
+    Only `explain` asks, for a few places, so the file is read again instead of marking every merged entry.
+    """
+    section = _defaults_section(place.file)
+    return section is not None and place.lies_in(section.span)
+
+
+@lru_cache(maxsize=8)
+def _defaults_section(file: SourceFile) -> YamlNode | None:
+    if "defaults" not in file.text:
+        return None
+    tree = read(file, Diagnostics())
+    return tree.get("defaults") if tree else None

@@ -1,12 +1,14 @@
-"""The verb of this room: from the compiled file to the assembly of every use of every file, all computed."""
+"""Expand the compiled file and all modules it uses into a tree of Instances."""
 
 from __future__ import annotations
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand.arguments import Arguments, Unset
-from linkforge_compile.expand.assembly import Instance
+from linkforge_compile.expand.assembly import COMPUTING, Instance, charge_entries, own_name, robot_part
 from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.plain import as_written, computes_nothing
+from linkforge_compile.expand.spec_tree import is_computed
+from linkforge_compile.expand.uses import PathSite, mesh_base, mesh_finder
+from linkforge_compile.source import Span
 
 
 def expand(
@@ -18,15 +20,38 @@ def expand(
     unset: Unset = Unset.ERROR,
     variant: str | None = None,
 ) -> Instance:
-    """Compute every expression of a file and of the modules it uses.
+    """Compute every expression of a file and of the modules that it uses.
 
-    What is at fault is reported and stands as a YamlFault; a module that cannot be had is an Instance without a
-    tree. `unset` says what it is when nothing sets a required parameter of the compiled file. `variant` is the one
-    of its `variants` that sets what the arguments do not.
+    Faulty parts are reported and become YamlFaults; a module that cannot be read is an Instance without a tree.
+    `unset` says how to report required parameters without a value. `variant` selects one of the file's `variants`.
     """
-    if variant is None and not arguments.entries and computes_nothing(spec):
-        return as_written(spec, loader)
-    # Half of this room, and all of that of expressions: a sixth of the imports of a robot that needs neither.
-    from linkforge_compile.expand.expansion import expanded
+    if variant is None and not arguments.entries and is_plain(spec):
+        return plain_instance(spec, loader)
+    # Importing the rest of this package and the expressions takes 45 ms, which plain robots need not wait for.
+    from linkforge_compile.expand.expand_uses import expand_uses
 
-    return expanded(spec, arguments, loader, sink, unset=unset, variant=variant)
+    return expand_uses(spec, arguments, loader, sink, unset=unset, variant=variant)
+
+
+def is_plain(spec: SpecFile) -> bool:
+    """Whether a file has nothing to compute: no expressions, repetition, includes or modules."""
+    # `include` stays in the tree if an included file could not be read.
+    has_no_section = COMPUTING.isdisjoint(spec.tree.entries) and "include" not in spec.tree.entries
+    return has_no_section and not spec.included and not is_computed(spec.file, spec.tree)
+
+
+def plain_instance(spec: SpecFile, loader: Loader) -> Instance:
+    """Return the Instance of a plain file, the same as `expand_uses` makes of it."""
+    tree = robot_part(spec.tree)
+    charge_entries(tree, 1, loader.budget)
+
+    def site(text: str, where: Span) -> PathSite:
+        return PathSite(text, where, spec, spec.packages)
+
+    return Instance(
+        own_name(tree),
+        tree,
+        mesh_bases={} if spec.folder is None else {spec.file: mesh_base(spec, spec)},
+        find_mesh=mesh_finder({spec.file: site}, loader),
+        packages=spec.packages,
+    )

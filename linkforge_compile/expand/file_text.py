@@ -1,4 +1,4 @@
-"""The text of a file, read with bounds and care: its name may come from a stranger's spec."""
+"""Read the bytes and the text of a file of limited size; an untrusted spec may have chosen its name."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from pathlib import Path
 
 from linkforge_compile.limits import MAX_FILE_BYTES
+from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
 
 
 class UnreadableError(Exception):
-    """There is something at the path, and no text that could be a spec; says why, and of which byte if of one."""
+    """There is something at the path that cannot be read as text; `undecoded` has the byte at fault, if any."""
 
     def __init__(self, reason: str, undecoded: UnicodeDecodeError | None = None) -> None:
         self.undecoded = undecoded
@@ -18,20 +19,59 @@ class UnreadableError(Exception):
 
 
 class TooLargeError(UnreadableError):
-    """There is a file at the path, and it is larger than anybody should read."""
+    """The file at the path is above the size limit."""
 
 
-def file_text(path: Path, *, only_regular: bool) -> str | None:
-    """Return the text of a file, None where there is none; raise UnreadableError for what is no UTF-8 text.
+def read_utf8(path: Path, *, only_regular: bool) -> str | None:
+    """Return the text of a UTF-8 file, None if there is no file.
 
-    `only_regular` refuses pipes and terminals, for which a reader would wait.
+    `only_regular` rejects pipes and terminals, on which reading would block. Raises UnreadableError.
     """
-    content = file_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
-    return None if content is None else utf8_text(content)
+    content = read_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
+    return None if content is None else _decode_utf8(content)
 
 
-def utf8_text(content: bytes) -> str:
-    """Return the content of a file as text; raise UnreadableError for what is none in UTF-8."""
+def read_xml(path: Path, *, only_regular: bool) -> str | None:
+    """Return the text of an XML file in the encoding that it declares, None if there is no file."""
+    content = read_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
+    return None if content is None else _decode_xml(content)
+
+
+def read_spec(path: Path, *, only_regular: bool) -> str | None:
+    """Return the text of a spec, which is UTF-8, or of XML that was passed as one; None if there is no file."""
+    content = read_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
+    if content is None:
+        return None
+    return _decode_xml(content) if begins_xml(content) else _decode_utf8(content)
+
+
+def read_bytes(path: Path, limit: int, *, only_regular: bool) -> bytes | None:
+    """Return the content of a file, None if there is none.
+
+    Raises UnreadableError for a folder and the like, TooLargeError above `limit` bytes, of which no more are read.
+    """
+    try:
+        if path.is_dir():
+            raise UnreadableError("it is a folder")
+        if only_regular and path.exists() and not path.is_file():
+            raise UnreadableError("it is no regular file")
+        with path.open("rb") as stream:
+            # read(n) allocates n bytes, so ask for no more than the file has; a pipe or /proc reports size 0.
+            content = stream.read(min(os.fstat(stream.fileno()).st_size or limit, limit) + 1)
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        raise UnreadableError((error.strerror or type(error).__name__).lower()) from error
+    except MemoryError as error:
+        raise TooLargeError("it does not fit into memory") from error
+    except ValueError as error:  # a NUL in the name
+        raise UnreadableError(str(error)) from error
+    if len(content) > limit:
+        raise TooLargeError(f"it is larger than {limit // 1024**2} MiB")
+    return content
+
+
+def _decode_utf8(content: bytes) -> str:
     try:
         return content.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -42,28 +82,8 @@ def utf8_text(content: bytes) -> str:
         raise UnreadableError(reason, error) from error
 
 
-def file_bytes(path: Path, limit: int, *, only_regular: bool) -> bytes | None:
-    """Return what is in a file, None where there is none; raise UnreadableError for what has no content.
-
-    Raises TooLargeError beyond `limit` bytes, of which no more are read.
-    """
+def _decode_xml(content: bytes) -> str:
     try:
-        if path.is_dir():
-            raise UnreadableError("it is a folder")
-        if only_regular and path.exists() and not path.is_file():
-            raise UnreadableError("it is no regular file")
-        with path.open("rb") as stream:
-            # Python makes room for all that is asked for. What is no file on a disk has no size, or says 0.
-            content = stream.read(min(os.fstat(stream.fileno()).st_size or limit, limit) + 1)
-    except (FileNotFoundError, NotADirectoryError):
-        return None
-    except OSError as error:
-        raise UnreadableError((error.strerror or type(error).__name__).lower()) from error
-    except MemoryError as error:
-        raise TooLargeError("it does not fit into memory") from error
-    except ValueError as error:
-        # A name with a NUL in it, which no file can have.
-        raise UnreadableError(str(error)) from error
-    if len(content) > limit:
-        raise TooLargeError(f"it is larger than {limit // 1024**2} MiB")
-    return content
+        return xml_text(content)
+    except EncodingError as error:
+        raise UnreadableError(str(error), error.undecoded) from error

@@ -1,9 +1,10 @@
-"""`include`: files of the same schema laid into one, every entry with the place where its own file has it."""
+"""Merge the files of `include` into the tree of one spec; every entry keeps the place in its own file."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
@@ -17,7 +18,6 @@ from linkforge_compile.diagnostics.codes.files import (
     TOO_MANY_INCLUDES,
 )
 from linkforge_compile.expand.paths import follow
-from linkforge_compile.expand.whole import Whole
 from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import (
@@ -33,76 +33,98 @@ from linkforge_compile.syntax import (
 
 MAX_DEPTH = 20
 MAX_INCLUDES = 200
-"""How many files one file may include, those of its includes among them."""
+"""How many files one spec may include, directly and through other included files."""
 
-_OF_THE_MAIN_FILE = ("name", "version", "description", "mount", "variants")
-_OF_EACH_FILE = ("linkforge", "include")
+_MAIN_FILE_ONLY = ("name", "version", "description", "mount", "variants")
+_PER_FILE = ("linkforge", "include")
 _NESTED_SECTIONS = ("group_states", "disabled_collisions", "enabled_collisions", "joint_properties")
 
 ReadIncluded = Callable[[Path, YamlScalar], tuple[SourceFile, YamlMap] | None]
-"""Reads the file at a path for an item of `include`; None where it cannot be had, which it reports."""
+"""Reads the file at a path for an item of `include`; None after a reported error."""
 
 
-def lay_together(file: SourceFile, tree: YamlMap, folder: Path | None, read: ReadIncluded, sink: Diagnostics) -> Whole:
-    """Lay what a file includes, and what that includes, into its tree; `folder` is where its paths start."""
-    laying = _Laying(file, tree, read, sink)
-    laying.add_includes(tree, _Chain((file,), folder))
-    return Whole(file, laying.whole(), laying.ways)
+class ComposedFile(NamedTuple):
+    """A spec file with all that it includes.
+
+    `include_paths` has, for each included file, the paths that lead to it as written: that of the main file's
+    `include`, then that of the file it names, and so on. If a file could not be read, `include` of the tree is a
+    YamlFault.
+    """
+
+    file: SourceFile
+    tree: YamlMap
+    include_paths: Mapping[SourceFile, tuple[str, ...]] = MappingProxyType({})
+
+
+def follow_includes(folder: Path, paths: tuple[str, ...]) -> Path:
+    """Return where a chain of include paths leads from the folder of the main file."""
+    path = folder
+    for step in paths:
+        path = follow(folder, step)
+        folder = path.parent
+    return path
+
+
+def compose(
+    file: SourceFile, tree: YamlMap, folder: Path | None, read: ReadIncluded, sink: Diagnostics
+) -> ComposedFile:
+    """Merge what a file includes, recursively, into its tree; `folder` is where its relative paths start."""
+    composer = _Composer(file, tree, read, sink)
+    composer.add_includes(tree, _Chain((file,), folder))
+    return composer.result(file)
 
 
 class _Chain(NamedTuple):
-    """The files between the main file and one that includes, and where the paths of the last one start."""
+    """The files from the main file to one that includes others, and the folder and include paths of the last."""
 
     files: tuple[SourceFile, ...]
     folder: Path | None
-    way: tuple[str, ...] = ()
+    include_paths: tuple[str, ...] = ()
 
 
-class _Laying:
-    """One main file while others are laid into it."""
+class _Composer:
+    """Builds one ComposedFile."""
 
     def __init__(self, file: SourceFile, tree: YamlMap, read: ReadIncluded, sink: Diagnostics) -> None:
-        self.ways: dict[SourceFile, tuple[str, ...]] = {}
         self._tree = tree
         self._read = read
         self._sink = sink
+        self._include_paths: dict[SourceFile, tuple[str, ...]] = {}
         self._known = {identity(file.path): file} if file.path else {}
-        self._is_full = False
-        self._lacks = isinstance(tree.get("include"), YamlFault)
+        self._is_limit_reported = False
+        self._is_incomplete = isinstance(tree.get("include"), YamlFault)
 
-    def whole(self) -> YamlMap:
-        """Return the tree, whose `include` is a fault where any of the files is missing."""
+    def result(self, file: SourceFile) -> ComposedFile:
         entries = dict(self._tree.entries)
         include = entries.pop("include")
-        if self._lacks:
+        if self._is_incomplete:
             entries["include"] = YamlEntry(include.key, YamlFault(include.value.span))
-        return YamlMap(entries, self._tree.span)
+        return ComposedFile(file, YamlMap(entries, self._tree.span), self._include_paths)
 
     def add_includes(self, tree: YamlMap, chain: _Chain) -> None:
-        """Lay the includes of one file of a chain into the whole, in the order written."""
+        """Merge the includes of the last file of a chain, in the order written."""
         section = tree.get("include")
         for item in section if isinstance(section, YamlList) else ():
-            if isinstance(item, YamlScalar) and self._is_bounded(item, chain):
+            if isinstance(item, YamlScalar) and self._may_follow(item, chain):
                 self._include(item, chain)
             else:
-                self._lacks = True
+                self._is_incomplete = True
 
     def _include(self, item: YamlScalar, chain: _Chain) -> None:
         path = follow(chain.folder or Path(), item.text)
         included = None if self._is_known(path, item, chain) else self._read(path, item)
         if included is None:
-            self._lacks = True
+            self._is_incomplete = True
             return
         file, tree = included
-        way = (*chain.way, item.text)
-        self._known[identity(path)], self.ways[file] = file, way
-        self._lacks |= isinstance(tree.get("include"), YamlFault)
-        own = self._without_the_main_files(tree)
-        self._tree = _laid(self._tree, own, (), self._sink)
-        self.add_includes(tree, _Chain((*chain.files, file), path.parent, way))
+        include_paths = (*chain.include_paths, item.text)
+        self._known[identity(path)], self._include_paths[file] = file, include_paths
+        self._is_incomplete |= isinstance(tree.get("include"), YamlFault)
+        self._tree = _merge_maps(self._tree, self._mergeable_part(tree), (), self._sink)
+        self.add_includes(tree, _Chain((*chain.files, file), path.parent, include_paths))
 
     def _is_known(self, path: Path, item: YamlScalar, chain: _Chain) -> bool:
-        """Whether the file is laid in already, which is reported."""
+        """Whether the file was included before, which is reported."""
         known = self._known.get(identity(path))
         if known is None:
             return False
@@ -113,50 +135,49 @@ class _Laying:
             self._sink.report(INCLUDED_TWICE.at(item.span, path=item.text, notes=notes))
         return True
 
-    def _is_bounded(self, item: YamlScalar, chain: _Chain) -> bool:
-        """Whether an item is a path that may be followed; reports why not."""
+    def _may_follow(self, item: YamlScalar, chain: _Chain) -> bool:
+        """Whether an item is a usable path within the limits; reports why not."""
         reason = _why_not_plain(item.text, chain.folder)
         if reason:
             self._sink.report(INCLUDE_NOT_PLAIN.at(item.span, path=item.text, reason=reason))
         elif len(chain.files) > MAX_DEPTH:
             self._sink.report(INCLUDE_TOO_DEEP.at(item.span, limit=MAX_DEPTH))
-        elif len(self.ways) < MAX_INCLUDES:
+        elif len(self._include_paths) < MAX_INCLUDES:
             return True
-        elif not self._is_full:
-            # Once is enough: every file behind this one is one too many as well.
-            self._is_full = True
+        elif not self._is_limit_reported:
+            self._is_limit_reported = True
             self._sink.report(TOO_MANY_INCLUDES.at(item.span, limit=MAX_INCLUDES))
         return False
 
-    def _without_the_main_files(self, tree: YamlMap) -> YamlMap:
-        """Return an included tree without what only the main file says, which is reported, and what each says."""
-        kept: dict[str, YamlEntry] = {}
+    def _mergeable_part(self, tree: YamlMap) -> YamlMap:
+        """Return an included tree without the keys that belong to the main file, which are reported, or to each."""
+        entries: dict[str, YamlEntry] = {}
         for name, entry in tree.entries.items():
-            if name in _OF_THE_MAIN_FILE:
+            if name in _MAIN_FILE_ONLY:
                 self._sink.report(SAID_BY_MAIN_FILE.at(entry.key.span, key=name))
-            elif name not in _OF_EACH_FILE and not name.startswith("x-"):
-                kept[name] = entry
-        return YamlMap(kept, tree.span)
+            elif name not in _PER_FILE and not name.startswith("x-"):
+                entries[name] = entry
+        return YamlMap(entries, tree.span)
 
 
-def _laid(first: YamlMap, second: YamlMap, path: tuple[str, ...], sink: Diagnostics) -> YamlMap:
-    """Return the entries of two maps that hold entries, the first's first; one that both have is reported."""
+def _merge_maps(first: YamlMap, second: YamlMap, path: tuple[str, ...], sink: Diagnostics) -> YamlMap:
+    """Return the entries of two maps of entries, those of the first in front; duplicates are reported."""
     entries = dict(first.entries)
     for entry in second:
         ours, inner = entries.get(entry.name), (*path, entry.name)
-        if ours is None or (_holds_entries(inner) and is_null(ours.value)):
+        if ours is None or (_is_section(inner) and is_null(ours.value)):
             entries[entry.name] = entry
-        elif not (_holds_entries(inner) and is_null(entry.value)):
-            entries[entry.name] = YamlEntry(ours.key, _both(ours, entry, inner, sink))
+        elif not (_is_section(inner) and is_null(entry.value)):
+            entries[entry.name] = YamlEntry(ours.key, _merge_entries(ours, entry, inner, sink))
     return YamlMap(entries, first.span)
 
 
-def _both(first: YamlEntry, second: YamlEntry, path: tuple[str, ...], sink: Diagnostics) -> YamlNode:
+def _merge_entries(first: YamlEntry, second: YamlEntry, path: tuple[str, ...], sink: Diagnostics) -> YamlNode:
     ours, theirs = first.value, second.value
     if isinstance(ours, YamlFault) or isinstance(theirs, YamlFault):
         return YamlFault(ours.span)
-    if _holds_entries(path) and isinstance(ours, YamlMap) and isinstance(theirs, YamlMap):
-        return _laid(ours, theirs, path, sink)
+    if _is_section(path) and isinstance(ours, YamlMap) and isinstance(theirs, YamlMap):
+        return _merge_maps(ours, theirs, path, sink)
     if path == ("gazebo",) or (isinstance(ours, YamlList) and isinstance(theirs, YamlList)):
         return YamlList((*_items(ours), *_items(theirs)), ours.span)
     *sections, name = path
@@ -166,7 +187,7 @@ def _both(first: YamlEntry, second: YamlEntry, path: tuple[str, ...], sink: Diag
     return ours
 
 
-def _holds_entries(path: tuple[str, ...]) -> bool:
+def _is_section(path: tuple[str, ...]) -> bool:
     """Whether the map at a path of keys is a section, whose entries may come from several files."""
     match path:
         case () | (_,) | ("semantic", _):
@@ -177,7 +198,7 @@ def _holds_entries(path: tuple[str, ...]) -> bool:
 
 
 def _items(node: YamlNode) -> Iterator[YamlNode]:
-    """Yield the items of a list, or the one thing that stands for a list of one."""
+    """Yield the items of a list, or the single node that may be written for a list of one."""
     yield from node if isinstance(node, YamlList) else (node,)
 
 

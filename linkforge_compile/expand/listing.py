@@ -1,34 +1,45 @@
-"""What a file lets its user set: its parameters and variants, as a list for people and tools."""
+"""List what a file lets its user set, for people and tools: parameters and variants, or a xacro's arguments."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+from pathlib import Path
 from types import MappingProxyType
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
 from linkforge_compile.expand.arguments import Arguments, Unset
-from linkforge_compile.expand.evaluate_tree import Expressions
-from linkforge_compile.expand.given import Given, declared_kind
-from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.names import FileNames, Shared, UseOfFile
-from linkforge_compile.expand.parameters import Declaration, parameter_of
+from linkforge_compile.expand.evaluate import Expressions
+from linkforge_compile.expand.file_scope import CompileState, FileScope
+from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
+from linkforge_compile.expand.packages import find_package
+from linkforge_compile.expand.parameter_values import BoundArguments
+from linkforge_compile.expand.parameters import Declaration, make_parameter, resolve_type
 from linkforge_compile.expand.uses import SPEC_ENDINGS, open_use
 from linkforge_compile.expand.variants import Variants, variants_of
+from linkforge_compile.expand.xacro_use import in_order
 from linkforge_compile.expressions import FAULT, Value
+from linkforge_compile.roots import identity
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
 
+if TYPE_CHECKING:
+    from linkforge_compile.source import SourceFile, Span
+    from linkforge_compile.source.xml_tree import XmlElement
+
 Plain: TypeAlias = "None | bool | int | float | str | list[Plain] | dict[str, Plain]"
-"""A value as JSON has it: a quantity is its number in SI units, a whole one without decimals."""
+"""A value as in JSON: a quantity is its number in SI units, a whole number has no decimals."""
 
 
 class ListedParameter(NamedTuple):
     """A parameter as its user sees it.
 
-    `type` is None where its declaration is at fault. `unit` is the SI unit of `value`, `minimum`, `maximum` and
-    `choices`, None for what has none. `default` is as written, None for a required one; `value` is what it comes
-    to, None where that depends on what is not set.
+    - `type`: None if the declaration is faulty.
+    - `unit`: the SI unit of `value`, `minimum`, `maximum` and `choices`, None for none.
+    - `default`: as written, None for a required parameter.
+    - `value`: the computed default, None if it depends on parameters without a value.
     """
 
     name: str
@@ -48,12 +59,12 @@ class ListedParameter(NamedTuple):
 
     @property
     def computed(self) -> str:
-        """What the default comes to, as it would be written in SI units; "" where it has none."""
+        """The computed default in SI units, "" for none."""
         return _in_si(self.value, self.unit)
 
     @property
     def limits(self) -> str:
-        """What its value may be beside its type, such as `0.03 m to 0.5 m`, `mock | real`; "" for anything."""
+        """The constraints in short, such as `0.03 m to 0.5 m` or `mock | real`; "" for none."""
         least, most = (_in_si(bound, self.unit) for bound in (self.minimum, self.maximum))
         parts = [f"{least} to {most}" if least and most else f"at least {least}" if least else f"at most {most}"]
         parts = parts if least or most else []
@@ -65,7 +76,7 @@ class ListedParameter(NamedTuple):
 
 
 def _in_si(value: Plain, unit: str | None) -> str:
-    """Return a value as it would be written in SI units; "" for none, and for one that is longer than a word."""
+    """Return a value as written in SI units; "" for none, and for lists and maps."""
     if value is None or isinstance(value, list | dict):
         return ""
     if isinstance(value, bool):
@@ -74,7 +85,7 @@ def _in_si(value: Plain, unit: str | None) -> str:
 
 
 class Listing(NamedTuple):
-    """The parameters of a file in the order written, and what each of its variants sets, as written."""
+    """The parameters of a file in the order written, and the settings of each variant, as written."""
 
     name: str
     description: str = ""
@@ -83,35 +94,35 @@ class Listing(NamedTuple):
 
 
 def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listing:
-    """List what a file declares; what is wrong with it is reported, that something is not set yet is not."""
-    names = _names(spec, loader, sink)
-    Given(Arguments(is_partial=True), sink).tell_unknown(names.declared, Variants(variants_of(spec)), spec)
+    """List what a file declares; faults are reported, but not parameters without a value."""
+    scope = _scope_without_arguments(spec, loader, sink)
+    variants = variants_of(spec)
+    BoundArguments(Arguments(is_partial=True), sink).report_unknown(scope.declared, Variants(variants), spec)
     return Listing(
         name=_text(spec.tree.get("name")),
         description=_text(spec.tree.get("description")),
-        parameters=tuple(_listed(declaration, names, spec, sink) for declaration in names.declared.values()),
+        parameters=tuple(_listed(declaration, scope, spec, sink) for declaration in scope.declared.values()),
         variants={
-            name: {entry.name: as_written(entry.value) for entry in variant}
-            for name, variant in variants_of(spec).items()
+            name: {entry.name: as_written(entry.value) for entry in variant} for name, variant in variants.items()
         },
     )
 
 
 def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
-    """List what each spec that a file uses lets its user set, by the text of `use`, whatever `when` says.
+    """List what each spec that a file uses declares, by the text of `use`, whatever `when` says.
 
-    Left out is what cannot be read, and a `use` that is computed; a compile tells of both.
+    A file that cannot be read is left out, as is a computed `use`; compiling reports them.
     """
-    unheard = Diagnostics()
-    names = _names(spec, loader, unheard)
+    ignored = Diagnostics()
+    scope = _scope_without_arguments(spec, loader, ignored)
     section = spec.tree.get("modules")
     listed: dict[str, Listing] = {}
     for entry in section if isinstance(section, YamlMap) else ():
         use = entry.value.get("use") if isinstance(entry.value, YamlMap) else None
         if isinstance(use, YamlScalar) and use.text not in listed and use.text.lower().endswith(SPEC_ENDINGS):
-            used = open_use(names.own.site(use.text, use.span), loader, unheard)
+            used = open_use(scope.builtins.site(use.text, use.span), loader, ignored)
             if used:
-                listed[use.text] = list_parameters(used, loader, unheard)
+                listed[use.text] = list_parameters(used, loader, ignored)
     return listed
 
 
@@ -128,26 +139,26 @@ def as_written(node: YamlNode) -> str:
             return ""
 
 
-def _names(spec: SpecFile, loader: Loader, sink: Diagnostics) -> FileNames:
-    given = Given(Arguments(is_partial=True), sink)
-    return FileNames(UseOfFile(spec, given), Shared(spec, loader, Expressions(loader.budget), Unset.NOTE), sink)
+def _scope_without_arguments(spec: SpecFile, loader: Loader, sink: Diagnostics) -> FileScope:
+    state = CompileState(spec, loader, Expressions(loader.budget), Unset.NOTE)
+    return FileScope(spec, BoundArguments(Arguments(is_partial=True), sink), state, sink)
 
 
-def _listed(declaration: Declaration, names: FileNames, spec: SpecFile, sink: Diagnostics) -> ListedParameter:
+def _listed(declaration: Declaration, scope: FileScope, spec: SpecFile, sink: Diagnostics) -> ListedParameter:
     section = spec.tree.get("parameters")
     declared = section.get(declaration.name) if isinstance(section, YamlMap) else None
     description = _text(declared.get("description")) if isinstance(declared, YamlMap) else ""
     default = None if declaration.default is None else as_written(declaration.default)
-    kind = declared_kind(declaration, names.tree)
-    if kind is None:
+    type_ = resolve_type(declaration, scope.evaluator)
+    if type_ is None:
         return ListedParameter(declaration.name, default=default, description=description)
-    parameter = parameter_of(declaration, kind, names.tree)
-    in_scope = declaration.name in names.tree.scope
-    value = names.tree.scope.lookup(declaration.name, sink) if in_scope else FAULT
+    parameter = make_parameter(declaration, type_, scope.evaluator)
+    names = scope.evaluator.scope
+    value = names.lookup(declaration.name, sink) if declaration.name in names else FAULT
     return ListedParameter(
         name=declaration.name,
-        type=kind.name,
-        unit=Dimension(kind.name).si_unit if kind.name in list(Dimension) else None,
+        type=type_.name,
+        unit=Dimension(type_.name).si_unit if type_.name in list(Dimension) else None,
         default=default,
         value=None if value is FAULT else _plain(value),
         minimum=_plain(parameter.minimum),
@@ -173,3 +184,104 @@ def _plain(value: Value) -> Plain:
 
 def _text(node: YamlNode | None) -> str:
     return node.text if isinstance(node, YamlScalar) else ""
+
+
+# The arguments of a xacro file, found by reading it and what it includes, without running xacro.
+
+_ARG_USE = re.compile(r"\$\(arg\s+([^\s()]+)\s*\)")
+_SUBSTITUTION = re.compile(r"\$\((find|arg|dirname)\s*([^\s()]*)\s*\)")
+_MAX_INCLUDE_DEPTH = 50
+_COMPUTED_NAME = "its name is known only as xacro runs"
+
+
+def list_arguments(path: Path, loader: Loader, sink: Diagnostics) -> Listing | None:
+    """List the arguments of a xacro file, each with its first default; None after a reported error.
+
+    A note reports an include that cannot be followed, because its name is computed or it cannot be read. Conditions
+    are ignored. An argument that is used but not declared is required.
+    """
+    file = loader.open_xml(path, sink)
+    root = _read_root(file, sink) if file else None
+    if root is None:
+        return None
+    search = _ArgumentSearch(loader, sink)
+    search.search(root, path)
+    # xacro evaluates the attributes of <robot> first, before it has seen any default.
+    early = set(_ARG_USE.findall(" ".join(root.values.values())))
+    declared = [one._replace(default=None) if one.name in early else one for one in search.declared.values()]
+    undeclared = [ListedParameter(name, "string") for name in search.used if name not in search.declared]
+    name = root.get("name")
+    return Listing(name if name and "$" not in name else path.name, parameters=(*declared, *undeclared))
+
+
+def _read_root(file: SourceFile, sink: Diagnostics) -> XmlElement | None:
+    from linkforge_compile.importers.xml import read_xml
+
+    document = read_xml(file, sink)
+    return document.root if document else None
+
+
+class _NotListedError(Exception):
+    """An include cannot be followed; the message says why."""
+
+
+class _ArgumentSearch:
+    """Searches a xacro file and all that it includes, each once."""
+
+    def __init__(self, loader: Loader, sink: Diagnostics) -> None:
+        self.declared: dict[str, ListedParameter] = {}
+        self.used: dict[str, None] = {}
+        self._loader, self._sink = loader, sink
+        self._seen: set[str] = set()
+
+    def search(self, root: XmlElement, path: Path, depth: int = 0) -> None:
+        self._seen.add(identity(path))
+        for element in in_order(root):
+            name, included = element.get("name"), element.get("filename")
+            if element.tag == "xacro:arg" and name:
+                self.declared.setdefault(name, ListedParameter(name, "string", default=element.get("default")))
+            elif element.tag == "xacro:include" and included is not None:
+                self._include(included, element, path, depth)
+        self.used |= dict.fromkeys(_ARG_USE.findall(root.raw))
+
+    def _include(self, name: str, element: XmlElement, user: Path, depth: int) -> None:
+        try:
+            path = user.parent / self._resolve(name, user)
+            if identity(path) in self._seen:
+                return
+            root = self._open(path, name, element.span, depth)
+        except _NotListedError as error:
+            if element.get("optional") not in ("true", "True", "1"):
+                self._sink.report(ARGUMENTS_NOT_LISTED.at(element.span, path=name, reason=str(error)))
+            return
+        self.search(root, path, depth + 1)
+
+    def _open(self, path: Path, name: str, place: Span, depth: int) -> XmlElement:
+        if depth == _MAX_INCLUDE_DEPTH:
+            raise _NotListedError(f"more than {_MAX_INCLUDE_DEPTH} files include each other")
+        faults = Diagnostics()
+        file = self._loader.open_xml(path, faults, ImportSite(name, place))
+        root = _read_root(file, faults) if file else None
+        if root is None:
+            raise _NotListedError(next(iter(faults)).message)
+        return root
+
+    def _resolve(self, name: str, user: Path) -> str:
+        """Return a file name with its substitutions replaced."""
+        text = _SUBSTITUTION.sub(lambda found: self._value(found[1], found[2], user), name)
+        if "$" in text or re.search(r"[*?\[]", text):
+            raise _NotListedError(_COMPUTED_NAME)
+        return text
+
+    def _value(self, kind: str, name: str, user: Path) -> str:
+        if kind == "dirname":
+            return str(user.parent.absolute())
+        if kind == "find":
+            folder = find_package(name, self._loader.packages, user.parent, self._loader.roots)
+            if folder is None:
+                raise _NotListedError(f"no package named '{name}'; say where it is with --package {name}=FOLDER")
+            return str(folder)
+        argument = self.declared.get(name)
+        if argument is None or argument.default is None or "$" in argument.default:
+            raise _NotListedError(_COMPUTED_NAME)
+        return argument.default

@@ -1,4 +1,4 @@
-"""Reads spec files, each once in a compile, and remembers how each was reached."""
+"""Read spec, XML and data files, each once per compile, within the roots that the user allows."""
 
 from __future__ import annotations
 
@@ -11,32 +11,35 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
 from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
-from linkforge_compile.expand.file_text import UnreadableError, file_bytes, file_text, utf8_text
-from linkforge_compile.expand.noted import NotedSink, used_from
-from linkforge_compile.expand.path_starts import looked_for
-from linkforge_compile.expand.paths import as_typed, names_in
-from linkforge_compile.expand.trees import known_source, tree_of
-from linkforge_compile.expand.whole import Whole, reached
-from linkforge_compile.limits import MAX_FILE_BYTES, Budget, Limit
+from linkforge_compile.expand.annotating_sink import AnnotatingSink, with_use_trace
+from linkforge_compile.expand.file_text import UnreadableError, read_spec, read_utf8, read_xml
+from linkforge_compile.expand.includes import ComposedFile, compose, follow_includes
+from linkforge_compile.expand.paths import as_typed, names_in, searched_note
+from linkforge_compile.expand.spec_tree import cached_source, read_tree
+from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.roots import ANYWHERE, Roots, identity
 from linkforge_compile.source import SourceFile, Span, place_of_byte
-from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
+from linkforge_compile.source.encoding import begins_xml
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
-from linkforge_compile.syntax.ignore_words import IGNORE_WORDS
+from linkforge_compile.syntax.ignore_comments import IGNORE_WORDS, ignore_comments
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.ignores import Ignore
-    from linkforge_compile.expand.packages import Package
+    from linkforge_compile.expand.packages import NearbyPackages, Package
+
+_PACKAGE_SCHEME = "package://"
+
+_CHECK_BUDGETS = 3
+"""How many budgets `check_spec` may spend; the largest robot is checked twice with its SRDF."""
 
 
 @dataclass(frozen=True, eq=False)
 class SpecFile:
-    """One file, read and validated, and how it was reached; two of one `file` are two ways to it.
+    """One validated spec file and how it was reached; one file may be reached in several ways.
 
-    `folder` is where its relative paths start, with symbolic links as they were walked; None for a text that
-    lies nowhere. `package` is the one through whose `package://` it was reached, and all that it uses from there.
-    `included` are the files that were laid into the tree, each as if it stood by itself. `packages` are folders of
-    packages that the files around declare, for what they hand on and for formats that cannot declare any.
+    `folder` is where its relative paths start, with symbolic links as written; None for a text without a folder.
+    `package` is the package through whose `package://` it was reached; what it uses from there keeps it.
+    `included` are the files merged into the tree. `packages` are package folders that using files declare.
     """
 
     file: SourceFile
@@ -46,14 +49,14 @@ class SpecFile:
     included: Mapping[SourceFile, SpecFile] = field(default_factory=dict)
     packages: Mapping[str, Path] = field(default_factory=dict)
 
-    def writer(self, where: Span) -> SpecFile:
-        """Return the one of the files that are this one in which a place lies: its relative paths start there."""
+    def part_at(self, where: Span) -> SpecFile:
+        """Return the included file that holds a place, or this one: relative paths written there start in it."""
         return self.included.get(where.file, self)
 
 
 @dataclass(frozen=True)
-class Used:
-    """The text that names a file and where it stands, None for what is named on the command line or in Python."""
+class ImportSite:
+    """The text that names a file and its place, None if it was named on the command line or in Python."""
 
     text: str
     where: Span | None
@@ -63,159 +66,148 @@ class _ReadText(Protocol):
     def __call__(self, path: Path, *, only_regular: bool) -> str | None: ...
 
 
-Judge: TypeAlias = Callable[[SpecFile, "Loader"], tuple[Diagnostic, ...]]
-"""Tells the errors of a spec by itself."""
+CheckSpec: TypeAlias = Callable[[SpecFile, "Loader"], tuple[Diagnostic, ...]]
+"""Returns the errors of a spec compiled by itself."""
 
 
-def _nothing_wrong(_spec: SpecFile, _loader: Loader) -> tuple[Diagnostic, ...]:
+def _no_check(_spec: SpecFile, _loader: Loader) -> tuple[Diagnostic, ...]:
     return ()
 
 
-_TIMES_JUDGED = 3
-"""How many times what a compile may take its judges may take: the largest robot is judged twice with its SRDF."""
-
-
-_PACKAGE = "package://"
-
-
 class Loader:
-    """All the files of one compile."""
+    """All files of one compile."""
 
     def __init__(
         self, packages: Mapping[str, Path] | None = None, roots: Roots = ANYWHERE, budget: Budget | None = None
     ) -> None:
-        """`packages` come before every other place where `package://` is looked for.
+        """Create a loader without files.
 
-        What a spec names is read within the `roots`, what its user names wherever it is. `judge` is asked of a
-        vendor's robot what is wrong with it, for that is a matter of later stages. Without `runs_xacro` no xacro file
-        is expanded, as where the environment forbids it.
+        `packages` come before every other place where `package://` is looked for. Files that a spec names must lie
+        within the `roots`, files that the user names may lie anywhere. `check_spec` finds the errors of a vendor's
+        robot; the pipeline sets it, since that takes later stages. Without `runs_xacro` no xacro file is expanded.
         """
         self.packages = dict(packages or {})
         self.roots = roots
-        self.judge: Judge = _nothing_wrong
+        self.check_spec: CheckSpec = _no_check
         self.runs_xacro = True
-        self.packages_around: dict[Path, Mapping[str, Path]] = {}
-        """The packages near a folder by their names, once somebody asked; nothing that a spec names is read there."""
+        self.nearby_packages: NearbyPackages = {}
+        self.budget = budget or Budget()
+        self._check_budget = Budget(times=_CHECK_BUDGETS, within=self.budget.within)
         self._sources: list[SourceFile] = []
-        self._specs: dict[str, Whole | None] = {}  # by real path
+        self._specs: dict[str, ComposedFile | None] = {}  # by real path
         self._data: dict[str, YamlNode | None] = {}  # by real path
         self._xml: dict[str, SourceFile] = {}  # by real path
-        self._read_elsewhere: list[Path] = []
+        self._read_by_xacro: list[Path] = []
         self._unread: list[Path] = []
-        self.budget = budget or Budget()
-        self._budget_of_judges = Budget(times=_TIMES_JUDGED, within=self.budget.within)
 
     @property
     def sources(self) -> tuple[SourceFile, ...]:
-        """The text of everything that was read, in that order; a file that is included twice is there twice."""
+        """The texts in the order read; a file that is included twice is there twice."""
         return tuple(self._sources)
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """Every file that was read, in that order, as its user would type it."""
+        """The files in the order read, as the user would type them."""
         sources = (source.path for source in self._sources if source.path)
-        return tuple(dict.fromkeys((*sources, *self._read_elsewhere)))
+        return tuple(dict.fromkeys((*sources, *self._read_by_xacro)))
 
     @property
     def unread(self) -> tuple[Path, ...]:
-        """Every file that was asked for and is not there, or is no text, in that order."""
+        """The files that were requested but do not exist or are not text, in that order."""
         return tuple(dict.fromkeys(self._unread))
 
     @property
     def ignores(self) -> tuple[Ignore, ...]:
-        """Every comment of what was read that asks to ignore codes."""
-        asking = [file for file in self.sources if IGNORE_WORDS.search(file.text)]
-        if not asking:
-            return ()
-        from linkforge_compile.syntax.ignore_comments import ignore_comments
-
-        return tuple(one for file in asking for one in ignore_comments(file, self.budget))
+        """The comments that suppress codes, of all files read."""
+        commented = [file for file in self.sources if IGNORE_WORDS.search(file.text)]
+        return tuple(one for file in commented for one in ignore_comments(file, self.budget))
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:
-        """Read a spec from text that is no file, or a URDF as one.
-
-        `folder` is where its relative paths start, None for nowhere.
-        """
-        source = self._source(name, text, None, None)
-        whole = _urdf(source, sink) if begins_xml(text) else self._whole(source, folder, sink)
-        return _spec(whole, folder, None) if whole else None
+        """Read a spec or URDF given as text; `folder` is where its relative paths start, None for none."""
+        source = self._add_source(name, text, None, None)
+        composed = _read_urdf(source, sink) if begins_xml(text) else self._compose(source, folder, sink)
+        return _reach(composed, folder, None) if composed else None
 
     def open(
-        self, path: Path, sink: Diagnostics, *, package: Package | None = None, used: Used | None = None
+        self, path: Path, sink: Diagnostics, *, package: Package | None = None, used: ImportSite | None = None
     ) -> SpecFile | None:
-        """Read a spec file, or a URDF as one; `used` says by which `use`, None for the compiled file.
+        """Read a spec or URDF file; `used` is the `use` that names it, None for the compiled file.
 
-        None where it cannot be read, which is reported at the `use`, or is no spec, which is reported inside it.
+        Returns None if it cannot be read, which is reported at the `use`, or is not a spec, reported in the file.
         """
-        # Paths are compared by what they lead to and shown as they were reached.
         real = identity(path)
         if real not in self._specs:
             is_urdf = path.suffix.lower() == ".urdf"
-            text = self._text(path, used or Used(str(as_typed(path)), None), sink, _xml_text if is_urdf else _spec_text)
-            if text is None:
+            source = self._read(path, used, sink, read_xml if is_urdf else read_spec)
+            if source is None:
                 return None
-            source = self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
-            # A file that is used twice is read once: what is wrong in it is told with its first use.
-            inside = used_from(sink, (used.where,) if used and used.where else ())
+            # A file that is used twice is read once; its faults are reported with the first use.
+            inside = with_use_trace(sink, (used.where if used else None,))
             self._specs[real] = (
-                _urdf(source, inside) if is_urdf or begins_xml(text) else self._whole(source, path.parent, inside)
+                _read_urdf(source, inside)
+                if is_urdf or begins_xml(source.text)
+                else self._compose(source, path.parent, inside)
             )
-        whole = self._specs[real]
-        return _spec(whole, path.parent, package) if whole else None
+        composed = self._specs[real]
+        return _reach(composed, path.parent, package) if composed else None
 
-    def open_xml(self, path: Path, sink: Diagnostics, used: Used | None = None) -> SourceFile | None:
-        """Read a text of XML in the encoding that it says; `used` says by what, None for the command line."""
+    def open_xml(self, path: Path, sink: Diagnostics, used: ImportSite | None = None) -> SourceFile | None:
+        """Read an XML file in the encoding that it declares; `used` names it, None for the command line."""
         real = identity(path)
         if real not in self._xml:
-            text = self._text(path, used or Used(str(as_typed(path)), None), sink, _xml_text)
-            if text is None:
+            source = self._read(path, used, sink, read_xml)
+            if source is None:
                 return None
-            self._xml[real] = self._source(str(as_typed(path)), text, as_typed(path), used.where if used else None)
+            self._xml[real] = source
         return self._xml[real]
 
-    def given_xml(self, name: str, text: str) -> SourceFile:
-        """Take a text of XML that is no file, or was read from a pipe."""
-        return self._source(name, text, None, None)
-
-    def note_read(self, path: Path) -> None:
-        """Note that somebody else read a file for this compile; what it holds is his."""
-        self._read_elsewhere.append(as_typed(path))
-
-    def open_data(self, path: Path, sink: Diagnostics, tags: Tags, used: Used) -> YamlNode | None:
-        """Read a file of data, which may be of any shape and hold `tags`; None where it cannot be had, as reported."""
+    def open_data(self, path: Path, sink: Diagnostics, tags: Tags, used: ImportSite) -> YamlNode | None:
+        """Read a YAML file of any shape that may hold `tags`; None after a reported error."""
         real = identity(path)
         if real not in self._data:
-            text = self._text(path, used, sink)
-            if text is None:
+            source = self._read(path, used, sink, read_utf8)
+            if source is None:
                 return None
-            source = self._source(str(as_typed(path)), text, as_typed(path), used.where)
-            notes = [Note("read here", used.where)]
-            self._data[real] = read_data(source, NotedSink(sink, notes), tags, self.budget)
+            inside = AnnotatingSink(sink, [Note("read here", used.where)])
+            self._data[real] = read_data(source, inside, tags, self.budget)
         return self._data[real]
 
+    def add_xml(self, name: str, text: str) -> SourceFile:
+        """Add XML text that is not a file, or was read from a pipe."""
+        return self._add_source(name, text, None, None)
+
+    def add_read_by_xacro(self, path: Path) -> None:
+        """Record a file that the xacro process read, for `files`."""
+        self._read_by_xacro.append(as_typed(path))
+
     @contextmanager
-    def judging(self) -> Iterator[None]:
-        """Count what is taken meanwhile apart: a robot that is judged by itself is expanded once more for the rest."""
-        own, self.budget = self.budget, self._budget_of_judges
+    def separate_budget(self) -> Iterator[None]:
+        """Charge `check_spec` to a budget of its own, since the spec is expanded again for the robot."""
+        own, self.budget = self.budget, self._check_budget
         try:
             yield
         finally:
             self.budget = own
 
-    def may_read(self, path: Path, used: Used, sink: Diagnostics) -> bool:
-        """Whether a file may be read by whoever names it; reports why not, be there a file or not."""
+    def may_read(self, path: Path, used: ImportSite, sink: Diagnostics) -> bool:
+        """Whether the namer of a file may read it; reports why not, whether or not the file exists."""
         if used.where is None or self.roots.hold(path):
             return True
         notes = map(Note, self.roots.reasons(path))
-        name = used.text.removeprefix(_PACKAGE).partition("/")[0] if used.text.startswith(_PACKAGE) else "NAME"
+        is_package = used.text.startswith(_PACKAGE_SCHEME)
+        name = used.text.removeprefix(_PACKAGE_SCHEME).partition("/")[0] if is_package else "NAME"
         sink.report(OUTSIDE_ROOTS.at(used.where, path=used.text, name=name, notes=notes))
         return False
 
-    def _text(self, path: Path, used: Used, sink: Diagnostics, read: _ReadText = file_text) -> str | None:
+    def _read(
+        self, path: Path, used: ImportSite | None, sink: Diagnostics, read: _ReadText, included: Span | None = None
+    ) -> SourceFile | None:
+        """Read the text of a file; None after a reported error."""
+        used = used or ImportSite(str(as_typed(path)), None)
         if not self.may_read(path, used, sink):
             return None
-        # Whoever compiles a pipe named it himself; a `use` of one may be a stranger's, and would make us wait.
         try:
+            # A pipe is fine if the user names it; one that an untrusted spec names would block the compile.
             text = read(path, only_regular=used.where is not None)
         except UnreadableError as error:
             byte = place_of_byte(error.undecoded, str(as_typed(path))) if error.undecoded else None
@@ -224,76 +216,54 @@ class Loader:
             self._unread.append(as_typed(path))
             return None
         if text is None:
-            notes = [looked_for(path, used.text, used.where)] if used.where else []
+            notes = [searched_note(path, used.text, used.where)] if used.where else []
             near = [name for name in names_in(path.parent) if _is_srdf(name) == _is_srdf(path.name)]
             sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
             self._unread.append(as_typed(path))
-        return text
+            return None
+        return self._add_source(str(as_typed(path)), text, as_typed(path), used.where, included)
 
-    def _whole(self, source: SourceFile, folder: Path | None, sink: Diagnostics) -> Whole | None:
-        """Read a spec with all that it includes; None where its own text is no spec."""
-        tree = tree_of(source, sink, self.budget)
+    def _add_source(
+        self, name: str, text: str, path: Path | None, used: Span | None, included: Span | None = None
+    ) -> SourceFile:
+        self.budget.spend(Limit.CHARACTERS_READ, len(text), used)
+        source = cached_source(SourceFile(name, text, path, order=len(self._sources), included=included))
+        self._sources.append(source)
+        return source
+
+    def _compose(self, source: SourceFile, folder: Path | None, sink: Diagnostics) -> ComposedFile | None:
+        """Read a spec with all that it includes; None if its own text is not a spec."""
+        tree = read_tree(source, sink, self.budget)
         if tree is None:
             return None
         if tree.get("include") is None:
-            return Whole(source, tree)
-        from linkforge_compile.expand.includes import lay_together
+            return ComposedFile(source, tree)
 
         def read_included(path: Path, item: YamlScalar) -> tuple[SourceFile, YamlMap] | None:
-            text = self._text(path, Used(item.text, item.span), sink)
-            if text is None:
-                return None
-            included = self._source(str(as_typed(path)), text, as_typed(path), item.span, included=item.span)
-            part = tree_of(included, sink, self.budget)
-            return None if part is None else (included, part)
+            file = self._read(path, ImportSite(item.text, item.span), sink, read_utf8, included=item.span)
+            part = read_tree(file, sink, self.budget) if file else None
+            return (file, part) if file and part is not None else None
 
-        return lay_together(source, tree, folder, read_included, sink)
-
-    def _source(
-        self, name: str, text: str, path: Path | None, asked: Span | None, included: Span | None = None
-    ) -> SourceFile:
-        self.budget.spend(Limit.CHARACTERS_READ, len(text), asked)
-        source = known_source(SourceFile(name, text, path, order=len(self._sources), included=included))
-        self._sources.append(source)
-        return source
+        return compose(source, tree, folder, read_included, sink)
 
 
 def _is_srdf(name: str) -> bool:
     return ".srdf" in name.lower()
 
 
-def _urdf(source: SourceFile, sink: Diagnostics) -> Whole | None:
-    """Read a URDF as a spec; what is wrong with it is told where it has it."""
+def _read_urdf(source: SourceFile, sink: Diagnostics) -> ComposedFile | None:
+    """Read a URDF as a spec; its faults are reported in the URDF."""
     from linkforge_compile.importers.urdf import read_urdf
 
     imported = read_urdf(source, sink)
-    return Whole(source, imported.tree) if imported else None
+    return ComposedFile(source, imported.tree) if imported else None
 
 
-def _spec(whole: Whole, folder: Path | None, package: Package | None) -> SpecFile:
-    """Return a spec as it was reached in a folder, and its included files from there."""
+def _reach(composed: ComposedFile, folder: Path | None, package: Package | None) -> SpecFile:
+    """Return a spec as reached in a folder, and its included files as reached from there."""
     included = {}
-    for file, way in whole.ways.items():
-        path = reached(folder or Path(), way)
+    for file, include_paths in composed.include_paths.items():
+        path = follow_includes(folder or Path(), include_paths)
         inside = package if package is not None and path.is_relative_to(package.folder) else None
-        included[file] = SpecFile(file, whole.tree, path.parent, inside)
-    return SpecFile(whole.file, whole.tree, folder, package, included)
-
-
-def _spec_text(path: Path, *, only_regular: bool) -> str | None:
-    content = file_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
-    if content is None:
-        return None
-    return _decoded_xml(content) if begins_xml(content) else utf8_text(content)
-
-
-def _xml_text(path: Path, *, only_regular: bool) -> str | None:
-    content = file_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
-    return None if content is None else _decoded_xml(content)
-
-
-def _decoded_xml(content: bytes) -> str:
-    try:
-        return xml_text(content)
-    except EncodingError as error:
-        raise UnreadableError(str(error), error.undecoded) from error
+        included[file] = SpecFile(file, composed.tree, path.parent, inside)
+    return SpecFile(composed.file, composed.tree, folder, package, included)

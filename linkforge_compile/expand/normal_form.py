@@ -1,11 +1,11 @@
-"""Short forms made long, so that `defaults` and `override` meet one shape of each thing however it was written."""
+"""Convert short forms to long ones, so that `defaults` and `override` handle one form of each object."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 
-from linkforge_compile.schema.shapes import Shape
-from linkforge_compile.source import Span
+from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
 SHORT_FORMS: Mapping[str, str] = {
@@ -18,7 +18,7 @@ SHORT_FORMS: Mapping[str, str] = {
     "a collision pair": "reason",
     "a sphere approximation": "spheres",
 }
-"""The key that stands for a whole object where its value is written in the object's place, by the object's title."""
+"""By the title of an object, the key whose value may be written in place of the whole object."""
 
 GEOMETRIES = ("box", "cylinder", "sphere", "capsule", "mesh")
 
@@ -27,26 +27,26 @@ CHOICES: Mapping[str, tuple[str, ...]] = {
     "a collision": GEOMETRIES,
     "an inertial": ("mass", "density"),
 }
-"""Keys of which an object says one: to write one takes the others away."""
+"""By the title of an object, keys that exclude each other: setting one removes the others."""
 
 
-def is_said(node: YamlNode | None) -> bool:
-    """Whether anything is written at a node that may be absent or null."""
+def is_set(node: YamlNode | None) -> bool:
+    """Whether a node exists and is not null."""
     return node is not None and not (isinstance(node, YamlScalar) and node.value is None)
 
 
 def lists_objects(shape: Shape) -> bool:
-    """Whether a list of objects may stand at a place, so that one object means a list of one."""
+    """Whether a list of objects may be written at a place, so that a single object means a list of one."""
     return shape.item is not None and shape.item.is_object and not shape.has_names
 
 
 def long_form(node: YamlNode, shape: Shape) -> YamlNode:
-    """Return a node with its own short form made long; what is in it stays as it is.
+    """Return a node in its long form; what is inside of it is not converted.
 
-    One object where a list may stand is a list of one, `origin: [..]` is `{xyz: [..]}`, a list of names where a map
-    of them may stand is a map of empty entries.
+    A single object in place of a list becomes a list of one, `origin: [..]` becomes `{xyz: [..]}`, and a list of
+    names in place of a map becomes a map of empty entries.
     """
-    if not is_said(node) or isinstance(node, YamlFault):
+    if not is_set(node) or isinstance(node, YamlFault):
         return node
     if isinstance(node, YamlMap):
         return YamlList((node,), node.span) if lists_objects(shape) else node
@@ -60,15 +60,15 @@ def long_form(node: YamlNode, shape: Shape) -> YamlNode:
 
 
 def long_object(node: YamlMap, shape: Shape) -> YamlMap:
-    """Return an object without the short forms of which only all of it can tell the meaning, such as a copy."""
+    """Return an object without short forms that refer to its other keys, such as `collision: visual`."""
     return _OBJECTS[shape.title](node) if shape.title in _OBJECTS else node
 
 
 def with_frames_as_joints(tree: YamlMap) -> YamlMap:
-    """Return a file's tree with each frame turned into its link and its fixed joint, behind the file's own.
+    """Return a file's tree with each frame replaced by a link and a fixed joint, after those of the file.
 
-    A frame that is at fault, or has the name of something else, stays: it is told of as a frame. So does a section
-    that is at fault, and is lost as a whole: what is missing for that is told once.
+    A faulty frame stays, as does one with the name of another link or joint, so that it is reported as a frame. A
+    faulty section stays as well.
     """
     frames = tree.get("frames")
     if not isinstance(frames, YamlMap):
@@ -92,33 +92,31 @@ def with_frames_as_joints(tree: YamlMap) -> YamlMap:
 
 
 def _joint_of(frame: YamlEntry) -> YamlEntry | None:
-    """Return the entry of a frame's joint, None where the frame is no map or has no parent."""
-    said = frame.value
-    if not isinstance(said, YamlMap) or not isinstance(said.get("parent"), YamlScalar):
+    """Return the joint of a frame as an entry, None if the frame is not a map or has no parent."""
+    fields = frame.value
+    if not isinstance(fields, YamlMap) or not isinstance(fields.get("parent"), YamlScalar):
         return None
-    named = said.get("joint")
-    if named is None:
+    key = fields.get("joint")
+    if key is None:
         key = YamlScalar(f"{frame.name}_joint", f"{frame.name}_joint", frame.key.span)
-    elif isinstance(named, YamlScalar):
-        key = named
-    else:
+    if not isinstance(key, YamlScalar):
         return None
-    ends = {name: entry for name in ("parent", "origin") if (entry := said.entries.get(name))}
-    fields = {"type": _word("type", "fixed", frame.key.span), **ends, "child": _entry("child", frame.key)}
-    return YamlEntry(key, YamlMap(fields, said.span))
+    kept = {name: entry for name in ("parent", "origin") if (entry := fields.entries.get(name))}
+    type_ = _entry("type", YamlScalar("fixed", "fixed", frame.key.span))
+    return YamlEntry(key, YamlMap({"type": type_, **kept, "child": _entry("child", frame.key)}, fields.span))
 
 
 def _with_copied_collision(link: YamlMap) -> YamlMap:
-    """Return a link with `collision: visual` as the shapes that it means."""
+    """Return a link with the shapes of its visuals in place of `collision: visual`."""
     collision, visual = link.entries.get("collision"), link.get("visual")
     if not (collision and visual and isinstance(collision.value, YamlScalar) and collision.value.text == "visual"):
         return link
-    shapes = visual if isinstance(visual, YamlList) else YamlList((visual,), visual.span)
-    copied = YamlList(tuple(_shape_alone(shape) for shape in shapes), collision.value.span)
+    visuals = visual if isinstance(visual, YamlList) else YamlList((visual,), visual.span)
+    copied = YamlList(tuple(_without_look(each) for each in visuals), collision.value.span)
     return YamlMap({**link.entries, "collision": YamlEntry(collision.key, copied)}, link.span)
 
 
-def _shape_alone(visual: YamlNode) -> YamlNode:
+def _without_look(visual: YamlNode) -> YamlNode:
     if not isinstance(visual, YamlMap):
         return visual
     kept = {name: entry for name, entry in visual.entries.items() if name in {"origin", *GEOMETRIES}}
@@ -126,7 +124,7 @@ def _shape_alone(visual: YamlNode) -> YamlNode:
 
 
 def _with_listed_chain(group: YamlMap) -> YamlMap:
-    """Return a group with its `chain` as its `chains`, or the first of them."""
+    """Return a group with its `chain` as the first of its `chains`."""
     chain, chains = group.entries.get("chain"), group.get("chains")
     if chain is None:
         return group
@@ -142,7 +140,7 @@ _OBJECTS: Mapping[str, Callable[[YamlMap], YamlMap]] = {
     "a link": _with_copied_collision,
     "a group": _with_listed_chain,
 }
-"""Makes an object's parts long that refer to its other parts, by its title."""
+"""By the title of an object, what `long_object` does with it."""
 
 
 def _section(tree: YamlMap, name: str) -> dict[str, YamlEntry]:
@@ -154,5 +152,49 @@ def _entry(name: str, value: YamlNode) -> YamlEntry:
     return YamlEntry(YamlScalar(name, name, value.span), value)
 
 
-def _word(name: str, word: str, where: Span) -> YamlEntry:
-    return _entry(name, YamlScalar(word, word, where))
+# Gazebo tags have keys of their own, and an import puts some under `properties` instead.
+
+_GAZEBO_BLOCKS = ("a gazebo block", "a robot's gazebo block")
+_PROPERTIES = "properties"
+
+
+def with_tags_as_patched(block: YamlMap, patch: YamlMap, shape: Shape) -> YamlMap:
+    """Return a Gazebo block with each tag that a patch sets where the patch has it, as a key or under `properties`.
+
+    Otherwise the block would have the tag twice. Anything but a Gazebo block is returned unchanged.
+    """
+    if shape.title not in _GAZEBO_BLOCKS:
+        return block
+    entries = dict(block.entries)
+    properties, patched = _section(block, _PROPERTIES), _section(patch, _PROPERTIES)
+    keys = {_gazebo_tag(name): name for name in entries if _is_tag_key(shape, name)}
+    for name in patch.entries:
+        if _is_tag_key(shape, name) and (moved := properties.pop(_gazebo_tag(name), None)):
+            entries[name] = YamlEntry(YamlScalar(name, name, moved.key.span), moved.value)
+    for tag in patched.keys() & keys.keys():
+        moved = entries.pop(keys[tag])
+        properties[tag] = YamlEntry(YamlScalar(tag, tag, moved.key.span), moved.value)
+    return YamlMap(_with_properties(entries, properties, block), block.span)
+
+
+def _with_properties(
+    entries: dict[str, YamlEntry], properties: dict[str, YamlEntry], block: YamlMap
+) -> dict[str, YamlEntry]:
+    section = block.entries.get(_PROPERTIES)
+    if section is not None and not isinstance(section.value, YamlMap):
+        return entries
+    others = {name: entry for name, entry in entries.items() if name != _PROPERTIES}
+    if not properties:
+        return others
+    key = section.key if section else YamlScalar(_PROPERTIES, _PROPERTIES, block.span)
+    span = section.value.span if section else block.span
+    return {**others, _PROPERTIES: YamlEntry(key, YamlMap(properties, span))}
+
+
+def _is_tag_key(shape: Shape, name: str) -> bool:
+    return name != _PROPERTIES and shape.under(name) is not FREE
+
+
+def _gazebo_tag(key: str) -> str:
+    """Return the tag of a key, which has capitals in place of underscores: `max_vel` is `maxVel`."""
+    return re.sub(r"_([a-z])", lambda found: found[1].upper(), key)

@@ -4,22 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand.values import describe
-from linkforge_compile.expressions import FAULT, forgotten_expression, handed_on
+from linkforge_compile.expressions import FAULT, Scope, Template, forgotten_expression, handed_on
 from linkforge_compile.source import Key, Origin, TracedSpan
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 
 if TYPE_CHECKING:
-    from linkforge_compile.expand.evaluate_tree import TreeEvaluator
+    from collections.abc import Mapping
 
 Path: TypeAlias = tuple[str | int, ...]
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 _MOST_STEPS = 10_000
 _LONGEST_TEXT = 60
+
+
+class Evaluation(Protocol):
+    """What following a value back needs of the evaluator that computed it."""
+
+    @property
+    def scope(self) -> Scope: ...
+
+    @property
+    def settings(self) -> Mapping[str, Setting]: ...
+
+    def scope_of(self, scalar: YamlScalar) -> Scope: ...
+
+    def template(self, scalar: YamlScalar, sink: Diagnostics) -> Template | None: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +48,7 @@ class Setting:
 
     by: str
     node: YamlNode
-    tree: TreeEvaluator | None = None
+    tree: Evaluation | None = None
     path: Path = ()
     is_made: bool = False
     named_by: YamlNode | None = None
@@ -46,7 +60,7 @@ class ExpressionTrace:
     """One expression and the scope in which it was computed: from there its value can be followed back."""
 
     scalar: YamlScalar
-    tree: TreeEvaluator
+    tree: Evaluation
 
     def origin(self, path: Path) -> Origin | None:
         """Return where the part at a path of the value was written; None where the expression itself made it."""
@@ -81,7 +95,7 @@ def names_behind(node: YamlNode) -> tuple[NameOrigin, ...]:
     return tuple(_names_of(node, None, set()))
 
 
-def _names_of(node: YamlNode, writer: TreeEvaluator | None, told: set[Setting]) -> Iterator[NameOrigin]:
+def _names_of(node: YamlNode, writer: Evaluation | None, told: set[Setting]) -> Iterator[NameOrigin]:
     for name, tree in _names_in(node, writer):
         setting = tree.settings.get(name)
         if setting is None or setting in told:
@@ -97,13 +111,13 @@ def _names_of(node: YamlNode, writer: TreeEvaluator | None, told: set[Setting]) 
         yield NameOrigin(name, shown, setting, within)
 
 
-def _names_in(node: YamlNode, tree: TreeEvaluator | None) -> Iterator[tuple[str, TreeEvaluator]]:
+def _names_in(node: YamlNode, tree: Evaluation | None) -> Iterator[tuple[str, Evaluation]]:
     """Yield the names that the expressions in a node use, in the order of the text, and what computed each."""
     if computed := _expression_of(node):
         node, tree = computed[0].scalar, computed[0].tree
     match node:
         case YamlScalar() if tree:
-            template = tree.expressions.template(node, Diagnostics()) if has_expression(node.text) else None
+            template = tree.template(node, Diagnostics()) if has_expression(node.text) else None
             yield from ((name, tree) for name in (template.names_in_order if template else ()))
         case YamlList():
             for item in node:
@@ -122,17 +136,17 @@ class _Written(NamedTuple):
     node: YamlNode
     is_data: bool
     key: Key | None = None
-    tree: TreeEvaluator | None = None
+    tree: Evaluation | None = None
 
 
-def _written(node: YamlNode, tree: TreeEvaluator | None, path: Path) -> _Written:
+def _written(node: YamlNode, tree: Evaluation | None, path: Path) -> _Written:
     """Follow a value through the names that hand it on; what computes it is where it was written."""
     is_data = False
     for _ in range(_MOST_STEPS):
         if computed := _expression_of(node):
             node, tree, path = computed[0].scalar, computed[0].tree, (*computed[1], *path)
         elif isinstance(node, YamlScalar) and tree and has_expression(node.text):
-            template = tree.expressions.template(node, Diagnostics())
+            template = tree.template(node, Diagnostics())
             taken = handed_on(template, tree.scope_of(node)) if template else None
             setting = tree.settings.get(taken[0]) if taken else None
             if taken is None or setting is None or setting.is_made:

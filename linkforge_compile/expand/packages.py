@@ -1,4 +1,4 @@
-"""Where `package://NAME/` leads: the order of places is part of the language."""
+"""Find the folder that `package://NAME/` stands for; the search order is part of the language."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
@@ -16,21 +16,21 @@ from linkforge_compile.manifest import package_name
 from linkforge_compile.roots import Roots, as_walked, is_file, is_folder
 from linkforge_compile.source import Span
 
-if TYPE_CHECKING:
-    from linkforge_compile.expand.loader import Loader
-
 _NAME = re.compile(r"\w[\w.-]*")
-"""The name of a folder that may be a package: no way to another folder, as `$(find ../..)` of a xacro would be."""
+"""What may be the name of a package folder; excludes paths such as those of `$(find ../..)` in a xacro."""
 
-_SOURCES = "src"
-"""The folder of a workspace of ROS in which its packages and repositories lie."""
+_WORKSPACE_SOURCES = "src"
+"""The folder of a ROS workspace that holds its packages and repositories."""
 
 _LEVELS_UP = 6
-_TOP = 2
-"""So many parts has the path of `/home`."""
+_MIN_PARTS = 2
+"""The nearby search stops at folders with no more parts in their path than `/home` has."""
 
-_MOST_FOLDERS = 500
-"""In so many folders a package is looked for that is nowhere."""
+_MAX_FOLDERS = 500
+"""How many nearby folders are searched for a package that was not found."""
+
+NearbyPackages: TypeAlias = "dict[Path, Mapping[str, Path]]"
+"""The packages near a folder by name, for each folder around which a package was missed; filled on demand."""
 
 
 @dataclass(frozen=True)
@@ -42,10 +42,10 @@ class Package:
 
 
 def find_package(name: str, declared: Mapping[str, Path], start: Path | None, roots: Roots) -> Path | None:
-    """Return the folder of a package, None where it is nowhere that the roots let a spec look.
+    """Return the folder of a package, None if it is not found within the roots.
 
-    `declared` are the places that the user named. After them come the source tree (a folder upward from `start`
-    whose package.xml has that name), AMENT_PREFIX_PATH and ROS_PACKAGE_PATH.
+    `declared` are the folders that the user or the spec names. After them come the folders upward from `start` whose
+    package.xml has the name, AMENT_PREFIX_PATH and ROS_PACKAGE_PATH.
     """
     if name in declared:
         return declared[name]
@@ -69,11 +69,11 @@ def _in_ament(name: str) -> Iterator[Path]:
 
 
 def _in_ros_1(name: str, roots: Roots) -> Iterator[Path]:
-    """A path may lead to the package, to the folder that holds it, or to one of repositories that hold it."""
+    """Yield matches of ROS_PACKAGE_PATH, which lists packages, folders of packages and folders of repositories."""
     for root in _search_path("ROS_PACKAGE_PATH"):
         if package_name(root, roots) == name:
             yield root
-        # A repository that lies there is a stranger's, and may hold links: whether they lead to a package is not told.
+        # Links in an untrusted repository may lead out of the roots; do not reveal whether they lead to a package.
         manifests = (root / name / "package.xml", *sorted(root.glob(f"*/{name}/package.xml")))
         yield from (path.parent for path in manifests if roots.hold(path) and is_file(path))
 
@@ -82,56 +82,56 @@ def unknown_package(
     where: Span | None,
     name: str,
     start: Path | None,
-    loader: Loader,
+    roots: Roots,
+    nearby: NearbyPackages,
     *,
     near: Iterable[str],
     notes: Iterable[Note] = (),
 ) -> Diagnostic:
-    """Return what tells that a package is nowhere, and where one of its name lies that was not searched.
+    """Return the diagnostic for a package that was not found, with a note if one of that name is nearby.
 
-    A workspace that is not sourced is not searched for what a spec names: another version of the package may be the
-    one that is meant, and what lies beside a stranger's package is none of its business. To its user it is told.
-    `packages` of the file is no way to one outside of the roots, for it adds none to them.
+    `nearby` caches the search of the workspace around `start`. Packages found there are only suggested, never used: a
+    workspace that is not sourced may hold another version. Outside the roots only --package helps, because the
+    `packages` of a file cannot add roots.
     """
-    seen = _seen_around(start, loader).get(name) if start else None
+    seen = _packages_around(start, roots, nearby).get(name) if start else None
     option = f"--package {name}=FOLDER"
-    way = option if seen and not loader.roots.hold(seen) else f"'packages' of this file or {option}"
-    found = [Note(f"there is one; write --package {name}={_quoted(_from_here(seen))}")] if seen else []
+    way = option if seen and not roots.hold(seen) else f"'packages' of this file or {option}"
+    found = [Note(f"there is one; write --package {name}={_quote(_shortest(seen))}")] if seen else []
     return UNKNOWN_PACKAGE.at(where, name=name, way=way, near=near, notes=(*notes, *found))
 
 
-def _seen_around(start: Path, loader: Loader) -> Mapping[str, Path]:
-    """Return the packages near a folder, the nearest one of each name; looked for once in a compile."""
-    if start not in loader.packages_around:
-        roots = loader.roots
-        folders = reversed([*islice(_folders_around(as_walked(start), roots), _MOST_FOLDERS)])
-        loader.packages_around[start] = {name: folder for folder in folders if (name := package_name(folder, roots))}
-    return loader.packages_around[start]
+def _packages_around(start: Path, roots: Roots, nearby: NearbyPackages) -> Mapping[str, Path]:
+    """Return the packages near a folder, the nearest of each name."""
+    if start not in nearby:
+        folders = reversed([*islice(_folders_around(as_walked(start), roots), _MAX_FOLDERS)])
+        nearby[start] = {name: folder for folder in folders if (name := package_name(folder, roots))}
+    return nearby[start]
 
 
 def _folders_around(start: Path, roots: Roots) -> Iterator[Path]:
-    """Yield the folders beside those above a folder, and what is in them, up to the sources of its workspace.
+    """Yield the siblings of each folder upward and their subfolders, up to the sources of the workspace.
 
-    The top folders of a machine, where networks are mounted, and what lies in a home are not gone through.
+    Top-level folders, where networks may be mounted, and the home folder itself are not searched.
     """
     for above in islice((start, *start.parents), _LEVELS_UP):
-        if len(above.parts) <= _TOP or str(above) == os.path.expanduser("~"):  # noqa: PTH111 - Path.home() may raise
+        if len(above.parts) <= _MIN_PARTS or str(above) == os.path.expanduser("~"):  # noqa: PTH111 - home() may raise
             return
-        beside = _folders_in(above, roots)
-        yield from beside
-        for folder in beside:
+        siblings = _folders_in(above, roots)
+        yield from siblings
+        for folder in siblings:
             yield from _folders_in(folder, roots)
-        if above.name == _SOURCES:
+        if above.name == _WORKSPACE_SOURCES:
             return
 
 
 def _folders_in(folder: Path, roots: Roots) -> list[Path]:
-    """Return the folders in a folder, but for hidden ones and links that lead out of the roots."""
+    """Return the folders in a folder, without hidden ones and links that leave the roots."""
     try:
         with os.scandir(folder) as entries:
             found = [
                 entry.name
-                for entry in islice(entries, _MOST_FOLDERS)
+                for entry in islice(entries, _MAX_FOLDERS)
                 if not entry.name.startswith(".") and not roots.are_left_by(folder / entry.name) and entry.is_dir()
             ]
     except OSError:
@@ -139,16 +139,15 @@ def _folders_in(folder: Path, roots: Roots) -> list[Path]:
     return [folder / name for name in sorted(found)]
 
 
-def _from_here(folder: Path) -> str:
-    """Return the shorter of a folder's two paths: as it is, and from where the command runs."""
+def _shortest(folder: Path) -> str:
+    """Return the shorter of a folder's absolute path and its path from the working directory."""
     try:
         return min(str(folder), os.path.relpath(folder), key=len)
-    except ValueError:  # on another drive of Windows
+    except ValueError:  # another drive of Windows
         return str(folder)
 
 
-def _quoted(path: str) -> str:
-    """Return a path as a shell takes it."""
+def _quote(path: str) -> str:
     import shlex
 
     return shlex.quote(path)

@@ -1,10 +1,9 @@
-"""Parameters: how a file declares them, and whether a value is what a declaration admits."""
+"""Read the declarations of `parameters`, and check values against their types and constraints."""
 
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.model import WIDE_ANGLE
@@ -17,10 +16,18 @@ from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_PATTERN,
     PARAMETER_TOO_LARGE,
     PARAMETER_TOO_SMALL,
+    PARAMETER_WITHOUT_TYPE,
     UNFIT_CONSTRAINT,
 )
-from linkforge_compile.expand.evaluate_tree import TreeEvaluator
-from linkforge_compile.expand.kinds import KINDS, Kind
+from linkforge_compile.expand.evaluate import Evaluator
+from linkforge_compile.expand.parameter_types import (
+    PARAMETER_TYPES,
+    REFUSED_STEPS,
+    ParameterType,
+    Pattern,
+    PatternError,
+    infer_type,
+)
 from linkforge_compile.expand.values import describe
 from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_expression
 from linkforge_compile.limits import Limit
@@ -29,25 +36,21 @@ from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, Ya
 from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
 from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, unit_text
 
-if TYPE_CHECKING:
-    from linkforge_compile.expand.patterns import Pattern
-
-_STEPS_AN_INSTRUCTION = 4
-"""What it takes to compile one instruction of a pattern, in steps of expressions."""
+_STEPS_PER_INSTRUCTION = 4
+"""What compiling one instruction of a pattern costs, in steps of expressions."""
 
 _CONSTRAINTS = ("minimum", "maximum", "enum", "pattern")
 
 
 @dataclass(frozen=True)
 class Declaration:
-    """A parameter as its file declares it; `kind` is None where it follows from the default.
+    """A parameter as declared; `type` is None if it follows from the default.
 
-    `is_faulty` where a part that decides what it takes was reported already: then any value passes in silence, none
-    as well.
+    `is_faulty` if a part that decides on valid values was reported: then neither a value nor a missing one is.
     """
 
     key: YamlScalar
-    kind: Kind | None = None
+    type: ParameterType | None = None
     default: YamlNode | None = None
     constraints: Mapping[str, YamlEntry] = field(default_factory=dict)
     is_faulty: bool = False
@@ -58,7 +61,7 @@ class Declaration:
 
 
 def declarations(section: YamlNode | None) -> dict[str, Declaration]:
-    """Return what the section `parameters` declares, by name."""
+    """Return the declarations of the section `parameters` by name."""
     return {entry.name: _declaration(entry) for entry in section} if isinstance(section, YamlMap) else {}
 
 
@@ -71,140 +74,152 @@ def _declaration(entry: YamlEntry) -> Declaration:
     if not isinstance(declared, YamlMap):
         return Declaration(entry.key, default=declared)
     word = declared.get("type")
-    kind = KINDS.get(word.text) if isinstance(word, YamlScalar) else None
+    type_ = PARAMETER_TYPES.get(word.text) if isinstance(word, YamlScalar) else None
     constraints = {name: declared.entries[name] for name in _CONSTRAINTS if declared.get(name) is not None}
     default = declared.get("default")
-    # A key that nobody knows may have been meant for the default that is not there.
-    is_misspelt = default is None and any(isinstance(part.value, YamlFault) for part in declared)
-    is_faulty = is_misspelt or (word is not None and kind is None)
-    return Declaration(entry.key, kind, default, constraints, is_faulty)
+    # An unknown key, already reported, may be a misspelled `default`.
+    is_misspelled = default is None and any(isinstance(part.value, YamlFault) for part in declared)
+    is_faulty = is_misspelled or (word is not None and type_ is None)
+    return Declaration(entry.key, type_, default, constraints, is_faulty)
+
+
+def resolve_type(declaration: Declaration, evaluator: Evaluator) -> ParameterType | None:
+    """Return the declared type, else that of the default; None after a reported error."""
+    if declaration.type or declaration.is_faulty:
+        return declaration.type
+    if declaration.default is None:
+        evaluator.sink.report(PARAMETER_WITHOUT_TYPE.at(declaration.key.span, name=declaration.name))
+        return None
+    value = evaluator.value(declaration.default)
+    return None if value is FAULT else infer_type(value)
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """A declaration whose constraints are computed; those that it does not have, or that are at fault, are None."""
+    """A parameter with computed constraints; None for those that are absent or faulty."""
 
     name: str
-    kind: Kind
+    type: ParameterType
     minimum: Value = None
     maximum: Value = None
     choices: tuple[Value, ...] | None = None
     pattern: Pattern | None = None
 
-    def take(self, given: Value, where: Span, sink: Diagnostics, names: Container[str]) -> Value:
-        """Return the value as one of this parameter's type; None where it does not fit, which is reported.
+    def convert(self, value: Value, where: Span, sink: Diagnostics, names: Container[str]) -> Value:
+        """Return the value converted to the parameter's type; None if it does not fit, which is reported.
 
-        `names` are those that expressions may use where it is given.
+        `names` are those that expressions may use where the value was written.
         """
-        value = self.kind.take(given)
-        if value is None:
-            found = f"{describe(given)}{self._way_out(given, where, names)}"
-            sink.report(PARAMETER_KIND.at(where, parameter=self.name, expected=self.kind.words, found=found))
+        converted = self.type.convert(value)
+        if converted is None:
+            found = f"{describe(value)}{self._remedy(value, where, names)}"
+            sink.report(PARAMETER_KIND.at(where, parameter=self.name, expected=self.type.words, found=found))
             return None
-        violation = next(self._violations(value, where), None)
+        violation = next(self._violations(converted, where), None)
         if violation:
             sink.report(violation)
             return None
-        if self.kind.name == Dimension.ANGLE and isinstance(given, int | float) and abs(given) > WIDEST_ANGLE:
-            sink.report(WIDE_ANGLE.at(where, field=f"parameter '{self.name}'", found=number_text(given)))
-        return value
+        if self.type.name == Dimension.ANGLE and isinstance(value, int | float) and abs(value) > WIDEST_ANGLE:
+            sink.report(WIDE_ANGLE.at(where, field=f"parameter '{self.name}'", found=number_text(value)))
+        return converted
 
-    def _way_out(self, given: Value, where: Span, names: Container[str]) -> str:
-        """Return what to write for a text that was meant as a value of another type; "" for what shows no meaning."""
-        if not isinstance(given, str):
+    def _remedy(self, value: Value, where: Span, names: Container[str]) -> str:
+        """Return what to write for a text that looks like a value of another type, else ""."""
+        if not isinstance(value, str):
             return ""
-        if self.kind is KINDS["boolean"] and (truth := TRUTHS_OF_YAML_1_1.get(given.lower())):
+        if self.type.name == "boolean" and (truth := TRUTHS_OF_YAML_1_1.get(value.lower())):
             return f"; write {truth}"
-        meant = forgotten_expression(given, where, names)
-        return f"; write '{meant}'" if meant else ""
+        expression = forgotten_expression(value, where, names)
+        return f"; write '{expression}'" if expression else ""
 
     def _violations(self, value: Value, where: Span) -> Iterator[Diagnostic]:
         name, found = self.name, describe(value)
-        if self.minimum is not None and _size(value) < _size(self.minimum):
-            bound, seen = _compared(self.minimum, value)
-            yield PARAMETER_TOO_SMALL.at(where, parameter=name, bound=bound, found=seen)
-        if self.maximum is not None and _size(value) > _size(self.maximum):
-            bound, seen = _compared(self.maximum, value)
-            yield PARAMETER_TOO_LARGE.at(where, parameter=name, bound=bound, found=seen)
+        if self.minimum is not None and _number(value) < _number(self.minimum):
+            bound, shown = _comparison(self.minimum, value)
+            yield PARAMETER_TOO_SMALL.at(where, parameter=name, bound=bound, found=shown)
+        if self.maximum is not None and _number(value) > _number(self.maximum):
+            bound, shown = _comparison(self.maximum, value)
+            yield PARAMETER_TOO_LARGE.at(where, parameter=name, bound=bound, found=shown)
         if self.choices is not None and value not in self.choices:
-            choices = [_plain(choice) for choice in self.choices]
-            near = choices if self.kind.is_text else ()
-            yield PARAMETER_CHOICE.at(where, parameter=name, choices=", ".join(choices), name=_plain(value), near=near)
+            choices = [_unquoted(choice) for choice in self.choices]
+            near = choices if self.type.is_text else ()
+            words = ", ".join(choices)
+            yield PARAMETER_CHOICE.at(where, parameter=name, choices=words, name=_unquoted(value), near=near)
         if self.pattern is not None and not self.pattern.is_in(str(value)):
             yield PARAMETER_PATTERN.at(where, parameter=name, pattern=self.pattern.text, found=found)
 
 
-def parameter_of(declaration: Declaration, kind: Kind, tree: TreeEvaluator) -> Parameter:
-    """Compute a declaration's constraints; one at fault is reported and left out."""
+def make_parameter(declaration: Declaration, type_: ParameterType, evaluator: Evaluator) -> Parameter:
+    """Compute the constraints of a declaration; faulty ones are reported and left out."""
     constraints: dict[str, YamlNode] = {}
     for name, entry in declaration.constraints.items():
-        if name in kind.constraints:
+        if name in type_.constraints:
             constraints[name] = entry.value
         else:
-            tree.sink.report(UNFIT_CONSTRAINT.at(entry.key.span, constraint=name, type=kind.name))
-    bounds = Parameter(declaration.name, KINDS["number"] if kind.name == "integer" else kind)
-    plain = Parameter(declaration.name, kind)
-    minimum, maximum = (_constraint(bounds, constraints.get(name), tree) for name in ("minimum", "maximum"))
-    if minimum is not None and maximum is not None and _size(minimum) > _size(maximum):
-        where, least, most = constraints["minimum"].span, _plain(minimum), _plain(maximum)
-        tree.sink.report(CROSSED_BOUNDS.at(where, parameter=declaration.name, minimum=least, maximum=most))
+            evaluator.sink.report(UNFIT_CONSTRAINT.at(entry.key.span, constraint=name, type=type_.name))
+    bounds = Parameter(declaration.name, PARAMETER_TYPES["number"] if type_.name == "integer" else type_)
+    minimum, maximum = (_constraint(bounds, constraints.get(name), evaluator) for name in ("minimum", "maximum"))
+    if minimum is not None and maximum is not None and _number(minimum) > _number(maximum):
+        where, least, most = constraints["minimum"].span, _unquoted(minimum), _unquoted(maximum)
+        evaluator.sink.report(CROSSED_BOUNDS.at(where, parameter=declaration.name, minimum=least, maximum=most))
         minimum = maximum = None
     return Parameter(
         declaration.name,
-        kind,
+        type_,
         minimum,
         maximum,
-        choices=_choices(plain, constraints.get("enum"), tree),
-        pattern=_pattern(constraints.get("pattern"), tree),
+        choices=_choices(Parameter(declaration.name, type_), constraints.get("enum"), evaluator),
+        pattern=_pattern(constraints.get("pattern"), evaluator),
     )
 
 
-def _constraint(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) -> Value:
-    given = FAULT if node is None else written(node, plain.kind, tree)
-    return None if node is None or given is FAULT else plain.take(given, node.span, tree.sink, tree.scope)
+def _constraint(unbounded: Parameter, node: YamlNode | None, evaluator: Evaluator) -> Value:
+    value = FAULT if node is None else evaluate_for(unbounded.type, node, evaluator)
+    return (
+        None if node is None or value is FAULT else unbounded.convert(value, node.span, evaluator.sink, evaluator.scope)
+    )
 
 
-def _choices(plain: Parameter, node: YamlNode | None, tree: TreeEvaluator) -> tuple[Value, ...] | None:
+def _choices(unbounded: Parameter, node: YamlNode | None, evaluator: Evaluator) -> tuple[Value, ...] | None:
     if not isinstance(node, YamlList):
         return None
     if not node.items:
-        tree.sink.report(NO_CHOICE.at(node.span, parameter=plain.name))
+        evaluator.sink.report(NO_CHOICE.at(node.span, parameter=unbounded.name))
         return None
-    choices = [_constraint(plain, item, tree) for item in node]
+    choices = [_constraint(unbounded, item, evaluator) for item in node]
     return None if None in choices else tuple(choices)
 
 
-def _pattern(node: YamlNode | None, tree: TreeEvaluator) -> Pattern | None:
+def _pattern(node: YamlNode | None, evaluator: Evaluator) -> Pattern | None:
     if not isinstance(node, YamlScalar):
         return None
-    from linkforge_compile.expand.patterns import REFUSED_STEPS, Pattern, PatternError
-
+    budget = evaluator.expressions.budget
     try:
         pattern = Pattern(node.text)
-        tree.expressions.budget.spend(Limit.STEPS, pattern.steps("") * _STEPS_AN_INSTRUCTION, node.span)
+        budget.spend(Limit.STEPS, pattern.steps("") * _STEPS_PER_INSTRUCTION, node.span)
         return pattern
     except PatternError as error:
-        tree.expressions.budget.spend(Limit.STEPS, REFUSED_STEPS, node.span)
-        tree.sink.report(BAD_PATTERN.at(node.span, pattern=node.text, reason=error))
+        budget.spend(Limit.STEPS, REFUSED_STEPS, node.span)
+        evaluator.sink.report(BAD_PATTERN.at(node.span, pattern=node.text, reason=error))
         return None
 
 
-def written(node: YamlNode, kind: Kind, tree: TreeEvaluator) -> Value | Fault:
-    """Return what a node gives to a parameter of a type, before it is judged; text takes a scalar as written."""
-    if kind.is_text and isinstance(node, YamlScalar) and not has_expression(node.text):
+def evaluate_for(type_: ParameterType, node: YamlNode, evaluator: Evaluator) -> Value | Fault:
+    """Return the value of a node for a parameter of a type; a text type keeps a plain scalar as written."""
+    if type_.is_text and isinstance(node, YamlScalar) and not has_expression(node.text):
         return node.text
-    return tree.value(node)
+    return evaluator.value(node)
 
 
-def _size(value: Value) -> float:
+def _number(value: Value) -> float:
     number = value.value if isinstance(value, Quantity) else value
     assert isinstance(number, int | float), "only numbers have a minimum or a maximum"
     return number
 
 
-def _compared(bound: Value, value: Value) -> tuple[str, str]:
-    """Return a bound and what passes it as messages show them, also in SI units where they are in different ones."""
-    plain, quoted = _plain(bound), describe(value)
+def _comparison(bound: Value, value: Value) -> tuple[str, str]:
+    """Return a bound and a value outside of it for a message, with SI units added if their units differ."""
+    plain, quoted = _unquoted(bound), describe(value)
     if not isinstance(bound, Quantity) or not isinstance(value, Quantity):
         return plain, quoted
     if unit_text(str(bound)) == unit_text(str(value)):
@@ -216,5 +231,5 @@ def _with_si(text: str, quantity: Quantity) -> str:
     return text if str(quantity) == quantity.in_si else f"{text}, which is {quantity.in_si}"
 
 
-def _plain(value: Value) -> str:
+def _unquoted(value: Value) -> str:
     return describe(value).strip("'")

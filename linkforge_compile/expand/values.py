@@ -1,4 +1,4 @@
-"""Between nodes of a tree and values of expressions: what a literal means, and what a computed value becomes."""
+"""Convert between nodes of a tree and values of expressions."""
 
 from __future__ import annotations
 
@@ -11,35 +11,25 @@ from linkforge_compile.syntax import ScalarValue, YamlEntry, YamlList, YamlMap, 
 from linkforge_compile.units import Quantity, parse_quantity
 
 
-def literal(scalar: YamlScalar) -> Value:
-    """Return what a scalar without expressions means in an expression: text that is a quantity is one."""
-    if isinstance(scalar.value, str):
-        return parse_quantity(scalar.value) or scalar.value
-    return scalar.value
-
-
 def plain_value(node: YamlNode) -> Value | Fault:
-    """Return what a node means in which no `$(` is an expression; FAULT where anything in it was reported."""
+    """Return the value of a node without computing `$(...)`; text such as `3 kg` is a quantity. FAULT for a fault."""
     match node:
         case YamlScalar():
-            return literal(node)
+            return (parse_quantity(node.value) or node.value) if isinstance(node.value, str) else node.value
         case YamlList():
             items = tuple(plain_value(item) for item in node)
             return FAULT if FAULT in items else tuple(item for item in items if item is not FAULT)
         case YamlMap():
             values = {entry.name: plain_value(entry.value) for entry in node}
-            return (
-                FAULT
-                if FAULT in values.values()
-                else {name: value for name, value in values.items() if value is not FAULT}
-            )
+            sound = {name: value for name, value in values.items() if value is not FAULT}
+            return sound if len(sound) == len(values) else FAULT
     return FAULT
 
 
 def node_of(value: Value, span: Span) -> YamlNode:
-    """Return a computed value as a tree whose every node lies at `span`, where the expression stands, as its part.
+    """Return a value as a tree; every node gets the span of the expression, as a part of it.
 
-    A scalar's text is its shortest, of a quantity the number in SI units; null has none, as if nothing were written.
+    The text of a scalar is its shortest form, of a quantity the number in SI units, of null empty.
     """
     if isinstance(value, tuple):
         return YamlList(tuple(node_of(item, span.inside(place)) for place, item in enumerate(value)), span)
@@ -52,34 +42,38 @@ def node_of(value: Value, span: Span) -> YamlNode:
     return _scalar(value, span)
 
 
-def passed_on(value: Value) -> Value:
-    """Return a value for a part that is passed on as text: with the paths in it as the compiled file writes them."""
+def _scalar(value: ScalarValue, span: Span) -> YamlScalar:
+    return YamlScalar(as_text(value) or "", value, span)
+
+
+def with_final_paths(value: Value) -> Value:
+    """Return a value for text that the compiler does not read, with paths as the compiled file would write them."""
     match value:
         case str():
             return seen_from_compiled(value)
         case tuple():
-            return tuple(map(passed_on, value))
+            return tuple(map(with_final_paths, value))
         case Mapping():
-            return {name: passed_on(item) for name, item in value.items()}
+            return {name: with_final_paths(item) for name, item in value.items()}
     return value
 
 
 class Size(NamedTuple):
-    """How much a value makes: nodes and tags of raw XML, characters, and how deep lists and maps lie in one another."""
+    """The size of a value: nodes (tags of raw XML included), characters, and the nesting depth of lists and maps."""
 
     nodes: int
     characters: int
     depth: int
 
 
-def size_of(value: Value, most_nodes: int) -> Size:
-    """Return how much a value makes; where it is more than `most_nodes` nodes, of those up to there.
+def size_of(value: Value, max_nodes: int) -> Size:
+    """Return the size of a value; counting stops after `max_nodes` nodes.
 
-    Values share their parts, so ten short variables may stand for a billion nodes: counting stops.
+    Values share parts, so that ten short variables can stand for a billion nodes.
     """
     nodes = characters = depth = 0
     waiting = [(value, 0)]
-    while waiting and nodes <= most_nodes:
+    while waiting and nodes <= max_nodes:
         part, level = waiting.pop()
         nodes, depth = nodes + 1, max(depth, level)
         if isinstance(part, str):
@@ -104,5 +98,8 @@ def describe(value: Value) -> str:
     return f"'{value if isinstance(value, Quantity) else as_text(value)}'"
 
 
-def _scalar(value: ScalarValue, span: Span) -> YamlScalar:
-    return YamlScalar(as_text(value) or "", value, span)
+def describe_node(node: YamlNode) -> str:
+    """Return a node as messages quote it."""
+    if isinstance(node, YamlScalar):
+        return f"'{node.text}'"
+    return "a list" if isinstance(node, YamlList) else "a map"

@@ -38,11 +38,16 @@ def written_fields(
     written: dict[str, YamlNode | None] = {}
     for name, spec in field_specs(type(part)).items():
         value = getattr(part, name)
+        if not isinstance(spec, _WRITTEN):
+            continue
         is_implied = not isinstance(spec, Noise) and value == spec.implied and name not in stated
         if value is not None and (pen.full or not is_implied):
             dimension = (unit or spec.unit).dimension(motion) if isinstance(spec, Number) else None
             written[name] = _written(pen, value, spec, dimension)
     return written
+
+
+_WRITTEN = (Number, Noise, Text, Flag, Choice)
 
 
 def _written(pen: Pen, value: object, spec: Spec, dimension: Dimension | None) -> YamlNode | None:

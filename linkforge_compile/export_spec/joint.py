@@ -37,7 +37,7 @@ def written_joint(pen: Pen, joint: Joint, gazebo: YamlNode | None) -> YamlMap:
         axis=_axis(pen, joint),
         limits=_part(pen, joint.limits, motion),
         dynamics=_part(pen, joint.dynamics, motion),
-        mimic=_part(pen, joint.mimic, motion, joint=pen.text(joint.mimic.joint)) if joint.mimic else None,
+        mimic=_part(pen, joint.mimic, motion),
         safety_controller=_part(pen, joint.safety_controller, motion),
         calibration=_part(pen, joint.calibration, motion),
         gazebo=gazebo,

@@ -46,7 +46,7 @@ def spec_of(robot: Robot, pen: Pen) -> YamlMap:
             "ros2_control", ((one.name, written_ros2_control(pen, one)) for one in robot.ros2_controls)
         ),
         gazebo=written_blocks(pen, gazebo.robot, beside=False),
-        semantic=written_semantic(pen, robot.semantic, robot.joints) if robot.says_semantic else None,
+        semantic=written_semantic(pen, robot.semantic, robot.joints) if robot.has_semantic else None,
     )
 
 

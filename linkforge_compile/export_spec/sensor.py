@@ -24,7 +24,7 @@ def written_sensor(pen: Pen, sensor: Sensor) -> YamlMap:
         type=pen.text(sensor.type),
         link=pen.text(sensor.link_name),
         origin=written_origin(pen, sensor.origin),
-        **written_fields(pen, sensor),
+        update_rate=written_fields(pen, sensor).get("update_rate"),
         always_on=pen.flag(sensor.always_on, True),
         visualize=pen.flag(sensor.visualize, False),
         topic=pen.text(sensor.topic),

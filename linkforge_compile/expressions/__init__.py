@@ -1,12 +1,20 @@
-"""`$(...)`: from text to a value, by an allow-list over Python's grammar; nothing is ever run."""
+"""Expressions `$(...)`: parsed with Python's `ast`, checked against an allow-list and computed here."""
 
 from linkforge_compile.expressions.evaluate import evaluate, handed_on
-from linkforge_compile.expressions.forgotten import as_one_expression, forgotten_expression
 from linkforge_compile.expressions.functions import RESERVED_NAMES
-from linkforge_compile.expressions.parse import parse_template
+from linkforge_compile.expressions.parse import as_one_expression, forgotten_expression, parse_template
 from linkforge_compile.expressions.scope import FileFunction, Lazy, Scope
-from linkforge_compile.expressions.template import Expression, Template
-from linkforge_compile.expressions.types import FAULT, Fault, PathText, Value, as_text, kind_name, seen_from_compiled
+from linkforge_compile.expressions.types import (
+    FAULT,
+    Expression,
+    Fault,
+    PathText,
+    Template,
+    Value,
+    as_text,
+    kind_name,
+    seen_from_compiled,
+)
 
 __all__ = [
     "FAULT",

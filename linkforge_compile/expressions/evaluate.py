@@ -1,23 +1,41 @@
-"""From a template and the names in scope to a value: one `match` over the parts of the grammar that we have."""
+"""Compute the value of a parsed text from the names in scope."""
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from typing import TypeAlias, TypeVar
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expressions.access import field, item
-from linkforge_compile.expressions.comparisons import COMPARISONS
 from linkforge_compile.expressions.functions import CONSTANTS, FILE_FUNCTIONS, FUNCTIONS
-from linkforge_compile.expressions.in_xml import values_in_xml
-from linkforge_compile.expressions.operators import ARITHMETIC, MAX_TEXT, is_too_long, signed, truth
+from linkforge_compile.expressions.operators import (
+    ARITHMETIC,
+    COMPARISONS,
+    MAX_TEXT,
+    field,
+    is_too_long,
+    item,
+    signed,
+    truth,
+    wrong_kind,
+)
 from linkforge_compile.expressions.scope import Scope
-from linkforge_compile.expressions.template import Expression, Template
-from linkforge_compile.expressions.types import FAULT, Fault, RefusedError, Value, as_text, joined, kind_name
+from linkforge_compile.expressions.types import (
+    FAULT,
+    Expression,
+    Fault,
+    PathText,
+    RefusedError,
+    Template,
+    Value,
+    as_text,
+    joined,
+    kind_name,
+)
 from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
 from linkforge_compile.units import WIDEST_ANGLE
@@ -25,30 +43,29 @@ from linkforge_compile.units import WIDEST_ANGLE
 T = TypeVar("T")
 
 Trace: TypeAlias = Callable[[str, Span], Span]
-"""Makes the place of a part of an expression, of which it is given the text, one that can tell of its value."""
+"""Takes the text of a part of an expression and its span; returns a span that records where its value comes from."""
 
 
 def _untraced(_expression: str, where: Span) -> Span:
     return where
 
 
-_TAKE_AN_ANGLE = ("sin", "cos", "tan")
+_ANGLE_FUNCTIONS = ("sin", "cos", "tan")
 
 _CHARACTERS_A_STEP = 4
-"""How long the text of an expression is for each step that computing it takes, roughly."""
+"""Characters of an expression that count as one step of the budget, roughly."""
 
 _STEPS_OF_A_FAULT = 50
-"""What it takes to tell of an expression that it has no value, where a `for` makes it fail each time."""
+"""Cost of reporting a faulty expression, which a `for` may repeat."""
 
 
 def evaluate(
     template: Template, scope: Scope, sink: Diagnostics, *, is_xml: bool = False, trace: Trace = _untraced
 ) -> Value | Fault:
-    """Return the value of the expression that is the whole text, else the text with the values of its expressions.
+    """Return the value of a text: that of its only expression, else the text with the expressions' values in it.
 
-    In a text that is XML, the values of those around which there is more are text of it and no markup. FAULT where
-    one is at fault, which is reported, or uses a name that is FAULT, which was reported. `trace` makes the place of
-    a part of an expression one that can tell where its value comes from.
+    In XML (`is_xml`), values inside a text are escaped. FAULT where an expression is faulty, which is reported, or
+    uses a name that is FAULT. Errors are reported at spans from `trace`.
     """
     match template.parts:
         case (Expression() as whole,):
@@ -58,7 +75,7 @@ def evaluate(
     if len(texts) < len(found):
         return FAULT
     if is_xml:
-        texts = list(values_in_xml(zip(texts, (isinstance(part, Expression) for part in template.parts), strict=True)))
+        texts = list(_escape_values(zip(texts, (isinstance(part, Expression) for part in template.parts), strict=True)))
     text = joined(*texts)
     if is_too_long(text):
         sink.report(codes.TEXT_TOO_LONG.at(template.span, limit=f"{MAX_TEXT:,}"))
@@ -68,14 +85,14 @@ def evaluate(
 
 
 def handed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, ...]] | None:
-    """Return the name whose value a template gives as it is, and the keys to the part of it that it gives.
+    """Return the name whose value a template passes on unchanged, and the keys to the part that it passes on.
 
-    None for text around expressions, and for an expression that makes a value of its own.
+    None for a template that computes a new value.
     """
     match template.parts:
         case (Expression() as whole,):
             try:
-                return _Evaluation(whole, scope, Diagnostics()).taken(whole.tree)
+                return _Evaluation(whole, scope, Diagnostics()).passed_on(whole.tree)
             except _FaultError:
                 return None
     return None
@@ -83,36 +100,36 @@ def handed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, .
 
 def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagnostic:
     if name.id in _PYTHON_MODULES:
-        instead = "constants and functions are called by their names alone, pi"
+        instead = "write constants and functions without a module: pi"
         return codes.NOT_IN_EXPRESSIONS.at(expression.span(name), what=f"'{name.id}'", instead=instead)
     near = [*scope, *CONSTANTS]
     is_text = _is_compared(name, expression.tree) and nearest(name.id, near) is None
-    hint = f"; text is written in quotes: '{name.id}'" if is_text else ""
+    hint = f"; write text in quotes: '{name.id}'" if is_text else ""
     return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, hint=hint, near=near)
 
 
 _PYTHON_MODULES = ("math", "numpy", "np")
-"""What Python programs write before pi and sin."""
+"""Modules that Python programs use pi and sin from."""
 
 
 def _is_compared(name: ast.Name, tree: ast.expr) -> bool:
-    """Whether a name is one side of a comparison, where text is often meant."""
+    """Whether a name is one side of a comparison, where users often intend text."""
     comparisons = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
     return any(name is side for node in comparisons for side in (node.left, *node.comparators))
 
 
 class _FaultError(Exception):
-    """A part of the expression has no value, and that has been reported."""
+    """A part of the expression has no value; the error has been reported."""
 
 
 def _text(taker: str, value: Value) -> str:
     if isinstance(value, str):
         return value
-    raise RefusedError(codes.WRONG_KIND, operand=0, taker=taker, expected="text", found=kind_name(value))
+    raise wrong_kind(taker, "text", value, operand=0)
 
 
 class _Evaluation:
-    """One evaluation of one expression; what is at fault is reported where it stands."""
+    """One evaluation of one expression; errors are reported at the part of it that is wrong."""
 
     def __init__(self, expression: Expression, scope: Scope, sink: Diagnostics, trace: Trace = _untraced) -> None:
         self._expression = expression
@@ -121,7 +138,7 @@ class _Evaluation:
         self._trace = trace
 
     def text(self) -> str | None:
-        """Return the value as it stands in a text; None for a fault, and for a value that is no text."""
+        """Return the value for use inside a text; None for a fault, and for a value that cannot be text."""
         value = self.result()
         if isinstance(value, Fault):
             return None
@@ -132,6 +149,7 @@ class _Evaluation:
         return text
 
     def result(self) -> Value | Fault:
+        """Return the value, FAULT where there is none."""
         expression, scope = self._expression, self._scope
         scope.budget.spend(Limit.STEPS, len(expression.text) // _CHARACTERS_A_STEP + 1, expression.place.span)
         unknown = [name for name in expression.names if name.id not in scope]
@@ -145,18 +163,18 @@ class _Evaluation:
             scope.budget.spend(Limit.STEPS, _STEPS_OF_A_FAULT, expression.place.span)
             return FAULT
 
-    def taken(self, node: ast.expr) -> tuple[str, tuple[str | int, ...]] | None:
-        """Return what `handed_on` does, for a part of the expression."""
+    def passed_on(self, node: ast.expr) -> tuple[str, tuple[str | int, ...]] | None:
+        """Return what `handed_on` does for a part of the expression."""
         match node:
             case ast.Name(id=name):
                 return None if name in CONSTANTS else (name, ())
             case ast.IfExp(test=condition, body=chosen, orelse=other):
-                return self.taken(chosen if self._truth(condition, "'if'") else other)
+                return self.passed_on(chosen if self._truth(condition, "'if'") else other)
             case ast.Attribute(value=whole, attr=key):
-                reached = self.taken(whole)
+                reached = self.passed_on(whole)
                 return reached and (reached[0], (*reached[1], key))
             case ast.Subscript(value=whole, slice=index):
-                reached, place = self.taken(whole), self._value(index)
+                reached, place = self.passed_on(whole), self._value(index)
                 return (reached[0], (*reached[1], place)) if reached and isinstance(place, str | int) else None
         return None
 
@@ -165,7 +183,7 @@ class _Evaluation:
             case ast.Constant(value=str() | int() | float() as value):
                 return value
             case ast.Name(id=name):
-                return CONSTANTS[name] if name in CONSTANTS else self._named(name)
+                return CONSTANTS[name] if name in CONSTANTS else self._lookup(name)
             case ast.UnaryOp(op=ast.Not(), operand=operand):
                 return not self._truth(operand, "'not'")
             case ast.UnaryOp(op=sign, operand=operand):
@@ -177,39 +195,39 @@ class _Evaluation:
             case ast.BoolOp(values=conditions):
                 return any(self._truth(condition, "'or'") for condition in conditions)
             case ast.Compare():
-                return self._compared(node)
+                return self._compare(node)
             case ast.IfExp(test=condition, body=chosen, orelse=other):
                 return self._value(chosen if self._truth(condition, "'if'") else other)
             case ast.Call(func=ast.Name() as function, args=arguments):
-                return self._called(node, function, arguments)
+                return self._call(node, function, arguments)
             case ast.Subscript(value=whole, slice=index):
                 return self._apply(item, node, whole, index)
             case ast.Attribute(value=whole, attr=key):
                 return self._apply(lambda value: field(value, key), node, whole)
         raise AssertionError(f"the grammar lets no {type(node).__name__} through")
 
-    def _named(self, name: str) -> Value:
+    def _lookup(self, name: str) -> Value:
         value = self._scope.lookup(name, self._sink)
         if isinstance(value, Fault):
             raise _FaultError
         return value
 
-    def _called(self, call: ast.Call, function: ast.Name, arguments: list[ast.expr]) -> Value:
+    def _call(self, call: ast.Call, function: ast.Name, arguments: list[ast.expr]) -> Value:
         if function.id in FILE_FUNCTIONS:
-            return self._asked_of_the_file(function, arguments[0])
-        if function.id in _TAKE_AN_ANGLE:
-            self._doubt_angle(function.id, arguments[0])
+            return self._call_file_function(function, arguments[0])
+        if function.id in _ANGLE_FUNCTIONS:
+            self._warn_of_degrees(function.id, arguments[0])
         return self._apply(self._counted(FUNCTIONS[function.id]), call, *arguments)
 
-    def _doubt_angle(self, function: str, argument: ast.expr) -> None:
-        """Warn of a number that stands there itself and is likely meant in degrees."""
+    def _warn_of_degrees(self, function: str, argument: ast.expr) -> None:
+        """Warn of a literal number that is too large for radians."""
         node = argument.operand if isinstance(argument, ast.UnaryOp) else argument
         number = node.value if isinstance(node, ast.Constant) else None
         if isinstance(number, int | float) and number > WIDEST_ANGLE:
             found = self._expression.written(argument)
             self._sink.report(codes.WIDE_LITERAL.at(self._expression.span(argument), function=function, found=found))
 
-    def _asked_of_the_file(self, name: ast.Name, argument: ast.expr) -> Value:
+    def _call_file_function(self, name: ast.Name, argument: ast.expr) -> Value:
         text = self._apply(partial(_text, f"{name.id}()"), name, argument)
         function = self._scope.function(name.id)
         if function is None:
@@ -223,19 +241,19 @@ class _Evaluation:
     def _truth(self, node: ast.expr, taker: str) -> bool:
         return self._apply(lambda value: truth(value, taker), node, node)
 
-    def _compared(self, node: ast.Compare) -> bool:
-        """Compare each two neighbours of a chain, from the left, until one comparison fails."""
+    def _compare(self, node: ast.Compare) -> bool:
+        """Compare neighbours of a chain from left to right until one comparison fails."""
         left_node, left = node.left, self._value(node.left)
         for operator, right_node in zip(node.ops, node.comparators, strict=True):
             right = self._value(right_node)
             compare = self._counted(COMPARISONS[type(operator)])
-            if not self._settle(compare, node, (left_node, right_node), (left, right)):
+            if not self._compute(compare, node, (left_node, right_node), (left, right)):
                 return False
             left_node, left = right_node, right
         return True
 
     def _counted(self, operation: Callable[..., T]) -> Callable[..., T]:
-        """Return an operation that counts the items of the lists and the characters of the texts that it takes."""
+        """Return an operation that charges the budget for the items and characters of its operands."""
 
         def counting(*values: Value) -> T:
             for value in values:
@@ -248,24 +266,67 @@ class _Evaluation:
         return counting
 
     def _apply(self, operation: Callable[..., T], node: ast.expr, *operands: ast.expr) -> T:
-        return self._settle(operation, node, operands, [self._value(operand) for operand in operands])
+        return self._compute(operation, node, operands, [self._value(operand) for operand in operands])
 
-    def _settle(
+    def _compute(
         self, operation: Callable[..., T], node: ast.expr, operands: Sequence[ast.expr], values: Sequence[Value]
     ) -> T:
-        """Return what an operation makes of its operands' values; report what it refuses at the operand to blame."""
+        """Return the result of an operation; report a RefusedError at the operand that is wrong."""
         try:
             return operation(*values)
         except RefusedError as refused:
             expression = self._expression
             if refused.operand is None:
-                span = self._place(node)
+                span = self._traced_span(node)
             elif refused.operand < len(operands):
-                span = self._place(operands[refused.operand])
+                span = self._traced_span(operands[refused.operand])
             else:
                 span = expression.key_span(node)
             self._sink.report(refused.code.at(span, near=refused.near, notes=(), **refused.facts))
             raise _FaultError from None
 
-    def _place(self, node: ast.expr) -> Span:
+    def _traced_span(self, node: ast.expr) -> Span:
         return self._trace(self._expression.written(node), self._expression.span(node))
+
+
+# Values in raw XML
+
+_REFERENCES = str.maketrans(
+    {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&apos;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
+)
+
+_BEGIN = re.compile(r"<!--|<!\[CDATA\[")
+_END_OF_COMMENT = re.compile("-->")
+_END_OF_CDATA = re.compile(r"\]\]>")
+_END = {"<!--": _END_OF_COMMENT, "<![CDATA[": _END_OF_CDATA}
+_LONGEST_PART = len("<![CDATA[") - 1
+
+
+def _escape_values(texts: Iterable[tuple[str, bool]]) -> Iterator[str]:
+    """Yield the consecutive texts of raw XML; values among them are escaped.
+
+    XML comments have no escapes: there `--` and `>` are changed so that no value ends the comment.
+    """
+    awaited, carry = _BEGIN, ""
+    for text, is_value in texts:
+        written = _escape(text, awaited) if is_value else text
+        yield written
+        awaited, carry = _scan(carry + written, awaited)
+
+
+def _escape(value: str, awaited: re.Pattern[str]) -> str:
+    if isinstance(value, PathText):
+        return PathText(_escape(str(value), awaited), _escape(value.from_compiled, awaited))
+    if awaited is _END_OF_COMMENT:
+        return value.replace("--", "- -").replace("--", "- -").replace(">", "&gt;")
+    escaped = value.translate(_REFERENCES)
+    return f"]]>{escaped}<![CDATA[" if awaited is _END_OF_CDATA else escaped
+
+
+def _scan(text: str, awaited: re.Pattern[str]) -> tuple[re.Pattern[str], str]:
+    """Return the pattern of the next comment or CDATA mark after a text, and the end of the text that may begin it."""
+    position = 0
+    while found := awaited.search(text, position):
+        position = found.end()
+        awaited = _END.get(found[0], _BEGIN)
+    return awaited, text[max(position, len(text) - _LONGEST_PART) :]

@@ -1,25 +1,35 @@
-"""The functions of expressions: pure, each with how it is written and how many values it takes."""
+"""Functions and constants of expressions: pure, each with its signature and number of arguments."""
 
 from __future__ import annotations
 
 import keyword
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from linkforge_compile.diagnostics.codes import expressions as codes
-from linkforge_compile.expressions.operators import Number, bounded, number, shared_dimension, with_dimension
-from linkforge_compile.expressions.types import RefusedError, Value, as_text, dimension_name, kind_name
+from linkforge_compile.expressions.operators import (
+    Number,
+    bounded,
+    number,
+    shared_dimension,
+    with_dimension,
+    wrong_kind,
+)
+from linkforge_compile.expressions.types import RefusedError, Value, as_text, dimension_name
 from linkforge_compile.units import Dimension, Quantity, number_text
 
 _WHOLE_NUMBER = re.compile(r"\s*[+-]?[0-9]{1,300}\s*")
 _DECIMAL_NUMBER = re.compile(r"\s*[+-]?(?:[0-9]{1,300}(?:\.[0-9]{0,300})?|\.[0-9]{1,300})(?:[eE][+-]?[0-9]{1,3})?\s*")
+_MOST_DIGITS = 400
+"""What round() accepts as its second argument, positive or negative."""
 
 
 @dataclass(frozen=True)
 class Function:
-    """A function: how it is written, what it computes, and how many values it takes (`most` None: any number)."""
+    """A function: its signature, what it computes, and how many arguments it accepts (`most` None: any number)."""
 
     signature: str
     compute: Callable[..., Value]
@@ -30,22 +40,24 @@ class Function:
         taker = self.signature.partition("(")[0] + "()"
         return bounded(lambda: self.compute(*values), taker)
 
-    def takes(self, count: int) -> bool:
+    def accepts(self, count: int) -> bool:
+        """Whether the function may be called with this many arguments."""
         return count >= self.least and (self.most is None or count <= self.most)
 
 
 @dataclass(frozen=True)
-class FileFunction:
-    """A function of one text that means something only in the file around the expression: its scope computes it."""
+class FileFunctionSignature:
+    """A function of one text whose value depends on the file around the expression; the scope computes it."""
 
     signature: str
 
-    def takes(self, count: int) -> bool:
+    def accepts(self, count: int) -> bool:
+        """Whether the function may be called with this many arguments."""
         return count == 1
 
 
-def _values(values: Sequence[Value], taker: str) -> tuple[list[Number], Dimension | None]:
-    """Return the numbers of several values, or of the one list, and their dimension."""
+def _numbers(values: Sequence[Value], taker: str) -> tuple[list[Number], Dimension | None]:
+    """Return the numbers of several arguments, or of one list, and their common dimension."""
     if len(values) == 1 and isinstance(values[0], tuple):
         pairs = [number(value, taker, 0) for value in values[0]]
         if not pairs:
@@ -55,19 +67,24 @@ def _values(values: Sequence[Value], taker: str) -> tuple[list[Number], Dimensio
     return [value for value, _ in pairs], shared_dimension([dimension for _, dimension in pairs], taker)
 
 
-def _min(*values: Value) -> Value:
-    numbers, dimension = _values(values, "min()")
-    return with_dimension(min(numbers), dimension)
+def _extreme(choose: Callable[[Iterable[Number]], Number], taker: str) -> Callable[..., Value]:
+    """Make min() or max()."""
+
+    def compute(*values: Value) -> Value:
+        numbers, dimension = _numbers(values, taker)
+        return with_dimension(choose(numbers), dimension)
+
+    return compute
 
 
-def _max(*values: Value) -> Value:
-    numbers, dimension = _values(values, "max()")
-    return with_dimension(max(numbers), dimension)
+def _keeping_dimension(function: Callable[[Number], Number], taker: str) -> Callable[[Value], Value]:
+    """Make a function of one number whose result has the dimension of its argument."""
 
+    def compute(value: Value) -> Value:
+        magnitude, dimension = number(value, taker, 0)
+        return with_dimension(function(magnitude), dimension)
 
-def _abs(value: Value) -> Value:
-    magnitude, dimension = number(value, "abs()", 0)
-    return with_dimension(abs(magnitude), dimension)
+    return compute
 
 
 def _round(value: Value, digits: Value = None) -> Value:
@@ -75,34 +92,21 @@ def _round(value: Value, digits: Value = None) -> Value:
     magnitude, dimension = number(value, "round()", 0)
     if digits is None:
         return with_dimension(round(magnitude), dimension)
-    if isinstance(digits, bool) or not isinstance(digits, int) or abs(digits) > 400:
-        expected, found = "a small whole number of digits", kind_name(digits)
-        raise RefusedError(codes.WRONG_KIND, operand=1, taker="round()", expected=expected, found=found)
+    if isinstance(digits, bool) or not isinstance(digits, int) or abs(digits) > _MOST_DIGITS:
+        raise wrong_kind("round()", "a small whole number of digits", digits, operand=1)
     return with_dimension(round(magnitude, digits), dimension)
 
 
-def _floor(value: Value) -> Value:
-    magnitude, dimension = number(value, "floor()", 0)
-    return with_dimension(math.floor(magnitude), dimension)
-
-
-def _ceil(value: Value) -> Value:
-    magnitude, dimension = number(value, "ceil()", 0)
-    return with_dimension(math.ceil(magnitude), dimension)
-
-
 def _sqrt(value: Value) -> Value:
-    """The square root of a quantity has a dimension that no field has: a bare number."""
+    """Return a bare number: no field has the dimension of a quantity's square root."""
     radicand, _ = number(value, "sqrt()", 0)
     if radicand < 0:
-        raise RefusedError(
-            codes.OUTSIDE_DOMAIN, operand=0, taker="sqrt()", expected="0 or more", found=number_text(radicand)
-        )
+        raise _outside("0 or more", radicand, "sqrt()")
     return math.sqrt(radicand)
 
 
 def _of_angle(function: Callable[[float], float], taker: str) -> Callable[[Value], Value]:
-    """Make a function of an angle, or of a bare number in radians."""
+    """Make a function of an angle, or of a bare number [rad]."""
 
     def compute(value: Value) -> Value:
         return function(_in_dimension(value, Dimension.ANGLE, taker))
@@ -111,12 +115,16 @@ def _of_angle(function: Callable[[float], float], taker: str) -> Callable[[Value
 
 
 def _in_dimension(value: Value, wanted: Dimension | None, taker: str) -> Number:
-    """Return the number of a bare number or of a quantity of one dimension (None: of none)."""
+    """Return a bare number, or that of a quantity of the wanted dimension (None: no quantity)."""
     magnitude, dimension = number(value, taker, 0)
     if dimension not in (None, wanted):
         expected, found = dimension_name(wanted), dimension_name(dimension)
         raise RefusedError(codes.WRONG_DIMENSION, operand=0, taker=taker, expected=expected, found=found)
     return magnitude
+
+
+def _outside(expected: str, value: Number, taker: str) -> RefusedError:
+    return RefusedError(codes.OUTSIDE_DOMAIN, operand=0, taker=taker, expected=expected, found=number_text(value))
 
 
 def _to_angle(function: Callable[[float], float], taker: str) -> Callable[[Value], Value]:
@@ -125,16 +133,14 @@ def _to_angle(function: Callable[[float], float], taker: str) -> Callable[[Value
     def compute(value: Value) -> Value:
         ratio = _in_dimension(value, None, taker)
         if not -1 <= ratio <= 1:
-            raise RefusedError(
-                codes.OUTSIDE_DOMAIN, operand=0, taker=taker, expected="-1 to 1", found=number_text(ratio)
-            )
+            raise _outside("-1 to 1", ratio, taker)
         return Quantity(function(ratio), Dimension.ANGLE)
 
     return compute
 
 
 def _atan2(y: Value, x: Value) -> Value:
-    (rise, run), _ = _values((y, x), "atan2()")
+    (rise, run), _ = _numbers((y, x), "atan2()")
     return Quantity(math.atan2(rise, run), Dimension.ANGLE)
 
 
@@ -149,45 +155,36 @@ def _degrees(angle: Value) -> Value:
 def _len(value: Value) -> Value:
     if isinstance(value, str | tuple | Mapping):
         return len(value)
-    expected = "a list, a map or text"
-    raise RefusedError(codes.WRONG_KIND, operand=0, taker="len()", expected=expected, found=kind_name(value))
+    raise wrong_kind("len()", "a list, a map or text", value, operand=0)
 
 
-def _int(value: Value) -> Value:
-    """Cut off the decimals; a quantity gives the bare number of its SI unit."""
-    if not isinstance(value, str):
-        return int(number(value, "int()", 0)[0])
-    if _WHOLE_NUMBER.fullmatch(value):
-        return int(value)
-    found = kind_name(value)
-    raise RefusedError(codes.WRONG_KIND, operand=0, taker="int()", expected="a number or text that is one", found=found)
+def _to_number(convert: Callable[[Any], Number], pattern: re.Pattern[str], taker: str) -> Callable[[Value], Value]:
+    """Make int() or float(), of a number, a quantity in its SI unit, or text that is a number."""
 
+    def compute(value: Value) -> Value:
+        if not isinstance(value, str):
+            return convert(number(value, taker, 0)[0])
+        if pattern.fullmatch(value):
+            return convert(value)
+        raise wrong_kind(taker, "a number or text that is one", value, operand=0)
 
-def _float(value: Value) -> Value:
-    """The bare number of a quantity in its SI unit, of text, of a whole number."""
-    if not isinstance(value, str):
-        return float(number(value, "float()", 0)[0])
-    if _DECIMAL_NUMBER.fullmatch(value):
-        return float(value)
-    expected, found = "a number or text that is one", kind_name(value)
-    raise RefusedError(codes.WRONG_KIND, operand=0, taker="float()", expected=expected, found=found)
+    return compute
 
 
 def _str(value: Value) -> Value:
     text = as_text(value)
     if text is None:
-        expected, found = "a single value", kind_name(value)
-        raise RefusedError(codes.WRONG_KIND, operand=0, taker="str()", expected=expected, found=found)
+        raise wrong_kind("str()", "a single value", value, operand=0)
     return text
 
 
 FUNCTIONS: dict[str, Function] = {
-    "min": Function("min(a, b, ...) or min(list)", _min, most=None),
-    "max": Function("max(a, b, ...) or max(list)", _max, most=None),
-    "abs": Function("abs(number)", _abs),
+    "min": Function("min(a, b, ...) or min(list)", _extreme(min, "min()"), most=None),
+    "max": Function("max(a, b, ...) or max(list)", _extreme(max, "max()"), most=None),
+    "abs": Function("abs(number)", _keeping_dimension(abs, "abs()")),
     "round": Function("round(number) or round(number, digits)", _round, most=2),
-    "floor": Function("floor(number)", _floor),
-    "ceil": Function("ceil(number)", _ceil),
+    "floor": Function("floor(number)", _keeping_dimension(math.floor, "floor()")),
+    "ceil": Function("ceil(number)", _keeping_dimension(math.ceil, "ceil()")),
     "sqrt": Function("sqrt(number)", _sqrt),
     "sin": Function("sin(angle)", _of_angle(math.sin, "sin()")),
     "cos": Function("cos(angle)", _of_angle(math.cos, "cos()")),
@@ -198,23 +195,23 @@ FUNCTIONS: dict[str, Function] = {
     "radians": Function("radians(degrees)", _radians),
     "degrees": Function("degrees(angle)", _degrees),
     "len": Function("len(list)", _len),
-    "int": Function("int(number)", _int),
-    "float": Function("float(number)", _float),
+    "int": Function("int(number)", _to_number(int, _WHOLE_NUMBER, "int()")),
+    "float": Function("float(number)", _to_number(float, _DECIMAL_NUMBER, "float()")),
     "str": Function("str(value)", _str),
 }
-"""Every function by its name."""
+"""The functions by name."""
 
 CONSTANTS: dict[str, Value] = {"pi": math.pi, "true": True, "false": False, "null": None}
-"""The names that mean the same everywhere."""
+"""Names with the same value in every scope."""
 
-FILE_FUNCTIONS: dict[str, FileFunction] = {
-    "path": FileFunction("path(file)"),
-    "link": FileFunction("link(name)"),
-    "joint": FileFunction("joint(name)"),
+FILE_FUNCTIONS: dict[str, FileFunctionSignature] = {
+    "path": FileFunctionSignature("path(file)"),
+    "link": FileFunctionSignature("link(name)"),
+    "joint": FileFunctionSignature("joint(name)"),
 }
-"""The functions that ask the file: where a file of the disk is, and what a link or joint is called in the end."""
+"""Functions of the file: the path of a file on disk, and the final name of a link or joint."""
 
-SIGNATURES: dict[str, Function | FileFunction] = {**FUNCTIONS, **FILE_FUNCTIONS}
+SIGNATURES: dict[str, Function | FileFunctionSignature] = {**FUNCTIONS, **FILE_FUNCTIONS}
 
 RESERVED_NAMES: frozenset[str] = frozenset({*SIGNATURES, *CONSTANTS, *keyword.kwlist, "prefix", "name", "standalone"})
-"""What nobody may declare as a parameter, variable, data or `for` name."""
+"""Names that no parameter, variable, data or `for` may declare."""

@@ -1,26 +1,28 @@
-"""Which part of Python's grammar the language has, and what to write instead of the rest."""
+"""Which of Python's syntax expressions may use, and what to write instead of the rest."""
 
 from __future__ import annotations
 
 import ast
+import keyword
 import math
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes import expressions as codes
-from linkforge_compile.expressions.comparisons import COMPARISONS
 from linkforge_compile.expressions.functions import CONSTANTS, SIGNATURES
-from linkforge_compile.expressions.operators import ARITHMETIC, MAX_INTEGER_BITS
-from linkforge_compile.expressions.template import Expression
+from linkforge_compile.expressions.operators import ARITHMETIC, COMPARISONS, MAX_INTEGER_BITS
+from linkforge_compile.expressions.types import Expression
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
+from linkforge_compile.units import UNITS
 
 MAX_DEPTH = 100
-"""How deep an expression may nest; a sum of as many terms nests as deep."""
+"""How deep an expression may nest; a sum nests as deep as it has terms."""
 
-_LIST_ELSEWHERE = "lists and maps are written in YAML and given a name in 'variables'"
-_IN_FOR = "a list is repeated over by 'for'"
-_NO_BITS = "there are no operators on bits"
+_LIST_ELSEWHERE = "declare lists and maps in 'variables'"
+_IN_FOR = "repeat entries with 'for'"
+_NO_BITS = "there are no bitwise operators"
 
 _REFUSED: dict[type[ast.AST], tuple[str, str]] = {
     ast.List: ("a list in brackets", _LIST_ELSEWHERE),
@@ -31,31 +33,31 @@ _REFUSED: dict[type[ast.AST], tuple[str, str]] = {
     ast.SetComp: ("a comprehension", _IN_FOR),
     ast.DictComp: ("a comprehension", _IN_FOR),
     ast.GeneratorExp: ("a comprehension", _IN_FOR),
-    ast.Lambda: ("a lambda", "the functions are those of the language"),
-    ast.NamedExpr: ("':='", "names are declared in 'variables'"),
-    ast.JoinedStr: ("an f-string", "text with a value in it is written outside: wheel_$(side)"),
-    ast.Starred: ("'*' before a value", "min() and max() take a list as it is"),
-    ast.Slice: ("a slice", "items are taken one by one, list[0]"),
-    ast.Await: ("'await'", "it means nothing here"),
-    ast.Yield: ("'yield'", "it means nothing here"),
-    ast.YieldFrom: ("'yield'", "it means nothing here"),
-    ast.BitXor: ("'^'", "powers are written '**'"),
-    ast.BitAnd: ("'&'", "'and' joins conditions"),
-    ast.BitOr: ("'|'", "'or' joins conditions"),
-    ast.Invert: ("'~'", "'not' turns a condition round"),
+    ast.Lambda: ("a lambda", "only functions of the language can be called"),
+    ast.NamedExpr: ("':='", "declare names in 'variables'"),
+    ast.JoinedStr: ("an f-string", "write the text around the expression: wheel_$(side)"),
+    ast.Starred: ("'*' before a value", "pass the list itself to min() or max()"),
+    ast.Slice: ("a slice", "read items one by one: list[0]"),
+    ast.Await: ("'await'", "there are no coroutines or generators"),
+    ast.Yield: ("'yield'", "there are no coroutines or generators"),
+    ast.YieldFrom: ("'yield'", "there are no coroutines or generators"),
+    ast.BitXor: ("'^'", "write '**' for powers"),
+    ast.BitAnd: ("'&'", "write 'and' between conditions"),
+    ast.BitOr: ("'|'", "write 'or' between conditions"),
+    ast.Invert: ("'~'", "write 'not' to negate a condition"),
     ast.LShift: ("'<<'", _NO_BITS),
     ast.RShift: ("'>>'", _NO_BITS),
     ast.MatMult: ("'@'", "there are no matrices"),
-    ast.Is: ("'is'", "values are compared with '=='"),
-    ast.IsNot: ("'is not'", "values are compared with '!='"),
+    ast.Is: ("'is'", "compare values with '=='"),
+    ast.IsNot: ("'is not'", "compare values with '!='"),
 }
-"""What Python's grammar has and the language has not: what it is, and what to write instead."""
+"""Syntax of Python that expressions do not have: what it is called, and what to write instead."""
 
 _PYTHON_CONSTANTS = {True: "true", False: "false", None: "null"}
 
 
 def refusals(expression: Expression) -> Iterator[Diagnostic]:
-    """Yield what the language does not have; each once, and nothing about what stands inside it."""
+    """Yield an error for each part that expressions do not have, none for what is inside such a part."""
     waiting = [(expression.tree, 1)]
     while waiting:
         node, depth = waiting.pop()
@@ -71,8 +73,8 @@ def refusals(expression: Expression) -> Iterator[Diagnostic]:
             waiting.extend((operand, depth + 1) for operand in _operands(node))
 
 
-def names_in(expression: Expression) -> Expression:
-    """Return the expression with its names, spelled as written: Python folds µ and other letters to one form."""
+def with_names(expression: Expression) -> Expression:
+    """Return the expression with its names, spelled as written: Python normalizes µ and other letters."""
     names = []
     waiting = [expression.tree]
     while waiting:
@@ -86,7 +88,7 @@ def names_in(expression: Expression) -> Expression:
 
 def _operands(node: ast.expr) -> Iterable[ast.expr]:
     if isinstance(node, ast.Constant | ast.Name):
-        return ()  # as nearly all, of which Python would look at each field
+        return ()  # nearly all nodes; iter_child_nodes would look at each of their fields
     if isinstance(node, ast.Call):
         return node.args
     return (child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr))
@@ -125,7 +127,7 @@ def _comparison_fault(chain: ast.Compare, expression: Expression) -> Diagnostic 
 
 
 def _operator_fault(operator: ast.AST, left: ast.expr, right: ast.expr, expression: Expression) -> Diagnostic:
-    """Tell at the operator, which has no place of its own in Python's tree but stands between its operands."""
+    """Report an operator at its place, which the tree does not hold: it is between the operands."""
     what, instead = _REFUSED[type(operator)]
     symbol = what.strip("'")
     begin = expression.index(left.end_col_offset or 0)
@@ -139,11 +141,11 @@ def _operator_fault(operator: ast.AST, left: ast.expr, right: ast.expr, expressi
 def _constant_fault(node: ast.Constant, value: object, expression: Expression) -> Diagnostic | None:
     match value:
         case bool() | None:
-            instead = f"it is written '{_PYTHON_CONSTANTS[value]}'"
+            instead = f"write '{_PYTHON_CONSTANTS[value]}'"
             return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=f"'{value}'", instead=instead)
         case str() if forbidden := FORBIDDEN_CHARACTER.search(value):
             what = f"the character {code_point(forbidden[0])}"
-            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=what, instead="no file can hold it")
+            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=what, instead="no file may contain it")
         case int() if value.bit_length() > MAX_INTEGER_BITS:
             return codes.RESULT_TOO_LARGE.at(expression.span(node), taker="this number")
         case float() if not math.isfinite(value):
@@ -168,16 +170,63 @@ def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
     span = expression.span(call.func)
     if not isinstance(call.func, ast.Name):
         known = SIGNATURES.get(call.func.attr) if isinstance(call.func, ast.Attribute) else None
-        instead = f"the functions are called by their names alone, {known.signature if known else 'sqrt(x)'}"
+        instead = f"call functions by their name only: {known.signature if known else 'sqrt(x)'}"
         return codes.NOT_IN_EXPRESSIONS.at(span, what=f"a call of '{expression.written(call.func)}'", instead=instead)
     name = call.func.id
     function = SIGNATURES.get(name)
     if function is None:
         return codes.UNKNOWN_FUNCTION.at(span, name=name, near=SIGNATURES)
     if call.keywords:
-        instead = f"the order tells what each is: {function.signature}"
+        instead = f"arguments are given in order: {function.signature}"
         return codes.NOT_IN_EXPRESSIONS.at(expression.span(call), what="an argument with a name", instead=instead)
-    if any(isinstance(argument, ast.Starred) for argument in call.args) or function.takes(len(call.args)):
+    if any(isinstance(argument, ast.Starred) for argument in call.args) or function.accepts(len(call.args)):
         return None
     whole = expression.span(call)
     return codes.WRONG_ARGUMENT_COUNT.at(whole, signature=function.signature, count=len(call.args))
+
+
+# Syntax errors
+
+_STRING = re.compile(r"'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\"", re.DOTALL)
+_UNITS = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
+_KEYWORDS = "|".join(keyword.kwlist)
+
+_HABITS = (
+    (r"^\s*find\s+([\w-]+)\s*$", "'$(find ...)' is xacro; write package://{1}/..."),
+    (r"^\s*(?:arg|eval)\s+(.*?)\s*$", "'$(arg ...)' and '$(eval ...)' are xacro; write $({1})"),
+    (r"^\s*(?:env|optenv)\s.*", "the environment is not read; declare a parameter"),
+    (r"&&", "write 'and' for '&&'"),
+    (r"\|\|", "write 'or' for '||'"),
+    (r"!(?!=)", "write 'not' for '!'"),
+    (r"\?", "write: a if condition else b"),
+    (r"\$[({]?", "write names without '$' here"),
+    (r"#", "expressions cannot contain comments"),
+    (r"(?<![=!<>:])=(?!=)", "compare two values with '=='"),
+    (
+        rf"(?<![\w.])((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*(?!in\b)(?:{_UNITS}))(?!\w)",
+        "units are not allowed here; declare '{1}' in 'variables'",
+    ),
+    (r"[×·⋅∙]", "write '*' for '{0}'"),
+    (r"÷", "write '/' for '{0}'"),
+    (r"[−–—]", "write '-' for '{0}'"),
+    (r"≤", "write '<=' for '{0}'"),
+    (r"≥", "write '>=' for '{0}'"),
+    (r"≠", "write '!=' for '{0}'"),
+    (r"²", "write '** 2' for '{0}'"),
+    (r"³", "write '** 3' for '{0}'"),
+    (rf"\.\s*({_KEYWORDS})\b", "'{1}' is a reserved word; read that key with ['{1}']"),
+    (r"(?<![\w.])0[0-9]+\b(?!\.)", "a number cannot begin with 0"),
+    (r"\bif\b(?!.*\belse\b)", "'if' needs an 'else'"),
+)
+"""Habits from other languages, searched in the text without its strings, and the problem; the first match wins."""
+
+
+def explain_syntax_error(text: str, error: SyntaxError) -> tuple[int, int, str]:
+    """Return the offset and length of a syntax error in an expression, and what is wrong."""
+    bare = _STRING.sub(lambda found: found[0][0] + " " * (len(found[0]) - 2) + found[0][0], text)
+    for habit, problem in _HABITS:
+        if found := re.search(habit, bare):
+            return found.start(), len(found[0]), problem.format(found[0], *found.groups())
+    # Python counts from 1 and saw one more parenthesis. Its own message differs between versions.
+    start = min(max((error.offset or 0) - 2, 0), len(text))
+    return start, 1, "something is missing or unexpected here"

@@ -1,13 +1,13 @@
-"""What the operators do, to numbers and to quantities: the rules of dimensions in one place."""
+"""Operators of expressions: arithmetic with dimensions, comparisons, and access to items and fields."""
 
 from __future__ import annotations
 
 import ast
 import math
 import operator
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.diagnostics.suggest import did_you_mean
@@ -24,15 +24,26 @@ from linkforge_compile.units import UNITS, Dimension, Quantity, parse_quantity, 
 
 Number: TypeAlias = int | float
 
+Predicate: TypeAlias = Callable[[Any, Any], bool]
+"""A comparison of the operator module, whose types are no narrower."""
+
 MAX_INTEGER_BITS = 1023
-"""Whole numbers may be as large as a double, so that each can become one."""
+"""Integers may be as large as a double, so that each can be converted to one."""
 
 MAX_TEXT = 65_536
-"""How many characters an expression may put together."""
+"""The longest text that an expression may make, in characters."""
+
+
+def wrong_kind(taker: str, expected: str, value: Value, operand: int | None = None) -> RefusedError:
+    """Return the error for an operand of the wrong kind; `taker` is the operator or function."""
+    return RefusedError(codes.WRONG_KIND, operand=operand, taker=taker, expected=expected, found=kind_name(value))
+
+
+# Numbers and dimensions
 
 
 def number(value: Value, taker: str, operand: int | None = None) -> tuple[Number, Dimension | None]:
-    """Return the number in SI units and its dimension; refuse what is no number, true and false included."""
+    """Return the number in SI units and its dimension; reject anything else, booleans included."""
     if isinstance(value, Quantity):
         return value.value, value.dimension
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -42,21 +53,22 @@ def number(value: Value, taker: str, operand: int | None = None) -> tuple[Number
 
 
 def _unit_hint(value: Value) -> str:
-    """Return what is wrong with the unit of what was meant as a quantity; "" for any other value."""
+    """Return what is wrong with the unit in a text such as "3 inchs"; "" for any other value."""
     unit = unit_text(value) if isinstance(value, str) else None
     if unit is None or not isinstance(value, str) or parse_quantity(value):
         return ""
-    meant = unit_meant(unit)
-    hint = f"; did you mean '{meant.name}'?" if meant else did_you_mean(unit, UNITS)
+    intended = unit_meant(unit)
+    hint = f"; did you mean '{intended.name}'?" if intended else did_you_mean(unit, UNITS)
     return f"; there is no unit '{unit}'{hint}"
 
 
 def with_dimension(value: Number, dimension: Dimension | None) -> Value:
+    """Return a quantity, or the bare number where there is no dimension."""
     return value if dimension is None else Quantity(float(value), dimension)
 
 
 def shared_dimension(dimensions: Sequence[Dimension | None], taker: str) -> Dimension | None:
-    """Return the one dimension of all; a bare number takes that of its neighbours, two different ones are refused."""
+    """Return the common dimension; bare numbers (None) adopt it, two different dimensions are rejected."""
     found = list(dict.fromkeys(dimension for dimension in dimensions if dimension is not None))
     if len(found) > 1:
         left, right = map(dimension_name, found[:2])
@@ -65,15 +77,15 @@ def shared_dimension(dimensions: Sequence[Dimension | None], taker: str) -> Dime
 
 
 def is_too_long(text: str) -> bool:
-    """Whether a text is more than an expression may put together, as its file writes it or as the compiled one."""
+    """Whether a text exceeds MAX_TEXT, relative to its own file or to the compiled one."""
     return max(len(text), len(seen_from_compiled(text))) > MAX_TEXT
 
 
 def bounded(compute: Callable[[], Value], taker: str) -> Value:
-    """Return a result unless it goes beyond what a double, or our patience with digits and text, can hold."""
+    """Return the computed value; reject a number beyond a double and a text beyond MAX_TEXT."""
     try:
         value = compute()
-    except (OverflowError, ValueError):  # so Python says for the sine of infinity, and of what has no whole number
+    except (OverflowError, ValueError):  # ValueError: the sine of infinity, the integer of nan
         raise RefusedError(codes.RESULT_TOO_LARGE, taker=taker) from None
     match value.value if isinstance(value, Quantity) else value:
         case float() as size if not math.isfinite(size):
@@ -85,42 +97,12 @@ def bounded(compute: Callable[[], Value], taker: str) -> Value:
     return value
 
 
-def _shared(left: Dimension | None, right: Dimension | None, taker: str) -> Dimension | None:
-    return shared_dimension((left, right), taker)
-
-
-def _product(left: Dimension | None, right: Dimension | None, _taker: str) -> Dimension | None:
-    return (left or right) if left is None or right is None else None
-
-
-def _quotient(left: Dimension | None, right: Dimension | None, _taker: str) -> Dimension | None:
-    return left if right is None else None
-
-
-def _power(_left: Dimension | None, right: Dimension | None, taker: str) -> None:
-    """A power is a product, so it forgets its dimension; an exponent that has one means nothing."""
-    if right is not None:
-        found = dimension_name(right)
-        raise RefusedError(codes.WRONG_DIMENSION, operand=1, taker=taker, expected="a bare exponent", found=found)
-
-
-def _raised(base: Number, exponent: Number) -> Number:
-    if isinstance(base, int) and isinstance(exponent, int) and _is_beyond_reach(base, exponent):
-        raise OverflowError
-    result = base**exponent
-    if isinstance(result, complex):
-        raise RefusedError(codes.OUTSIDE_DOMAIN, operand=0, taker="'**'", expected="a base of 0 or more", found=base)
-    return result
-
-
-def _is_beyond_reach(base: int, exponent: int) -> bool:
-    """Judged beforehand: the digits of 9**9**9 would fill the memory."""
-    return abs(base) > 1 and base.bit_length() * exponent > 2 * MAX_INTEGER_BITS
+# Arithmetic
 
 
 @dataclass(frozen=True)
 class Arithmetic:
-    """An operator on two numbers, and the dimension of its result."""
+    """An operator on two numbers; `dimension` gives that of the result."""
 
     symbol: str
     compute: Callable[[Number, Number], Number]
@@ -141,6 +123,36 @@ class Arithmetic:
             raise RefusedError(codes.DIVISION_BY_ZERO, operand=1, taker=taker) from None
 
 
+def _shared(left: Dimension | None, right: Dimension | None, taker: str) -> Dimension | None:
+    return shared_dimension((left, right), taker)
+
+
+def _product(left: Dimension | None, right: Dimension | None, _taker: str) -> Dimension | None:
+    return (left or right) if left is None or right is None else None
+
+
+def _quotient(left: Dimension | None, right: Dimension | None, _taker: str) -> Dimension | None:
+    return left if right is None else None
+
+
+def _power_dimension(_left: Dimension | None, right: Dimension | None, taker: str) -> None:
+    """Drop the dimension, as a product does; reject an exponent that has one."""
+    if right is not None:
+        found = dimension_name(right)
+        raise RefusedError(codes.WRONG_DIMENSION, operand=1, taker=taker, expected="a bare exponent", found=found)
+
+
+def _power(base: Number, exponent: Number) -> Number:
+    # Computing the digits of 9**9**9 would fill the memory, so the size is estimated first.
+    is_whole = isinstance(base, int) and isinstance(exponent, int)
+    if is_whole and abs(base) > 1 and int(base).bit_length() * exponent > 2 * MAX_INTEGER_BITS:
+        raise OverflowError
+    result = base**exponent
+    if isinstance(result, complex):
+        raise RefusedError(codes.OUTSIDE_DOMAIN, operand=0, taker="'**'", expected="a base of 0 or more", found=base)
+    return result
+
+
 ARITHMETIC: dict[type[ast.operator], Arithmetic] = {
     ast.Add: Arithmetic("+", operator.add, _shared),
     ast.Sub: Arithmetic("-", operator.sub, _shared),
@@ -148,22 +160,150 @@ ARITHMETIC: dict[type[ast.operator], Arithmetic] = {
     ast.Mult: Arithmetic("*", operator.mul, _product),
     ast.Div: Arithmetic("/", operator.truediv, _quotient),
     ast.FloorDiv: Arithmetic("//", operator.floordiv, _quotient),
-    ast.Pow: Arithmetic("**", _raised, _power),
+    ast.Pow: Arithmetic("**", _power, _power_dimension),
 }
-"""The operators between two numbers; `+` joins two texts as well."""
+"""The operators between two numbers; `+` also joins two texts."""
 
 
 def signed(sign: ast.unaryop, value: Value) -> Value:
-    """Return a number or quantity with its sign kept or turned."""
-    magnitude, dimension = number(value, "'-'" if isinstance(sign, ast.USub) else "'+'", 0)
-    return with_dimension(-magnitude if isinstance(sign, ast.USub) else magnitude, dimension)
+    """Return a number or quantity with a sign `+` or `-` applied."""
+    is_minus = isinstance(sign, ast.USub)
+    magnitude, dimension = number(value, "'-'" if is_minus else "'+'", 0)
+    return with_dimension(-magnitude if is_minus else magnitude, dimension)
 
 
 def truth(value: Value, taker: str, operand: int | None = None) -> bool:
-    """Return a boolean; refuse what only Python would take for one, such as the text 'false'."""
+    """Return a boolean; reject other values, such as the text 'false', which Python takes as true."""
     if isinstance(value, bool):
         return value
-    if isinstance(value, str) and (meant := TRUTHS_OF_YAML_1_1.get(value.lower())):
-        raise RefusedError(codes.TRUTH_AS_TEXT, operand=operand, name=value, meant=meant)
-    expected = "true or false"
-    raise RefusedError(codes.WRONG_KIND, operand=operand, taker=taker, expected=expected, found=kind_name(value))
+    if isinstance(value, str) and (intended := TRUTHS_OF_YAML_1_1.get(value.lower())):
+        raise RefusedError(codes.TRUTH_AS_TEXT, operand=operand, name=value, meant=intended)
+    raise wrong_kind(taker, "true or false", value, operand)
+
+
+# Comparisons
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """An operator between two values that gives true or false."""
+
+    symbol: str
+    compare: Callable[[Value, Value, str, Predicate], bool]
+    predicate: Predicate
+
+    def __call__(self, left: Value, right: Value) -> bool:
+        return self.compare(left, right, f"'{self.symbol}'", self.predicate)
+
+
+def _is_number(value: Value) -> bool:
+    return isinstance(value, int | float | Quantity) and not isinstance(value, bool)
+
+
+def _compare_numbers(left: Value, right: Value, taker: str, predicate: Predicate) -> bool:
+    (a, left_dimension), (b, right_dimension) = number(left, taker, 0), number(right, taker, 1)
+    shared_dimension((left_dimension, right_dimension), taker)
+    return predicate(a, b)
+
+
+def _compare_equality(left: Value, right: Value, taker: str, predicate: Predicate) -> bool:
+    """Test equality; reject different kinds, because `simulated == "true"` is never true."""
+    if left is None or right is None:
+        return predicate(left is None, right is None)
+    if _is_number(left) and _is_number(right):
+        return _compare_numbers(left, right, taker, predicate)
+    for operand, value in enumerate((left, right)):
+        if isinstance(value, tuple | Mapping):
+            raise wrong_kind(taker, "single values", value, operand)
+    # A PathText is text as well.
+    left_kind, right_kind = (str if isinstance(value, str) else type(value) for value in (left, right))
+    if left_kind is not right_kind:
+        raise RefusedError(codes.KINDS_DIFFER, taker=taker, left=kind_name(left), right=kind_name(right))
+    return predicate(left, right)
+
+
+def _compare_order(left: Value, right: Value, taker: str, predicate: Predicate) -> bool:
+    if isinstance(left, str) and isinstance(right, str):
+        return predicate(left, right)
+    return _compare_numbers(left, right, taker, predicate)
+
+
+def _compare_membership(item: Value, whole: Value, taker: str, predicate: Predicate) -> bool:
+    """Search a list for an item, a map for a key, a text for a part; an item of another kind is absent."""
+    match whole:
+        case tuple():
+            return predicate(any(_is_equal(item, one) for one in whole), True)
+        case Mapping():
+            return predicate(key_text(item) in whole, True)
+        case str() if isinstance(item, str):
+            return predicate(item in whole, True)
+    raise wrong_kind(taker, "a list or a map on its right", whole, operand=1)
+
+
+def _is_equal(left: Value, right: Value) -> bool:
+    try:
+        return _compare_equality(left, right, "'in'", operator.eq)
+    except RefusedError:
+        return False
+
+
+COMPARISONS: dict[type[ast.cmpop], Comparison] = {
+    ast.Eq: Comparison("==", _compare_equality, operator.eq),
+    ast.NotEq: Comparison("!=", _compare_equality, operator.ne),
+    ast.Lt: Comparison("<", _compare_order, operator.lt),
+    ast.LtE: Comparison("<=", _compare_order, operator.le),
+    ast.Gt: Comparison(">", _compare_order, operator.gt),
+    ast.GtE: Comparison(">=", _compare_order, operator.ge),
+    ast.In: Comparison("in", _compare_membership, operator.is_),
+    ast.NotIn: Comparison("not in", _compare_membership, operator.is_not),
+}
+"""The operators that give true or false; a chain such as `0 < x < 1` compares each two neighbours."""
+
+
+# Items and fields
+
+_AXES = {"x": 0, "y": 1, "z": 2}
+
+
+def item(whole: Value, index: Value) -> Value:
+    """Return `list[index]`, negative indexes from the end, or `map[key]`."""
+    match whole:
+        case tuple():
+            return _list_item(whole, index)
+        case Mapping():
+            key = key_text(index)
+            if key is None:
+                raise wrong_kind("a map", "a key", index, operand=1)
+            return _entry(whole, key)
+    raise wrong_kind("'[...]'", "a list or a map before it", whole, operand=0)
+
+
+def key_text(index: Value) -> str | None:
+    """Return the key that a value names, None where it names none; the integer 1 names the key `1`."""
+    if isinstance(index, bool) or not isinstance(index, str | int):
+        return None
+    return str(index)
+
+
+def field(whole: Value, key: str) -> Value:
+    """Return `map.key`, or `vector.x`, `.y` or `.z`."""
+    if isinstance(whole, Mapping):
+        return _entry(whole, key)
+    if isinstance(whole, tuple) and len(whole) == 3 and key in _AXES:
+        return whole[_AXES[key]]
+    raise wrong_kind(f"'.{key}'", "a map or a vector's x, y, z", whole)
+
+
+def _list_item(whole: tuple[Value, ...], index: Value) -> Value:
+    if isinstance(index, bool) or not isinstance(index, int):
+        raise wrong_kind("a list", "a whole number in its brackets", index, operand=1)
+    try:
+        return whole[index]
+    except IndexError:
+        raise RefusedError(codes.NO_SUCH_ITEM, operand=1, index=index, length=len(whole)) from None
+
+
+def _entry(whole: Mapping[str, Value], key: str) -> Value:
+    if key not in whole:
+        raise RefusedError(codes.UNKNOWN_KEY, operand=1, near=whole, name=key)
+    return whole[key]

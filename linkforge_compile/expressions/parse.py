@@ -1,21 +1,21 @@
-"""Finds the expressions in a scalar's text and reads them with Python's own grammar, never with its `eval`."""
+"""Find the expressions in a scalar's text and parse them with `ast`; nothing is ever evaluated by Python."""
 
 from __future__ import annotations
 
 import ast
 import re
 import warnings
+from collections.abc import Container
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
-from linkforge_compile.expressions.grammar import names_in, refusals
-from linkforge_compile.expressions.habits import explain_syntax_error
-from linkforge_compile.expressions.template import Expression, Template
+from linkforge_compile.expressions.grammar import explain_syntax_error, refusals, with_names
+from linkforge_compile.expressions.types import Expression, Template
 from linkforge_compile.source import Span
 from linkforge_compile.source.text_place import TextPlace
 
 MAX_LENGTH = 2_000
-"""How many characters an expression may have."""
+"""The longest expression, in characters."""
 
 _OPENING = re.compile(r"\$?\$\(")
 _STRING = r"'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\""
@@ -24,7 +24,7 @@ _STRINGS_AND_SPACES = re.compile(rf"{_STRING}|\s", re.DOTALL)
 
 
 def parse_template(text: str, span: Span, sink: Diagnostics) -> Template | None:
-    """Read the text of the scalar at `span`; None where an expression in it is at fault, which is reported."""
+    """Parse the text of the scalar at `span`; None where an expression in it is faulty, which is reported."""
     place = TextPlace.of(text, span)
     parts: list[str | Expression | None] = []
     position = 0
@@ -34,10 +34,10 @@ def parse_template(text: str, span: Span, sink: Diagnostics) -> Template | None:
         if opening[0] == "$$(":
             parts.append("$(")
             continue
-        end = _closing(text, opening.end(), place, sink)
+        end = _find_closing(text, opening.end(), place, sink)
         if end is None:
             return None
-        parts.append(_expression(text[position:end], position, place, sink))
+        parts.append(_parse_expression(text[position:end], position, place, sink))
         position = end + 1
     parts.append(text[position:])
     if None in parts:
@@ -45,8 +45,8 @@ def parse_template(text: str, span: Span, sink: Diagnostics) -> Template | None:
     return Template(tuple(part for part in parts if part), span)
 
 
-def _closing(text: str, start: int, place: TextPlace, sink: Diagnostics) -> int | None:
-    """Return the index of the parenthesis that closes the expression begun before `start`, None and report none."""
+def _find_closing(text: str, start: int, place: TextPlace, sink: Diagnostics) -> int | None:
+    """Return the index of the `)` of the expression whose `$(` ends at `start`; report a missing one."""
     depth = 1
     for token in _BRACKETS_AND_QUOTES.finditer(text, start):
         match token[0]:
@@ -63,7 +63,7 @@ def _closing(text: str, start: int, place: TextPlace, sink: Diagnostics) -> int 
     return None
 
 
-def _expression(text: str, offset: int, place: TextPlace, sink: Diagnostics) -> Expression | None:
+def _parse_expression(text: str, offset: int, place: TextPlace, sink: Diagnostics) -> Expression | None:
     if not text.strip():
         sink.report(codes.EMPTY_EXPRESSION.at(place.part(offset - 2, len(text) + 3)))
         return None
@@ -73,24 +73,61 @@ def _expression(text: str, offset: int, place: TextPlace, sink: Diagnostics) -> 
         return None
     text = _STRINGS_AND_SPACES.sub(lambda found: found[0] if found[0][0] in "'\"" else " ", text)
     try:
-        tree = _syntax_tree(text)
+        tree = _parse_python(text)
     except (SyntaxError, MemoryError, RecursionError, ValueError) as error:
         if isinstance(error, SyntaxError) and error.msg != "too many nested parentheses":
             start, length, problem = explain_syntax_error(text, error)
             sink.report(codes.UNREADABLE_EXPRESSION.at(place.part(offset + start, length), problem=problem))
-        else:  # Python's parser has had enough
+        else:  # beyond the limits of Python's parser
             sink.report(codes.EXPRESSION_TOO_LARGE.at(place.part(offset, len(text)), fault="nests too deep"))
         return None
     expression = Expression(text, offset, place, tree)
     faults = tuple(refusals(expression))
-    for fault in faults:
-        sink.report(fault)
-    return None if faults else names_in(expression)
+    sink.report_all(faults)
+    return None if faults else with_names(expression)
 
 
-def _syntax_tree(text: str) -> ast.expr:
+def _parse_python(text: str) -> ast.expr:
     with warnings.catch_warnings():
-        # An unknown escape in a text and `1if` are warned about on standard error, with a file that is not there.
+        # Python warns on standard error of `1if` and of unknown escapes, in a file that does not exist.
         warnings.simplefilter("ignore")
-        # In parentheses, because leading spaces are an error to Python otherwise.
+        # The parentheses make leading spaces valid.
         return ast.parse(f"({text})", mode="eval").body
+
+
+# Text in which `$( )` was forgotten
+
+_NEEDS_NO_PARENTHESES = (ast.Name, ast.Constant, ast.Call, ast.Subscript, ast.Attribute)
+_LITERAL_NAMES = ("true", "false", "null")
+
+
+def forgotten_expression(text: str, where: Span, names: Container[str]) -> str | None:
+    """Return "$(track / 2)" for the text "track / 2" if that is an expression of known names, else None.
+
+    Literals are no such text: a number in quotes may be intended.
+    """
+    whole = f"$({text.strip()})"
+    template = parse_template(whole, where, Diagnostics())
+    match template.parts if template else ():
+        case (Expression(tree=tree, names=used),) if not _is_literal(tree) and all(name.id in names for name in used):
+            return whole
+    return None
+
+
+def as_one_expression(text: str, where: Span, names: Container[str]) -> str | None:
+    """Return text around expressions as one expression: "$(track / 2)" for "$(track) / 2"; None if that fails."""
+    template = parse_template(text, where, Diagnostics())
+    parts = template.parts if template else ()
+    inside = "".join(part if isinstance(part, str) else _as_operand(part) for part in parts)
+    return forgotten_expression(inside, where, names) if len(parts) > 1 else None
+
+
+def _as_operand(expression: Expression) -> str:
+    text = expression.text.strip()
+    return text if isinstance(expression.tree, _NEEDS_NO_PARENTHESES) else f"({text})"
+
+
+def _is_literal(tree: ast.expr) -> bool:
+    while isinstance(tree, ast.UnaryOp):
+        tree = tree.operand
+    return isinstance(tree, ast.Constant) or (isinstance(tree, ast.Name) and tree.id in _LITERAL_NAMES)

@@ -1,4 +1,4 @@
-"""Which names an expression may use, and what they are; values are computed when first asked for."""
+"""The names that expressions may use; values are computed on first use."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from linkforge_compile.limits import Budget
 from linkforge_compile.source import Span
 
 MAX_CHAIN = 64
-"""How many names may be computed through one another, each for the one before it."""
+"""How many names may be computed at once, each because the one before it uses it."""
 
 
 @dataclass(frozen=True)
 class Lazy:
-    """A value that is computed when first used: a variable, or a default that names other parameters.
+    """A value that is computed on first use: a variable, or a default that uses other parameters.
 
-    `compute` reports what it finds at fault and then returns FAULT; `declared` is the span of the name.
+    `compute` reports errors and then returns FAULT; `declared` is the span of the name.
     """
 
     compute: Callable[[], Value | Fault]
@@ -28,13 +28,13 @@ class Lazy:
 
 
 FileFunction: TypeAlias = Callable[[str, Span, Diagnostics], Value | Fault]
-"""Computes `path()`, `link()` or `joint()` of a text; the span is where that stands, for what is at fault."""
+"""Computes `path()`, `link()` or `joint()` of a text; errors are reported at the span."""
 
 
 class Scope:
-    """Names and their values; a `for` entry's scope lies inside its file's.
+    """Names and their values; the scope of a `for` entry is inside that of its file.
 
-    Lazy values may use one another in any order; a circle of them is reported once, as the path round it.
+    Lazy values may use one another in any order; a cycle of them is reported once, with its path.
     """
 
     def __init__(
@@ -44,19 +44,16 @@ class Scope:
         functions: Mapping[str, FileFunction] | None = None,
         budget: Budget | None = None,
     ) -> None:
-        """`functions` are those that only the file around an expression can compute.
-
-        `budget` counts what is computed with these names: that of the outer scope, or a new one, unless given.
-        """
+        """`functions` depend on the file around an expression; `budget` is by default that of the outer scope."""
         self.budget: Budget = budget or (outer.budget if outer else Budget())
         self._values = dict(values)
         self._outer = outer
         self._functions = functions or {}
-        self._open: list[str] = []  # the lazy values being computed, each for the one before it
-        self._told_of_a_chain = False
+        self._open: list[str] = []  # the lazy values being computed, each because the one before it uses it
+        self._is_chain_reported = False
 
     def inside(self, values: Mapping[str, Value | Fault | Lazy]) -> Scope:
-        """Return a scope in which these names are known, too, and hide equal ones of this scope."""
+        """Return an inner scope with these names, which hide equal names of this scope."""
         return Scope(values, self)
 
     def __contains__(self, name: object) -> bool:
@@ -69,47 +66,47 @@ class Scope:
             yield from self._outer
 
     def lookup(self, name: str, sink: Diagnostics) -> Value | Fault:
-        """Return the value of a name, FAULT where it has none and that was reported; raise KeyError for no name."""
+        """Return the value of a name, FAULT after a reported error; raise KeyError for an unknown name."""
         if name not in self._values and self._outer is not None:
             return self._outer.lookup(name, sink)
         value = self._values[name]
         return self._compute(name, value, sink) if isinstance(value, Lazy) else value
 
     def function(self, name: str) -> FileFunction | None:
-        """Return what computes a function of the file, None where no file is around."""
+        """Return a function that depends on the file, None outside of a file."""
         if name in self._functions or self._outer is None:
             return self._functions.get(name)
         return self._outer.function(name)
 
     def _compute(self, name: str, lazy: Lazy, sink: Diagnostics) -> Value | Fault:
         if name in self._open:
-            sink.report(self._circle(name, lazy))
+            sink.report(self._cycle(name, lazy))
             return FAULT
         if len(self._open) > MAX_CHAIN:
-            self._tell_of_a_chain(f"more than {MAX_CHAIN}", sink)
+            self._report_chain(f"more than {MAX_CHAIN}", sink)
             return FAULT
         self._open.append(name)
         value: Value | Fault = FAULT
         try:
             value = lazy.compute()
         except RecursionError:
-            # Names in deep maps and brackets use up the stack before the bound: only the first of them can say so.
+            # Names in deep maps and brackets use up the stack before MAX_CHAIN; only the first of them reports it.
             if len(self._open) > 1:
                 raise
-            self._tell_of_a_chain("too many", sink)
+            self._report_chain("too many", sink)
         finally:
             self._open.pop()
             self._values[name] = value
         return value
 
-    def _tell_of_a_chain(self, count: str, sink: Diagnostics) -> None:
-        """Report that the first of the open names needs too many others; once, as the rest of them may, too."""
+    def _report_chain(self, count: str, sink: Diagnostics) -> None:
+        """Report that the first of the open names needs too many others; once, although the others may as well."""
         first = self._values[self._open[0]]
-        if isinstance(first, Lazy) and not self._told_of_a_chain:
+        if isinstance(first, Lazy) and not self._is_chain_reported:
             sink.report(codes.CHAIN_TOO_LONG.at(first.declared, first=self._open[0], count=count))
-        self._told_of_a_chain = True
+        self._is_chain_reported = True
 
-    def _circle(self, name: str, lazy: Lazy) -> Diagnostic:
+    def _cycle(self, name: str, lazy: Lazy) -> Diagnostic:
         round_trip = self._open[self._open.index(name) :]
         notes = [
             Note(f"'{other}' is computed here", entry.declared)

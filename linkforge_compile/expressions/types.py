@@ -1,22 +1,26 @@
-"""What expressions compute with: values, the fault that stands for a value, and why a value cannot be had."""
+"""Values that expressions compute with, and the parsed text that holds expressions."""
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from enum import Enum
 from typing import Final, TypeAlias
 
 from linkforge_compile.diagnostics import Code
+from linkforge_compile.source import Span
+from linkforge_compile.source.text_place import TextPlace
 from linkforge_compile.units import Dimension, Quantity, number_text
 
 Value: TypeAlias = None | bool | int | float | str | Quantity | tuple["Value", ...] | Mapping[str, "Value"]
-"""What a parameter, a variable or an expression may be; quantities are in SI units."""
+"""The value of a parameter, variable or expression; quantities are in SI units."""
 
 
 class PathText(str):
-    """Text with a path in it that is relative to the file of the expression; `from_compiled` is the compiled file's.
+    """Text that holds a path relative to the expression's file; `from_compiled` is relative to the compiled file.
 
-    It stays one where more text is put to it, so a name may be made of it that only another name hands to its reader.
+    Adding text to it keeps the class, so a name that passes the text on to another name passes on both paths.
     """
 
     __slots__ = ("from_compiled",)
@@ -29,29 +33,32 @@ class PathText(str):
 
 
 def joined(*texts: str) -> str:
-    """Return texts put together, with the paths in them."""
+    """Concatenate texts; a PathText if any of them is one."""
     text = "".join(texts)
     has_paths = any(isinstance(part, PathText) for part in texts)
     return PathText(text, "".join(map(seen_from_compiled, texts))) if has_paths else text
 
 
 def seen_from_compiled(text: str) -> str:
-    """Return text with the paths in it as the compiled file would write them."""
+    """Return the text with its paths relative to the compiled file."""
     return text.from_compiled if isinstance(text, PathText) else text
 
 
 class Fault(Enum):
-    """Stands where a value would, but that is faulty or unset, and this was reported where it belongs."""
+    """Takes the place of a value that is faulty or unset after the error was reported."""
 
     FAULT = "fault"
 
 
 FAULT: Final = Fault.FAULT
-"""Who meets it gives it on and stays silent."""
+"""Operations on it give FAULT again and report nothing."""
 
 
 class RefusedError(Exception):
-    """An operation refuses its operands: which one is to blame (None: all), and the facts of the code's sentence."""
+    """An operation rejects its operands: `operand` is the index of the wrong one (None: all of them).
+
+    `facts` fill in the message of `code`; `near` are names for a did-you-mean.
+    """
 
     def __init__(self, code: Code, *, operand: int | None = None, near: Iterable[str] = (), **facts: object) -> None:
         self.code = code
@@ -62,7 +69,7 @@ class RefusedError(Exception):
 
 
 def dimension_name(dimension: Dimension | None) -> str:
-    """Return "a length", or "a bare number" for none."""
+    """Return "a length", or "a bare number" for None."""
     if dimension is None:
         return "a bare number"
     name = dimension.replace("_", " ")
@@ -88,7 +95,7 @@ def kind_name(value: Value) -> str:
 
 
 def as_text(value: Value) -> str | None:
-    """Return a value as it stands inside text, a quantity as its SI number; None for null, a list and a map."""
+    """Return a value as text, a quantity as its SI number; None for null, a list and a map."""
     match value:
         case bool():
             return "true" if value else "false"
@@ -99,3 +106,60 @@ def as_text(value: Value) -> str | None:
         case str():
             return value
     return None
+
+
+@dataclass(frozen=True, eq=False)
+class Expression:
+    """The text between `$(` and `)`, its place in the scalar, and its syntax tree.
+
+    The tree holds only nodes that the language allows; `names` are its names except functions and constants.
+    Columns of the tree count UTF-8 bytes of the text in one pair of parentheses.
+    """
+
+    text: str
+    offset: int
+    place: TextPlace
+    tree: ast.expr
+    names: tuple[ast.Name, ...] = ()
+
+    def span(self, node: ast.expr) -> Span:
+        """Return the span of a part of the expression."""
+        start = self.index(node.col_offset)
+        end = self.index(node.col_offset if node.end_col_offset is None else node.end_col_offset)
+        return self.place.part(self.offset + start, end - start)
+
+    def key_span(self, node: ast.expr) -> Span:
+        """Return the span of `key` in `row.key`."""
+        whole = self.written(node)
+        key = whole.rpartition(".")[2].lstrip()
+        return self.place.part(self.offset + self.index(node.col_offset) + len(whole) - len(key), len(key))
+
+    def index(self, column: int) -> int:
+        """Return the index into the text for a column of the tree."""
+        column = max(column - 1, 0)  # a comprehension begins with the parenthesis that we added
+        if self.text.isascii():
+            return min(column, len(self.text))
+        return len(self.text.encode()[:column].decode(errors="ignore"))
+
+    def written(self, node: ast.expr) -> str:
+        """Return the source text of a part of the expression."""
+        return self.text[self.index(node.col_offset) : self.index(node.end_col_offset or 0)]
+
+
+@dataclass(frozen=True, eq=False)
+class Template:
+    """Text with expressions in it; if the only part is an expression, its value is used as it is."""
+
+    parts: tuple[str | Expression, ...]
+    span: Span
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The parameters, variables and other names that the expressions use."""
+        return frozenset(self.names_in_order)
+
+    @property
+    def names_in_order(self) -> tuple[str, ...]:
+        """The names in the order of their first use."""
+        used = (name.id for part in self.parts if isinstance(part, Expression) for name in part.names)
+        return tuple(dict.fromkeys(used))

@@ -1,19 +1,53 @@
-"""Documents: what the templates make of a view of the robot."""
+"""Formats whose documents are made by templates of XML."""
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
-from linkforge_compile.formats.markup import document_text, harmless_in_comment
+from linkforge_compile.formats.format import DEFAULT_RENDERING, Document, Format, Options, Rendering, Templates
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.formats.source_map import Mapped
 
-    from linkforge_compile.formats.user_templates import TemplateFolder
 
-Templates: TypeAlias = "TemplateFolder | str | Path | None"
-"""A user's folder of templates that go before ours; None for ours alone."""
+class TemplateFormat(Format):
+    """A format of one XML document, made by the template `NAME/robot.xml.j2` of a view of the robot."""
+
+    def render(self, robot: Robot, rendering: Rendering) -> tuple[Document, ...]:
+        if not rendering.has_map:
+            return (Document(self.text(robot, rendering)),)
+        text, map_ = self.render_with_map(robot, rendering)
+        return (Document(text, map=map_),)
+
+    def render_with_map(self, robot: Robot, rendering: Rendering) -> Mapped:
+        """Return the document, the same as without a map, and where each of its lines was written."""
+        from linkforge_compile.formats.marks import recording
+        from linkforge_compile.formats.source_map import unmarked
+
+        with recording() as marks:
+            return unmarked(self.text(robot, rendering), marks)
+
+    def text(self, robot: Robot, rendering: Rendering = DEFAULT_RENDERING) -> str:
+        """Return the document.
+
+        Raises:
+            RobotGeneratorError: for text that XML cannot hold, and for extras that are not well-formed XML.
+            TemplateError: for what is wrong with one of the user's templates.
+
+        """
+        options, pretty, banner, templates, _ = rendering
+        views = {"robot": robot, self.name: self.root_view(robot, options)}
+        return render(f"{self.name}/robot.xml.j2", views, pretty=pretty, banner=banner, templates=templates)
+
+    @abstractmethod
+    def root_view(self, robot: Robot, options: Options) -> object:
+        """Return what the templates of the format see of the robot, every string ready for its place."""
+
+    def view(self, robot: Robot, options: Options) -> object:
+        return self.root_view(robot, options)
 
 
 def render(
@@ -35,6 +69,8 @@ def render(
         TemplateFaultError: for a template of ours that was changed and cannot be rendered.
 
     """
+    from linkforge_compile.formats.markup import document_text
+
     if templates is None:
         # Jinja2 takes 70 ms to import, and some commands render nothing.
         from linkforge_compile.formats.own_templates import render_own
@@ -52,6 +88,8 @@ def render(
 
 def _comment(text: str, *, pretty: bool) -> str:
     """Return a comment; what would end it, or what XML cannot hold, is put out of action."""
+    from linkforge_compile.formats.markup import harmless_in_comment
+
     lines = [line.strip() for line in harmless_in_comment(text).splitlines()]
     if not pretty or len(lines) == 1:
         return f"<!-- {' '.join(lines)} -->"

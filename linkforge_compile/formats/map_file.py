@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from linkforge_compile.formats.source_map import Mapped
+    from linkforge_compile.formats.source_map import SourceMap
     from linkforge_compile.source import SourceFile, Span
     from linkforge_compile.source.provenance import Provenance
 
@@ -29,15 +29,15 @@ def hash_of(text: str) -> str:
 # Writing
 
 
-def map_text(mapped: Mapped, name: str, folder: Path) -> str:
-    """Return the file of the map of a document called `name`, to lie in a folder: paths are those from there."""
+def map_text(text: str, source_map: SourceMap, name: str, folder: Path) -> str:
+    """Return the file of the map of a document called `name`, for a folder, from which its paths start."""
     tables = _Tables(folder)
     rows = {
         str(number): [[segment.column, *tables.place(segment.place)] for segment in segments]
-        for number, segments in enumerate(mapped.map.lines, start=1)
+        for number, segments in enumerate(source_map.lines, start=1)
         if segments
     }
-    head = {"version": VERSION, "file": name, "sha256": hash_of(mapped.text)}
+    head = {"version": VERSION, "file": name, "sha256": hash_of(text)}
     fields = [f"{json.dumps(key)}: {json.dumps(value)}" for key, value in head.items()]
     fields.append(_laid_out("sources", "[]", map(json.dumps, tables.sources.values())))
     fields.append(_laid_out("trails", "[]", map(json.dumps, tables.trails.values())))

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic
-from linkforge_compile.diagnostics.codes.backends import UNDECLARED_PREFIX
+from linkforge_compile.diagnostics.codes.formats import UNDECLARED_PREFIX
 from linkforge_compile.formats.element import Extended, place_of_attribute, raw_texts
 from linkforge_compile.formats.node import Node
 from linkforge_compile.formats.parts import Held

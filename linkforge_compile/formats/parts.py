@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import fields
+from dataclasses import Field, fields
 from functools import cache
 from itertools import chain
 from operator import attrgetter
 from types import NoneType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.core.fields import number_fields
+from linkforge_compile.core.fields import Flag, Number, Spec, Vector, field_specs
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.link import Link, LinkPhysics
 from linkforge_compile.core.part import Element
@@ -179,19 +179,20 @@ def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
     Half of the parts are of a class without such a field.
     """
     if issubclass(kind, Element | Link):
-        own = (
-            field for field in fields(kind) if field.name not in _EVERYWHERE and field.name not in number_fields(kind)
-        )
-        names = tuple(field.name for field in own if not _holds_numbers(str(field.type), is_compared=field.compare))
+        specs = field_specs(kind)
+        own = (field for field in fields(kind) if field.name not in _EVERYWHERE)
+        names = tuple(field.name for field in own if not _holds_numbers(field, specs.get(field.name)))
     else:
         names = ("parameters",)
     extras = tuple(name for name in _EXTRAS if hasattr(kind, name))
     return names, _getter(names), _getter(extras)
 
 
-def _holds_numbers(kind: str, *, is_compared: bool) -> bool:
+def _holds_numbers(field: Field[object], spec: Spec | None) -> bool:
     """Whether a field holds neither parts nor text: its class refuses them, or it is how a file said it, unwritten."""
-    return _NUMBERS.issuperset(kind.split(" | ")) or (kind == "bool" and not is_compared)
+    if isinstance(spec, Flag) or field.type == "bool":
+        return not field.compare
+    return isinstance(spec, Number | Vector) or _NUMBERS.issuperset(str(field.type).split(" | "))
 
 
 def _getter(names: tuple[str, ...]) -> _Values:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostic, Note
-from linkforge_compile.diagnostics.codes.backends import RAW_NAME_IS_TAKEN
+from linkforge_compile.diagnostics.codes.formats import RAW_NAME_IS_TAKEN
 from linkforge_compile.formats.element import raw_texts
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from pathlib import Path
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Code, Diagnostic, Note
-from linkforge_compile.diagnostics.codes.backends import MESH_BESIDE_THE_SPEC
+from linkforge_compile.diagnostics.codes.formats import MESH_BESIDE_THE_SPEC
 
 _SHOWN = 3
 

@@ -33,9 +33,6 @@ from linkforge_compile.formats.environment import FILTERS, OPTIONS, describe, fi
 from linkforge_compile.formats.template_text import require_text
 from linkforge_compile.limits import Budget, Limit
 
-NAMES = ("robot", "urdf", "srdf", "banner")
-"""What a document's template is given."""
-
 _READING = ("get", "has", "find", "is", "to", "volume")
 """How the names begin of methods of the model that change nothing and read no file."""
 
@@ -77,7 +74,7 @@ class _StrictUndefined(StrictUndefined):
         if self._undefined_hint:
             return self._undefined_hint
         if owner is missing:
-            return f"'{name}' is not defined{did_you_mean(str(name), NAMES)}"
+            return f"'{name}' is not defined"
         if owner is None:
             return f"this is None, which has no '{name}'; test it with '{{% if … %}}'"
         if isinstance(owner, NamedTable) and name in {"keys", "values", "items"}:

@@ -3,19 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from linkforge_compile.formats.marks import MARK, Marks, recording
+from linkforge_compile.formats.marks import MARK, Marks
 from linkforge_compile.formats.markup import restored
-from linkforge_compile.formats.srdf import render_srdf
-from linkforge_compile.formats.urdf import render_urdf
 from linkforge_compile.source.provenance import Provenance
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.formats.urdf.sensor import Gazebo
 
 
 class Segment(NamedTuple):
@@ -48,33 +40,7 @@ class Mapped(NamedTuple):
     map: SourceMap
 
 
-def render_urdf_with_map(robot: Robot, *, banner: str | None = None, gazebo: Gazebo = "gz") -> Mapped:
-    """Return the robot as a URDF document, the same as without a map, and where each of its lines was written.
-
-    Raises:
-        RobotGeneratorError: as `render_urdf`.
-
-    """
-    with recording() as marks:
-        return _unmarked(render_urdf(robot, banner=banner, gazebo=gazebo), marks)
-
-
-def render_srdf_with_map(robot: Robot, *, banner: str | None = None) -> Mapped:
-    """Return the robot's semantic part as an SRDF document, and where each of its lines was written.
-
-    Raises:
-        RobotGeneratorError: as `render_srdf`.
-
-    """
-    with recording() as marks:
-        return _unmarked(render_srdf(robot, banner=banner), marks)
-
-
-WITH_MAP: Mapping[str, Callable[..., Mapped]] = {"urdf": render_urdf_with_map, "srdf": render_srdf_with_map}
-"""The renderer of each format that can have a map, by the name that is also its file's ending."""
-
-
-def _unmarked(text: str, marks: Marks) -> Mapped:
+def unmarked(text: str, marks: Marks) -> Mapped:
     """Take the marks out of a document that is laid out, one tag a line.
 
     A line without a mark is part of the element around it, and a closing tag of its element: both by the indent.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import groupby
 from traceback import walk_tb
@@ -33,6 +33,7 @@ _MOST_SHOWN = 80
 """Characters of a line that a message quotes."""
 
 _UNKNOWN = re.compile(r"No (?P<kind>filter|test) named '(?P<name>\w+)'")
+_UNDEFINED = re.compile(r"'(?P<name>\w+)' is not defined")
 _KNOWN = {"filter": (*JINJA_FILTERS, *FILTERS), "test": tuple(JINJA_TESTS)}
 
 _DECLARED = re.compile(r"<\?xml\s[^>]*?encoding\s*=\s*[\"']([\w.-]+)")
@@ -47,8 +48,11 @@ _CODES = (
 )
 
 
-def diagnose(error: Exception, template: str, loader: FolderLoader) -> Diagnostic:
-    """Return the diagnostic of an error that rendering a template raised, at the line of a template."""
+def diagnose(error: Exception, template: str, loader: FolderLoader, names: Iterable[str]) -> Diagnostic:
+    """Return the diagnostic of an error that rendering a template raised, at the line of a template.
+
+    `names` are those that the template is given.
+    """
     places = list(_places(error, loader.files))
     place = places[0] if places else loader.place_of(template)
     notes = [Note("included here", span) for span in places[1:]]
@@ -70,7 +74,7 @@ def diagnose(error: Exception, template: str, loader: FolderLoader) -> Diagnosti
         case MemoryError():
             return TEMPLATE_FAILS.at(place, reason="it takes more memory than there is", notes=notes)
     code = next((code for kind, code in _CODES if isinstance(error, kind)), TEMPLATE_FAILS)
-    return code.at(place, reason=_naming_owner(_reason(error), place.text or ""), notes=notes)
+    return code.at(place, reason=_naming_owner(_reason(error, names), place.text or ""), notes=notes)
 
 
 def _naming_owner(reason: str, line: str) -> str:
@@ -94,11 +98,13 @@ def _places(error: Exception, files: Mapping[str, SourceFile]) -> Iterator[Span]
         yield span_of_line(files[name], next(lines)[1])
 
 
-def _reason(error: Exception) -> str:
+def _reason(error: Exception, names: Iterable[str]) -> str:
     text = str(error.message if isinstance(error, TemplateSyntaxError | TemplateRuntimeError) else error)
     text = text.strip().removesuffix(".") or type(error).__name__
     if unknown := _UNKNOWN.search(text):
         text += did_you_mean(unknown["name"], _KNOWN[unknown["kind"]])
+    elif undefined := _UNDEFINED.fullmatch(text):
+        text += did_you_mean(undefined["name"], names)
     return text if text[1:2].isupper() else f"{text[:1].lower()}{text[1:]}"
 
 

@@ -14,25 +14,20 @@ from linkforge_compile.diagnostics.codes.templates import UNUSED_TEMPLATE
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.formats.sandbox import FolderEnvironment
 from linkforge_compile.formats.template_loader import FolderLoader, OutsideError, UnreadableError
-from linkforge_compile.formats.user_templates import own_names
 from linkforge_compile.source import SourceFile
-
-_PLACES = ("urdf", "srdf")
-"""The folders of our templates that a user's go before."""
 
 _MOST_FILES = 1000
 """Files of a folder that are looked at."""
 
 
-def find_unused(environment: FolderEnvironment, loader: FolderLoader) -> Iterator[Diagnostic]:
-    """Yield a warning at each file that has no template of ours to go before, and that no template includes.
+def find_unused(environment: FolderEnvironment, loader: FolderLoader, ours: frozenset[str]) -> Iterator[Diagnostic]:
+    """Yield a warning at each file that replaces none of our templates, and that no template includes.
 
-    Yields none where the name of an included template is computed.
+    `ours` are the paths of the packaged templates. Yields none where the name of an included template is computed.
     """
-    ours = own_names()
     found = {
         path.relative_to(loader.folder).as_posix(): path
-        for place in _PLACES
+        for place in sorted({name.partition("/")[0] for name in ours}, reverse=True)
         for path in sorted(islice((loader.folder / place).rglob("*"), _MOST_FILES))
         if path.is_file()
     }

@@ -7,10 +7,11 @@ from dataclasses import replace
 from functools import partial
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.models.link import LinkPhysics
 from linkforge_compile.core.part import Element, attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic, Note
-from linkforge_compile.diagnostics.codes.backends import UNWRITABLE
+from linkforge_compile.diagnostics.codes.formats import UNWRITABLE
 from linkforge_compile.formats.element import (
     Extended,
     RawXmlError,
@@ -50,7 +51,7 @@ def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> 
         from linkforge_compile.formats.raw import raw_elements
 
         yield from refused(lambda: raw_elements(value), where, name)
-    elif isinstance(value, Mapping) and isinstance(part, Element) and part.KEYS_ARE_TAGS:
+    elif isinstance(value, Mapping) and isinstance(part, Element) and field_specs(type(part))[name].xml == "*":
         from linkforge_compile.formats.parameters import is_surely_writable, parameter_elements
 
         # A plugin's raw XML stands in place of its parameters.

@@ -19,11 +19,9 @@ from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import ANYWHERE, Roots
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.formats.sandbox import FolderEnvironment
     from linkforge_compile.formats.template_loader import FolderLoader
-    from linkforge_compile.formats.urdf.sensor import Gazebo
 
 SUFFIX = ".j2"
 """How the names of templates end; without it, that of a document's template is the document's."""
@@ -38,11 +36,14 @@ _NOT_DOCUMENTS = ("_", ".")
 
 
 def own_names() -> frozenset[str]:
-    """Return the paths of the templates that a user's may go before."""
-    folders = (templates_folder() / format_ for format_ in ("urdf", "srdf"))
-    return frozenset(
-        path.relative_to(templates_folder()).as_posix() for folder in folders for path in folder.rglob(f"*{SUFFIX}")
-    )
+    """Return the paths of the packaged templates that a user's may replace: all but those of `linkforge init`."""
+    names = (path.relative_to(templates_folder()).as_posix() for path in templates_folder().rglob(f"*{SUFFIX}"))
+    return frozenset(name for name in names if not name.startswith("init/"))
+
+
+def own_folders() -> list[str]:
+    """Return the folders of the packaged templates that a user's may replace."""
+    return sorted({name.partition("/")[0] for name in own_names()}, reverse=True)
 
 
 _MOST_NAMES = 1000
@@ -92,7 +93,8 @@ class TemplateFolder:
 
         found = sorted(path.relative_to(self.folder).as_posix() for path in islice(self.folder.rglob("*"), _MOST_NAMES))
         near = next((f"; '{name}' is like '{own}'" for name in found if (own := nearest(name, own_names()))), "")
-        has = "NAME.j2 for a document, nor urdf/ or srdf/ with a template that goes before one of linkforge's"
+        folders = " or ".join(f"{folder}/" for folder in own_folders())
+        has = f"NAME.j2 for a document, nor {folders} with a template that goes before one of linkforge's"
         raise ValueError(f"it has no {has}{near}")
 
     @property
@@ -100,7 +102,7 @@ class TemplateFolder:
         """A warning at each file that stands where templates go before ours, and that nothing uses."""
         from linkforge_compile.formats.unused_templates import find_unused
 
-        return tuple(find_unused(self._environment, self._loader))
+        return tuple(find_unused(self._environment, self._loader, own_names()))
 
     @property
     def files(self) -> tuple[Path, ...]:
@@ -112,23 +114,17 @@ class TemplateFolder:
         """What was looked for in the folder and is not there: when it is, the result is another."""
         return tuple(self._loader.missing)
 
-    def render(self, robot: Robot, *, banner: str = "", gazebo: Gazebo = "gz") -> dict[str, str]:
+    def render(self, views: Mapping[str, object], banner: str) -> dict[str, str]:
         """Render all documents and return their texts by name; XML is laid out as URDF is.
 
         Raises:
             RobotGeneratorError: for a robot whose text XML cannot hold.
             TemplateError: with all that is wrong, one fault a document.
-            ValueError: for another `gazebo` than `gz` or `classic`.
 
         """
         from linkforge_compile.formats.environment import is_xml
-        from linkforge_compile.formats.srdf_view import semantic_view
-        from linkforge_compile.formats.urdf import require_dialect, robot_view
 
-        require_dialect(gazebo)
-        srdf = semantic_view(robot) if robot.says_semantic else None
-        banner = harmless_in_comment(banner)
-        context = {"robot": robot, "urdf": robot_view(robot, gazebo), "srdf": srdf, "banner": banner}
+        context = {**views, "banner": harmless_in_comment(banner)}
         texts: dict[str, str] = {}
         faults: list[Diagnostic] = []
         for name in self.documents:
@@ -175,7 +171,7 @@ class TemplateFolder:
         except Exception as error:
             from linkforge_compile.formats.template_faults import diagnose
 
-            raise TemplateError((diagnose(error, template, self._loader),)) from None
+            raise TemplateError((diagnose(error, template, self._loader, context),)) from None
 
     @cached_property
     def _loader(self) -> FolderLoader:
@@ -188,23 +184,3 @@ class TemplateFolder:
         from linkforge_compile.formats.sandbox import FolderEnvironment
 
         return FolderEnvironment(self._loader, self._budget)
-
-
-def render_templates(
-    robot: Robot, folder: str | Path, *, banner: str = "", gazebo: Gazebo = "gz", allow_outside: bool = False
-) -> dict[str, str]:
-    """Return what each template at the top of a folder makes of the robot, by its name without `.j2`.
-
-    Templates see the robot as `robot`, its URDF and SRDF as `urdf` and `srdf`, and `banner`. They run in a sandbox.
-    A link among them leads within the folder's repository, unless `allow_outside` lets it lead anywhere.
-
-    Raises:
-        TemplateError: with all that is wrong with the templates.
-        RobotGeneratorError: for a robot whose text XML cannot hold.
-        OSError: for a folder that cannot be read.
-        ValueError: for a folder without templates, and for another `gazebo` than `gz` or `classic`.
-
-    """
-    templates = TemplateFolder(folder, allow_outside=allow_outside)
-    templates.require_templates()
-    return templates.render(robot, banner=banner, gazebo=gazebo)

@@ -11,7 +11,7 @@ from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.models.transmission import Transmission
 from linkforge_compile.diagnostics import Diagnostic, Note
-from linkforge_compile.diagnostics.codes.backends import SECOND_OF_ONE
+from linkforge_compile.diagnostics.codes.formats import SECOND_OF_ONE
 from linkforge_compile.formats.element import raw_texts
 from linkforge_compile.formats.parts import Held, Part
 from linkforge_compile.source import SourceRef, Span

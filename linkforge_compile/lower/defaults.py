@@ -1,4 +1,4 @@
-"""`defaults` by themselves: values that no entry took over are judged where they stand."""
+"""Check the values in `defaults`, for those that no entry inherits."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
 from linkforge_compile.expand.assembly import Instance
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.file import gazebo_elements_of, sensors_of
-from linkforge_compile.lower.joint import read_joint_of_any_type
+from linkforge_compile.lower.file_scope import FileScope
+from linkforge_compile.lower.joint import check_joint_defaults
 from linkforge_compile.lower.link import lower_links
-from linkforge_compile.lower.scope import FileScope
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode, YamlScalar
 
-_OF_A_VALUE = frozenset(
+_VALUE_CODES = frozenset(
     {
         model.WRONG_KIND,
         model.WRONG_DIMENSION,
@@ -33,15 +33,16 @@ _OF_A_VALUE = frozenset(
         XACRO_EXPRESSION,
     }
 )
-"""What is wrong with a value whatever stands beside it; what an entry lacks or may not have is the entry's."""
+"""The faults of single values. What an element lacks or may not have is reported for the entries that inherit."""
 
 
-def judge_defaults(instance: Instance, sink: Diagnostics) -> None:
-    """Report what is wrong with the defaults of a file and of its modules, but for what was told of the same place."""
-    told = {(diagnostic.code, place) for diagnostic in sink for place in _places(diagnostic)}
-    for one in instance.with_modules:
-        if one.defaults is not None:
-            sink.report_all(fault for fault in _faults(one.defaults, one) if (fault.code, fault.span) not in told)
+def check_defaults(instance: Instance, sink: Diagnostics) -> None:
+    """Report faulty values in the defaults of a file and of its modules, unless reported for an entry."""
+    reported = {(diagnostic.code, place) for diagnostic in sink for place in _places(diagnostic)}
+    for each in instance.with_modules:
+        if each.defaults is not None:
+            faults = _faults(each.defaults, each)
+            sink.report_all(fault for fault in faults if (fault.code, fault.span) not in reported)
 
 
 def _places(diagnostic: Diagnostic) -> Iterator[Span]:
@@ -49,31 +50,31 @@ def _places(diagnostic: Diagnostic) -> Iterator[Span]:
 
 
 def _faults(defaults: YamlMap, instance: Instance) -> Iterator[Diagnostic]:
-    """Yield what is wrong with values, read as the fields of entries that have nothing else."""
+    """Yield faulty values, read as the fields of entries that have nothing else."""
     entries = _as_entries(defaults)
     if entries is None:
         return
     sink = Diagnostics()
-    file = Fields(entries, "defaults", sink, instance.trail)
+    file = Fields(entries, "defaults", sink, instance.include_stack)
     deque(lower_links(file, FileScope()), maxlen=0)
-    deque(file.each("joints", "joint", read_joint_of_any_type), maxlen=0)
+    deque(file.each("joints", "joint", check_joint_defaults), maxlen=0)
     sensors_of(file)
     gazebo_elements_of(file)
-    yield from (fault for fault in sink if fault.code in _OF_A_VALUE)
+    yield from (fault for fault in sink if fault.code in _VALUE_CODES)
 
 
 def _as_entries(defaults: YamlMap) -> YamlMap | None:
-    """Return the sections of a file that has one entry for each default, None for none."""
+    """Return the sections of a file with one entry for each default, None for no defaults."""
 
-    def said(**nodes: YamlNode | None) -> YamlMap | None:
+    def fields_of(**nodes: YamlNode | None) -> YamlMap | None:
         entries = {name: _entry(name, node) for name, node in nodes.items() if node is not None}
         return YamlMap(entries, defaults.span) if entries else None
 
-    shapes = said(visual=defaults.get("visual"), collision=defaults.get("collision"))
-    return said(
-        links=said(link=defaults.get("link"), shapes=shapes),
-        joints=said(joint=defaults.get("joint")),
-        sensors=said(sensor=defaults.get("sensor")),
+    shapes = fields_of(visual=defaults.get("visual"), collision=defaults.get("collision"))
+    return fields_of(
+        links=fields_of(link=defaults.get("link"), shapes=shapes),
+        joints=fields_of(joint=defaults.get("joint")),
+        sensors=fields_of(sensor=defaults.get("sensor")),
     )
 
 

@@ -1,86 +1,180 @@
-"""Elements read from an object of the tree as their class describes them."""
+"""Lower an object of the tree to the element that its class describes (see core/fields.py)."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
 
-from linkforge_compile.core.fields import Choice, Flag, Noise, Number, Spec, Text, field_specs, number_fields
+from linkforge_compile.core.fields import (
+    Child,
+    Children,
+    Choice,
+    Flag,
+    Name,
+    Noise,
+    Number,
+    Parameters,
+    Pose,
+    Reference,
+    Spec,
+    Text,
+    Vector,
+    field_specs,
+)
+from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.part import Element, Part
-from linkforge_compile.lower.extra import besides
+from linkforge_compile.lower.extra import common_kwargs, free_elements, free_texts
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import Measure, measure_of
+from linkforge_compile.lower.numbers import ANGLE, LENGTH, NumberType, number_type
+from linkforge_compile.source import SourceRef
+from linkforge_compile.syntax.nodes import YamlList
 from linkforge_compile.units import FieldUnit, Motion
 
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.sensor import SensorNoise
-
-E = TypeVar("E", bound=Element)
+P = TypeVar("P", bound=Part)
 
 
-def lower_element(kind: type[E], fields: Fields, motion: Motion = Motion.OTHER, **values: Any) -> E | None:
-    """Read an element whose other fields are `values`; None where it cannot be made, which is reported."""
-    values |= lower_fields(kind, fields, motion)
-    if is_incomplete(kind, values):
-        return None
-    return fields.build(lambda: kind(**values, **besides(fields)))
+def lower_element(
+    kind: type[P], fields: Fields, motion: Motion = Motion.OTHER, unit: FieldUnit | None = None, **values: Any
+) -> P | None:
+    """Read an element; fields in `values` are taken from there. Returns None for a faulty one, which is reported.
 
-
-def lower_fields(kind: type[Part], fields: Fields, motion: Motion = Motion.OTHER) -> dict[str, Any]:
-    """Read the fields that a model class describes, numbers in SI; what is faulty is reported, and replaced."""
-    return {name: _lower_field(name, spec, fields, motion) for name, spec in field_specs(kind).items()}
-
-
-def is_incomplete(kind: type[Part], values: dict[str, Any]) -> bool:
-    """Whether a field that the language requires has no value."""
+    `motion` is that of the joint that its numbers are about. `unit` is the unit of its numbers where they are the
+    noise on a value; None for the units that the class describes.
+    """
+    values = lower_fields(kind, fields, motion, unit, **values)
     specs = field_specs(kind).items()
-    return any(isinstance(spec, Number | Text) and spec.example and values[name] is None for name, spec in specs)
+    missing = [spec for name, spec in specs if values[name] is None]
+    if any(spec.example or not spec.may_be_none for spec in missing):
+        return None
+    if hasattr(kind, "stated") and "stated" not in values:
+        values["stated"] = [
+            name for name, spec in specs if values[name] == spec.implied and fields.node.get(name) is not None
+        ]
+    common: Any = common_kwargs(fields) if issubclass(kind, Element) else {"source": fields.ref}
+    return fields.build(lambda: kind(**values, **common))
 
 
-def stated_numbers(kind: type[Part], fields: Fields) -> Sequence[str]:
-    """Return the names of the numbers that an object has a value for."""
-    return [name for name in number_fields(kind) if fields.node.get(name) is not None]
+def lower_fields(
+    kind: type[Part], fields: Fields, motion: Motion = Motion.OTHER, unit: FieldUnit | None = None, **values: Any
+) -> dict[str, Any]:
+    """Read the fields of an element that are not in `values`, numbers in SI; return all of them.
+
+    What is faulty is reported and replaced, by None where it has to be given.
+    """
+    is_faulty = fields.is_faulty
+    for name, spec in field_specs(kind).items():
+        if name in values:
+            continue
+        key = spec.key or name
+        if key in fields.node.entries or spec.example or is_faulty:
+            values[name] = _READ[type(spec)](spec, key, fields, motion, unit)
+        else:
+            values[name] = spec.implied
+    return values
 
 
-def _lower_field(name: str, spec: Spec, fields: Fields, motion: Motion) -> Any:
-    match spec:
-        case Number():
-            return _lower_number(name, spec, fields, measure_of(spec.unit, spec.bound, motion, spec.may_be_far), motion)
-        case Noise():
-            return _lower_noise(name, spec.unit, fields)
-        case Text():
-            value: Any = fields.text(name, required=spec.example)
-        case Flag():
-            value = fields.flag(name)
-        case Choice():
-            value = fields.choice(name, spec.words)
-            value = None if value is None else str(value)
+def lower_each(kind: type[P], fields: Fields, key: str, noun: str) -> dict[str, P | None]:
+    """Read the elements in a map by their names, None for a faulty one; messages call them by `noun` and name."""
+    return dict(fields.each(key, noun, lambda each, name: lower_element(kind, each, name=name)))
+
+
+def lower_origin(fields: Fields) -> Transform:
+    """Read `origin`, a pose in the parent's frame: `[x, y, z]` or `{xyz, rpy}`; an absent or faulty part is 0."""
+    return lower_pose(fields, "origin")
+
+
+def lower_pose(fields: Fields, key: str) -> Transform:
+    """Read a pose: `[x, y, z]` or `{xyz, rpy}`; an absent or faulty part is 0."""
+    node = fields.get(key)
+    if node is None:
+        return IDENTITY
+    if isinstance(node, YamlList):
+        xyz = fields.vector3_at(node, key, LENGTH)
+        return Transform(xyz, is_stated=True, source=SourceRef(node, None, fields.trail)) if xyz else IDENTITY
+    pose = fields.map_at(node, key)
+    if pose is None:
+        return IDENTITY
+    xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
+    is_stated = bool(xyz or rpy) or pose.get("xyz") is not None or pose.get("rpy") is not None
+    return Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **common_kwargs(pose))
+
+
+def _number(spec: Any, key: str, fields: Fields, motion: Motion, unit: FieldUnit | None) -> float | None:
+    accepted = number_type(unit or spec.unit, spec.bound, motion, spec.may_be_far)
+    read = fields.integer if spec.is_whole else fields.number
+    value = read(key, accepted, required=spec.example and spec.example_for(motion))
+    if value is not None:
+        return value
+    is_faulty = spec.example or fields.get(key) is not None or fields.is_faulty
+    number: float | None = spec.stand_in if is_faulty and spec.stand_in is not None else spec.implied
+    return number
+
+
+def _vector(spec: Any, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
+    accepted: NumberType = number_type(spec.unit, spec.bound, motion)
+    return _or_implied(spec, fields.vector3(key, accepted, required=spec.example_for(motion)))
+
+
+def _text(spec: Any, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
+    if spec.container:
+        return fields.names(key)
+    return _or_implied(spec, fields.text(key, required=spec.example_for(motion)))
+
+
+def _flag(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> object:
+    return _or_implied(spec, fields.flag(key))
+
+
+def _choice(spec: Any, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
+    word = fields.choice(key, spec.words, required=spec.example_for(motion))
+    return spec.implied if word is None else str(word)
+
+
+def _pose(_spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> Transform:
+    return lower_pose(fields, key)
+
+
+def _child(spec: Any, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
+    child = fields.map(key)
+    return lower_element(spec.kinds[0], child, motion) if child else None
+
+
+def _noise(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> object:
+    noise, kind = fields.map(key), spec.kinds[0]
+    if noise is None:
+        return None
+    values = lower_fields(kind, noise, Motion.UNKNOWN, spec.unit)
+    biases = ("bias_mean", "bias_stddev")
+    values["stated"] = [name for name in biases if noise.get(name) is not None and values[name] == 0]
+    return lower_element(kind, noise, **values)
+
+
+def _children(spec: Any, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> list[object]:
+    kind = spec.kinds[0]
+    items = [fields.map_at(node, kind.TAG) for node in fields.items(key)]
+    return [element for item in items if item and (element := lower_element(kind, item, motion))]
+
+
+def _parameters(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> Mapping[str, object]:
+    return free_elements(fields, key) if spec.xml == "*" else free_texts(fields, key)
+
+
+def _or_implied(spec: Spec, value: object) -> object:
     return spec.implied if value is None else value
 
 
-def _lower_number(name: str, spec: Number, fields: Fields, measure: Measure, motion: Motion) -> float | None:
-    read = fields.integer if spec.is_whole else fields.number
-    value = read(name, measure, required=spec.example_for(motion))
-    if value is not None:
-        return value
-    is_faulty = spec.example or fields.said(name) is not None or fields.is_faulty
-    return spec.stand_in if is_faulty and spec.stand_in is not None else spec.implied
-
-
-def _lower_noise(name: str, unit: FieldUnit, fields: Fields) -> SensorNoise | None:
-    """Read a noise in the unit of what is sensed."""
-    noise = fields.map(name)
-    if noise is None:
-        return None
-    # Most robots have no sensors, whose classes take their time to define.
-    from linkforge_compile.core.models.sensor import SensorNoise
-
-    measure = measure_of(unit, None, Motion.UNKNOWN)
-    numbers = {
-        name: _lower_number(name, spec, noise, measure, Motion.UNKNOWN)
-        for name, spec in number_fields(SensorNoise).items()
-    }
-    kind = noise.text("type")
-    stated = [name for name in stated_numbers(SensorNoise, noise) if name.startswith("bias") and numbers[name] == 0]
-    values: dict[str, Any] = numbers if kind is None else {"type": kind, **numbers}
-    return noise.build(lambda: SensorNoise(**values, stated=stated, **besides(noise)))
+_READ: Mapping[type[Spec], Callable[[Any, str, Fields, Motion, FieldUnit | None], object]] = {
+    Number: _number,
+    Vector: _vector,
+    Text: _text,
+    Name: _text,
+    Reference: _text,
+    Flag: _flag,
+    Choice: _choice,
+    Pose: _pose,
+    Child: _child,
+    Noise: _noise,
+    Children: _children,
+    Parameters: _parameters,
+}
+"""How a field of each kind is read: its spec, its key, the object, and the motion and unit of `lower_element`."""

@@ -1,28 +1,27 @@
-"""One file by itself: all that it says of a robot, without its modules."""
+"""Lower one file without its modules: its sections become the parts of a robot."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.constants import IR_VERSION
-from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.lower.duplicates import tell_duplicate
+from linkforge_compile.lower.elements import lower_origin
 from linkforge_compile.lower.extra import outer_extras_of
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.frame import Frame, lower_frames
-from linkforge_compile.lower.joint import lower_joints
+from linkforge_compile.lower.file_scope import FileScope
+from linkforge_compile.lower.joint import JointEnds, joint_between, lower_joints
 from linkforge_compile.lower.link import lower_links
 from linkforge_compile.lower.material import lower_materials
 from linkforge_compile.lower.mesh_solids import MeshReader
-from linkforge_compile.lower.scope import FileScope
-from linkforge_compile.lower.spec_object import has_fault
+from linkforge_compile.lower.object_context import has_fault, report_duplicate
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
 from linkforge_compile.units import Quantity, number_text
@@ -32,20 +31,20 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.ros2_control import Ros2Control
     from linkforge_compile.core.models.sensor import Sensor
     from linkforge_compile.core.models.transmission import Transmission
-    from linkforge_compile.lower.module_joint import ModuleJoint
-    from linkforge_compile.lower.srdf import Semantic
-    from linkforge_compile.lower.srdf_states import WrittenState
+    from linkforge_compile.lower.group_states import WrittenState
+    from linkforge_compile.lower.mount import ModuleJoint
+    from linkforge_compile.lower.srdf import LoweredSemantic
 
 _SECTIONS_OF_NAMES = ("links", "joints", "frames", "mount", "modules", "semantic", "include")
 _SECTIONS_OF_MATERIALS = ("materials", "include")
 _SECTIONS_OF_SEMANTIC_NAMES = ("virtual_joints", "groups", "group_states", "end_effectors")
 
-Plain: TypeAlias = "None | bool | int | float | str | list[Plain] | dict[str, Plain]"
+PlainData: TypeAlias = "None | bool | int | float | str | list[PlainData] | dict[str, PlainData]"
 
 
 @dataclass(frozen=True)
 class LoweredFile:
-    """The robot of a file's own parts, its group states as written, and what is missing."""
+    """The robot of a file's own parts, its group states as written, its mounts, and names of what is faulty."""
 
     robot: Robot
     states: tuple[WrittenState, ...]
@@ -56,24 +55,16 @@ class LoweredFile:
 def lower_file(
     tree: YamlMap, mesh_bases: Mapping[SourceFile, str], trail: tuple[Span, ...], sink: Diagnostics, meshes: MeshReader
 ) -> LoweredFile:
-    """Lower all that a file says itself; a name that is written twice is told at the second."""
+    """Lower the sections of a file; report names that are defined twice at the second definition."""
     file = Fields(tree, "robot", sink, trail)
-    materials = lower_materials(file, FileScope(mesh_bases))
-    lost_materials = unresolved_of(name for name, material in materials.items() if material is None)
-    lost_materials |= unresolved_of(names_at_fault(tree))
-    # What has no name is a part of a robot: the file that includes it has the names that it lacks.
-    is_part = tree.get("name") is None
-    if is_part or _has_lost(tree, _SECTIONS_OF_MATERIALS):
-        lost_materials |= UnresolvedNames(prefixes=("",))
-    kept_materials = {name: material for name, material in materials.items() if material}
-    scope = FileScope(mesh_bases, kept_materials, lost_materials, meshes)
+    scope = _scope_of(file, mesh_bases, meshes)
     links, joints = dict(lower_links(file, scope)), dict(lower_joints(file))
-    for frame in lower_frames(file):
-        _add_frame(frame, links, joints, sink)
+    for name, frame in file.each("frames", "frame", _lower_frame):
+        _add_frame(frame or _Frame(name, f"{name}_joint"), links, joints, sink)
     semantic = _semantic(file)
-    said, version = tree.get("name"), file.text("version")
+    version = file.text("version")
     robot = Robot(
-        file.name("name", "robot") or "robot",  # the schema has told of a missing name
+        file.name("name", "robot") or "robot",  # the schema reports a missing name
         version=IR_VERSION if version is None else version,
         version_stated=version is not None,
         materials=dict(scope.materials),
@@ -85,96 +76,127 @@ def lower_file(
         ros2_controls=_ros2_controls(file),
         gazebo_elements=gazebo_elements_of(file),
         semantic=semantic.description if semantic else None,
-        source=SourceRef(tree, said, trail),
+        source=SourceRef(tree, tree.get("name"), trail),
         **outer_extras_of(file),
     )
-    unresolved = _unresolved_names(
-        tree, [name for parts in (links, joints) for name, part in parts.items() if part is None]
-    )
-    unresolved |= unresolved_of(semantic.lost if semantic else ())
+    faulty = [name for parts in (links, joints) for name, part in parts.items() if part is None]
+    unresolved = _unresolved_names(tree, faulty)
+    if semantic:
+        unresolved |= unresolved_of(semantic.faulty_names)
     return LoweredFile(robot, semantic.states if semantic else (), unresolved, tuple(_mounts(file)))
 
 
-def _unresolved_names(tree: YamlMap, lost: Iterable[str]) -> UnresolvedNames:
-    """Return the names that a file has lost: those of faulty entries, and what may be in what could not be read."""
+def _scope_of(file: Fields, mesh_bases: Mapping[SourceFile, str], meshes: MeshReader) -> FileScope:
+    tree = file.node
+    materials = lower_materials(file, FileScope(mesh_bases))
+    unresolved = unresolved_of(name for name, material in materials.items() if material is None)
+    unresolved |= unresolved_of(names_at_fault(tree))
+    # A file without a name is included: the materials that it does not declare are in the file that includes it.
+    if tree.get("name") is None or _has_fault_in(tree, _SECTIONS_OF_MATERIALS):
+        unresolved |= UnresolvedNames(prefixes=("",))
+    declared = {name: material for name, material in materials.items() if material}
+    return FileScope(mesh_bases, declared, unresolved, meshes)
+
+
+# Names of what is faulty
+
+
+def unresolved_of(names: Iterable[str]) -> UnresolvedNames:
+    """Return the names of faulty definitions; of a name with an expression that failed, the text before it."""
+    whole: set[str] = set()
+    prefixes = []
+    for name in names:
+        start, *expressions = re.split(r"\$[({]", name, maxsplit=1)
+        if expressions:
+            prefixes.append(start)
+        else:
+            # References to an invalid name may have it with its invalid characters replaced.
+            whole |= {name, *(re.sub(r"[^\w.-]", substitute, name) for substitute in ("_", "-", ""))}
+    return UnresolvedNames(frozenset(whole), tuple(prefixes))
+
+
+def _unresolved_names(tree: YamlMap, faulty: Iterable[str]) -> UnresolvedNames:
+    """Return the names of links and joints that are missing: faulty ones, and those in what could not be read."""
     semantic = tree.get("semantic")
     if (
         tree.get("name") is None
-        or _has_lost(tree, _SECTIONS_OF_NAMES)
-        or _has_lost(semantic, _SECTIONS_OF_SEMANTIC_NAMES)
+        or _has_fault_in(tree, _SECTIONS_OF_NAMES)
+        or _has_fault_in(semantic, _SECTIONS_OF_SEMANTIC_NAMES)
     ):
-        return unresolved_of(lost) | UnresolvedNames(prefixes=("",))
+        return unresolved_of(faulty) | UnresolvedNames(prefixes=("",))
     modules = (entry.name for entry in tree if isinstance(entry.value, YamlFault) and "use" in entry.value.keys)
-    brought = [f"{name}_$(…)" for name in modules]  # whatever names those have
-    # An entry that is indented stands among the keys of the one above.
+    # A wrongly indented entry is among the keys of the one above.
     sections = [node for name in _SECTIONS_OF_NAMES if isinstance(node := tree.get(name), YamlMap)]
-    faulty = [
-        entry
-        for section in sections
-        for entry in section
-        if isinstance(entry.value, YamlMap) and has_fault(entry.value)
-    ]
-    inside = [name for entry in faulty for name in names_at_fault(entry.value)]
+    entries = [entry for section in sections for entry in section if _entry_has_fault(entry)]
     return unresolved_of(
         [
-            *lost,
-            *_without_mimic(faulty, tree.get("joints")),
+            *faulty,
+            *_with_faulty_mimic(entries, tree.get("joints")),
             *names_at_fault(tree),
             *names_at_fault(semantic),
-            *brought,
-            *inside,
+            *(f"{name}_$(…)" for name in modules),  # any name of a module's part
+            *(name for entry in entries for name in names_at_fault(entry.value)),
         ]
     )
 
 
-def _without_mimic(faulty: Iterable[YamlEntry], joints: YamlNode | None) -> list[str]:
-    """Return the joints that follow another, but whose `mimic` has a fault, so that nobody knows which."""
+def _entry_has_fault(entry: YamlEntry) -> bool:
+    return isinstance(entry.value, YamlMap) and has_fault(entry.value)
+
+
+def _with_faulty_mimic(faulty: Iterable[YamlEntry], joints: YamlNode | None) -> list[str]:
+    """Return the joints that follow an unknown joint, because their `mimic` has a fault."""
     entries = joints.entries if isinstance(joints, YamlMap) else {}
     followers = [entry for entry in faulty if entries.get(entry.name) is entry]
-    return [entry.name for entry in followers if _has_lost(entry.value, ("mimic",))]
+    return [entry.name for entry in followers if _has_fault_in(entry.value, ("mimic",))]
 
 
-def _has_lost(node: YamlNode | None, sections: tuple[str, ...]) -> bool:
-    """Whether a map has one of these sections with a fault, be it only that its key is misspelt."""
+def _has_fault_in(node: YamlNode | None, sections: tuple[str, ...]) -> bool:
+    """Whether a map has a fault in one of these sections; its key may be misspelt."""
     faulty = [entry.name for entry in node if isinstance(entry.value, YamlFault)] if isinstance(node, YamlMap) else []
     return any(nearest(name, sections) for name in faulty)
 
 
-def unresolved_of(names: Iterable[str]) -> UnresolvedNames:
-    """Return the names of faulty entries; of a name whose expression failed, the prefix before it.
-
-    One of xacro's, `${...}`, is such an expression as well.
-    """
-    whole, begun = set(), []
-    for name in names:
-        start, *expressions = re.split(r"\$[({]", name, maxsplit=1)
-        if expressions:
-            begun.append(start)
-        else:
-            # Whoever uses a name that was refused may have written it as one that is taken.
-            whole |= {name, *(re.sub(r"[^\w.-]", instead, name) for instead in ("_", "-", ""))}
-    return UnresolvedNames(frozenset(whole), tuple(begun))
+# Frames
 
 
-def _add_frame(frame: Frame, links: dict[str, Link | None], joints: dict[str, Joint | None], sink: Diagnostics) -> None:
-    """Add a frame's link and joint, both or none."""
-    clashes = False
-    for kind, name, part, others in (
-        ("link", frame.link_name, frame.link, links),
-        ("joint", frame.joint_name, frame.joint, joints),
-    ):
-        first = others.get(name)
-        if part and first:
-            tell_duplicate(sink, kind, name, part.source, first.source)
-        clashes |= name in others
-    if clashes or not frame.link or not frame.joint:
+class _Frame(NamedTuple):
+    """The link and the fixed joint of a frame, None for a faulty one, and their names."""
+
+    link_name: str
+    joint_name: str
+    link: Link | None = None
+    joint: Joint | None = None
+
+
+def _lower_frame(fields: Fields, name: str) -> _Frame:
+    is_valid = fields.name_is_valid(name, "frame")
+    written_name = fields.text("joint")
+    joint_name = f"{name}_joint" if written_name is None else written_name
+    if written_name is not None and not fields.name_is_valid(written_name, "joint", fields.node.get("joint")):
+        is_valid = False
+    ends = JointEnds(fields.text("parent", required="base"), name, lower_origin(fields))
+    joint = joint_between(fields, joint_name if is_valid else None, JointType.FIXED, ends)
+    return _Frame(name, joint_name, Link(name, source=fields.ref) if joint else None, joint)
+
+
+def _add_frame(
+    frame: _Frame, links: dict[str, Link | None], joints: dict[str, Joint | None], sink: Diagnostics
+) -> None:
+    """Add the link and the joint of a frame, both or none."""
+    if frame.link and (link := links.get(frame.link_name)):
+        report_duplicate(sink, "link", frame.link_name, frame.link.source, link.source)
+    if frame.joint and (joint := joints.get(frame.joint_name)):
+        report_duplicate(sink, "joint", frame.joint_name, frame.joint.source, joint.source)
+    is_duplicate = frame.link_name in links or frame.joint_name in joints
+    if is_duplicate or not frame.link or not frame.joint:
         links.setdefault(frame.link_name, None)
         joints.setdefault(frame.joint_name, None)
         return
     links[frame.link_name], joints[frame.joint_name] = frame.link, frame.joint
 
 
-# What a file does not say is not imported for it either: the classes of each concept cost start-up time.
+# Other sections. The classes of one that a file does not have are not imported, which a command's start-up would pay.
 
 
 def _mounts(file: Fields) -> Iterable[ModuleJoint]:
@@ -186,6 +208,7 @@ def _mounts(file: Fields) -> Iterable[ModuleJoint]:
 
 
 def sensors_of(file: Fields) -> tuple[Sensor, ...]:
+    """Lower the sensors of a file."""
     if file.node.get("sensors") is None:
         return ()
     from linkforge_compile.lower.sensor import lower_sensors
@@ -210,16 +233,22 @@ def _ros2_controls(file: Fields) -> tuple[Ros2Control, ...]:
 
 
 def gazebo_elements_of(file: Fields) -> tuple[GazeboElement, ...]:
-    sections = (file.node.get("links"), file.node.get("joints"))
-    entries = (entry.value for section in sections if isinstance(section, YamlMap) for entry in section)
-    if not any(isinstance(node, YamlMap) and "gazebo" in node.entries for node in (file.node, *entries)):
+    """Lower the Gazebo blocks of a file, of its links and of its joints."""
+    if not any(
+        isinstance(node, YamlMap) and "gazebo" in node.entries for node in (file.node, *_links_and_joints(file))
+    ):
         return ()
     from linkforge_compile.lower.gazebo import lower_gazebo_elements
 
     return tuple(lower_gazebo_elements(file))
 
 
-def _semantic(file: Fields) -> Semantic | None:
+def _links_and_joints(file: Fields) -> Iterator[YamlNode]:
+    for section in (file.node.get("links"), file.node.get("joints")):
+        yield from (entry.value for entry in section) if isinstance(section, YamlMap) else ()
+
+
+def _semantic(file: Fields) -> LoweredSemantic | None:
     if file.node.get("semantic") is None:
         return None
     from linkforge_compile.lower.srdf import lower_semantic
@@ -228,20 +257,20 @@ def _semantic(file: Fields) -> Semantic | None:
 
 
 def _metadata(tree: YamlMap) -> dict[str, object]:
-    said = tree.get("metadata")
-    return {entry.name: _plain(entry.value) for entry in said} if isinstance(said, YamlMap) else {}
+    data = tree.get("metadata")
+    return {entry.name: _plain_data(entry.value) for entry in data} if isinstance(data, YamlMap) else {}
 
 
-def _plain(node: YamlNode) -> Plain:
-    """Return an author's own data; a number spelled as none is written, such as the version 1.10, is that text."""
+def _plain_data(node: YamlNode) -> PlainData:
+    """Return an author's data; a number in a spelling that would change, such as the version 1.10, is a text."""
     match node:
         case YamlScalar(text=text, value=int() | float() as value) if not isinstance(value, bool):
             return value if number_text(value) == text else text
         case YamlScalar(text=text, value=value):
             return text if isinstance(value, Quantity) else value
         case YamlList():
-            return [_plain(item) for item in node]
+            return [_plain_data(item) for item in node]
         case YamlMap():
-            return {entry.name: _plain(entry.value) for entry in node}
+            return {entry.name: _plain_data(entry.value) for entry in node}
         case YamlFault():
             return None

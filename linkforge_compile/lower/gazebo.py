@@ -1,4 +1,4 @@
-"""Gazebo: what a simulator is told about a link, a joint or the robot, and its plugins."""
+"""Gazebo blocks of links, joints and the robot: settings for a simulator, tags of SDFormat, and plugins."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement, Ga
 from linkforge_compile.core.models.link import PHYSICS_TAGS
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import TAG_TWICE
-from linkforge_compile.lower.extra import besides
+from linkforge_compile.lower.elements import lower_each, lower_element
+from linkforge_compile.lower.extra import free_elements, is_absent
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.free_part import free_elements, is_unsaid
-from linkforge_compile.lower.joint import joints_of, positions_of_type
-from linkforge_compile.lower.quantities import AMOUNT, ANGLE_OR_LENGTH, BARE, LENGTH, SHARE, Measure
+from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, BARE, LENGTH, NumberType
+from linkforge_compile.lower.positions import joints_of, position_type_of_node
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension, is_in_full, number_text
@@ -21,83 +21,61 @@ from linkforge_compile.units import Dimension, is_in_full, number_text
 
 def lower_gazebo_elements(file: Fields) -> Iterator[GazeboElement]:
     """Lower the Gazebo blocks of a file: those of its links, of its joints, and of the robot."""
-    for section, kind in (("links", "link"), ("joints", "joint")):
+    for section, noun in (("links", "link"), ("joints", "joint")):
         entries = file.node.get(section)
         for entry in entries if isinstance(entries, YamlMap) else ():
             if isinstance(entry.value, YamlMap) and "gazebo" in entry.value.entries:
-                owner = Fields(entry.value, f"{kind} '{entry.name}'", file.sink, file.trail, entry.key)
+                owner = Fields(entry.value, f"{noun} '{entry.name}'", file.sink, file.trail, entry.key)
                 yield from lower_gazebo(owner, entry.name, {entry.name: entry.value})
     yield from lower_gazebo(file, None, joints_of(file.node))
 
 
-def lower_gazebo(owner: Fields, reference: str | None, written: Mapping[str, YamlMap]) -> Iterator[GazeboElement]:
-    """Lower the blocks that stand beside what they are about: the link or joint `reference`, None for the robot.
+def lower_gazebo(owner: Fields, reference: str | None, joints: Mapping[str, YamlMap]) -> Iterator[GazeboElement]:
+    """Lower the blocks of the link or joint `reference`, None for the robot.
 
-    At the robot a block may say itself what it refers to, such as a link of a module. `written` are the joints, by
-    name, that may be meant.
+    A block of the robot may name what it refers to, such as a link of a module. `joints` are the nodes of the joints,
+    by name, that a block may refer to.
     """
     physics = owner.node.get("physics")
-    said_by_physics = dict(_tags_of_physics(physics)) if isinstance(physics, YamlMap) else {}
+    tags_of_physics = dict(_tags_of_physics(physics)) if isinstance(physics, YamlMap) else {}
     for node in owner.items("gazebo"):
         block = owner.map_at(node, "gazebo")
         if block is None:
             continue
-        _refuse_repeated_tags(block, said_by_physics)
-        about = block.text("reference") if reference is None else reference
-        element = _element(block, about, positions_of_type(written.get(about) if about is not None else None))
+        _report_repeated_tags(block, tags_of_physics)
+        target = block.text("reference") if reference is None else reference
+        position = position_type_of_node(joints.get(target) if target is not None else None)
+        element = lower_element(
+            GazeboElement,
+            block,
+            reference=target,
+            properties={**dict(_known_properties(block, position)), **free_elements(block, "properties")},
+            plugins=[plugin for plugin in _plugins(block) if plugin],
+        )
         if element:
             yield element
 
 
-def lower_plugin(plugin: Fields) -> GazeboPlugin | None:
-    """Lower a plugin that says its name itself."""
-    return _plugin(plugin, plugin.text("name", required="controller"))
-
-
-def _element(block: Fields, reference: str | None, position: Measure) -> GazeboElement | None:
-    return block.build(
-        lambda: GazeboElement(
-            reference,
-            {**dict(_known_properties(block, position)), **free_elements(block, "properties")},
-            [plugin for plugin in _plugins(block) if plugin],
-            block.text("material"),
-            block.flag("static"),
-            block.number("stop_cfm", AMOUNT),
-            block.number("stop_erp", SHARE),
-            block.flag("provide_feedback"),
-            block.flag("implicit_spring_damper"),
-            **besides(block),
-        )
-    )
-
-
-def _known_properties(block: Fields, position: Measure) -> Iterator[tuple[str, FreePart]]:
-    """Yield the tags that have keys of their own, in the order written; `position` is what the joint goes by."""
+def _known_properties(block: Fields, position: NumberType) -> Iterator[tuple[str, FreePart]]:
+    """Yield the tags that have keys of their own, in the order written; `position` is that of the joint."""
     for entry in block.node:
-        read = _of(position) if entry.name == "springReference" else _READ.get(entry.name)
+        read = _number_of(position) if entry.name == "springReference" else _READ.get(entry.name)
         text = read(block, entry.name) if read else None
         if text is not None:
             yield entry.name, text
 
 
 def _plugins(block: Fields) -> Iterator[GazeboPlugin | None]:
-    """Lower the plugins: a map by their names, or a list of those that say their names."""
+    """Lower the plugins: a map by their names, or a list of plugins with names."""
     if isinstance(block.node.get("plugins"), YamlMap):
-        yield from (plugin for _, plugin in block.each("plugins", "plugin", _plugin))
+        yield from lower_each(GazeboPlugin, block, "plugins", "plugin").values()
         return
     listed = (block.map_at(node, "plugins") for node in block.items("plugins"))
-    yield from (lower_plugin(plugin) for plugin in listed if plugin)
+    yield from (lower_element(GazeboPlugin, plugin) for plugin in listed if plugin)
 
 
-def _plugin(plugin: Fields, name: str | None) -> GazeboPlugin | None:
-    filename, parameters = plugin.text("filename", required="libcontroller.so"), free_elements(plugin, "parameters")
-    if name is None or filename is None:
-        return None
-    return plugin.build(lambda: GazeboPlugin(name, filename, parameters, **besides(plugin)))
-
-
-def _refuse_repeated_tags(block: Fields, said_by_physics: Mapping[str, YamlEntry]) -> None:
-    first = dict(said_by_physics)
+def _report_repeated_tags(block: Fields, tags_of_physics: Mapping[str, YamlEntry]) -> None:
+    first = dict(tags_of_physics)
     for tag, entry in _tags_of_block(block.node):
         earlier = first.setdefault(tag, entry)
         if earlier is not entry:
@@ -120,21 +98,21 @@ def _tags_of_block(block: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
             yield tag, entry
     properties = block.get("properties")
     for entry in properties if isinstance(properties, YamlMap) else ():
-        if not is_unsaid(entry.value):
+        if not is_absent(entry.value):
             yield entry.name, entry
 
 
-def _number(block: Fields, key: str, measure: Measure = BARE) -> str | None:
-    """Read a number of Gazebo's as text: in the spelling of its author where that is written out, as URDFs have it."""
-    number = block.number(key, measure)
+def _number(block: Fields, key: str, accepted: NumberType = BARE) -> str | None:
+    """Read a number as text, as it was written unless it needs a conversion."""
+    number = block.number(key, accepted)
     if number is None:
         return None
-    node = block.said(key)
+    node = block.get(key)
     return node.text if isinstance(node, YamlScalar) and is_in_full(node.text) else number_text(number)
 
 
-def _of(measure: Measure) -> Callable[[Fields, str], str | None]:
-    return lambda block, key: _number(block, key, measure)
+def _number_of(accepted: NumberType) -> Callable[[Fields, str], str | None]:
+    return lambda block, key: _number(block, key, accepted)
 
 
 def _whole_number(block: Fields, key: str) -> str | None:
@@ -158,8 +136,8 @@ _READ: dict[str, Callable[[Fields, str], str | None]] = {
     "fdir1": _vector,
     "kp": _number,
     "kd": _number,
-    "maxVel": _of(Measure((Dimension.VELOCITY,))),
-    "minDepth": _of(LENGTH),
+    "maxVel": _number_of(NumberType((Dimension.VELOCITY,))),
+    "minDepth": _number_of(LENGTH),
     "maxContacts": _whole_number,
     "selfCollide": _flag,
     "gravity": _flag,
@@ -167,9 +145,9 @@ _READ: dict[str, Callable[[Fields, str], str | None]] = {
     "dampingFactor": _number,
     "laserRetro": _number,
     "springStiffness": _number,
-    "springReference": _of(ANGLE_OR_LENGTH),
+    "springReference": _number_of(ANGLE_OR_LENGTH),
     "fudgeFactor": _number,
     "preserveFixedJoint": _flag,
     "disableFixedJointLumping": _flag,
 }
-"""The tags of SDFormat's reader of URDF that are keys under their own names, and what each of them takes."""
+"""The tags of SDFormat's reader of URDF that are keys under their own names, and how each is read."""

@@ -1,23 +1,14 @@
-"""Joints: what their type lets them say, in the dimensions of their motion."""
+"""Joints: their type decides which parts they have, and in which units."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from linkforge_compile.core.constants import EPSILON, UNKNOWN
 from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.core.models.joint import (
-    HAVE_NO_AXIS,
-    Joint,
-    JointCalibration,
-    JointDynamics,
-    JointLimits,
-    JointMimic,
-    JointSafetyController,
-    JointType,
-)
+from linkforge_compile.core.models.joint import HAVE_NO_AXIS, Joint, JointLimits, JointType
 from linkforge_compile.diagnostics.codes.model import (
     JOINT_TO_ITSELF,
     LIMITS_CROSSED,
@@ -25,29 +16,22 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_AXIS,
     ZERO_AXIS,
 )
-from linkforge_compile.lower.elements import E, lower_element, lower_fields, stated_numbers
-from linkforge_compile.lower.extra import besides
+from linkforge_compile.lower.elements import lower_element, lower_fields, lower_origin
+from linkforge_compile.lower.extra import common_kwargs
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import (
-    ANGLE_OR_LENGTH,
-    BARE,
-    Measure,
-    found,
-    measure_of,
-)
-from linkforge_compile.source.ref import Located
+from linkforge_compile.lower.numbers import BARE, describe_node
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
-from linkforge_compile.units import POSITION, Motion
+from linkforge_compile.units import Motion
 
 _LIMITS_EXAMPLE = {
     JointType.REVOLUTE: "{lower: -90 deg, upper: 90 deg, effort: 50 N*m, velocity: 90 deg/s}",
     JointType.PRISMATIC: "{lower: 0, upper: 100 mm, effort: 50 N, velocity: 0.2 m/s}",
 }
-# What stands in for what is faulty, which has been told: the joint stays, so that its ends and the tree are judged.
-# Nothing of it is ever written: a compile that told an error gives no robot.
-_STAND_IN_TYPE = JointType.REVOLUTE
-_STAND_IN_AXIS = Vector3(0.0, 0.0, 1.0)
-_STAND_IN_LIMITS = JointLimits(-UNKNOWN, UNKNOWN, 1.0, 1.0)
+# Substitutes for what is faulty, which is reported: the joint stays, so that checks see its ends and a whole tree.
+# They are never written, because a compile with errors gives no robot.
+_SUBSTITUTE_TYPE = JointType.REVOLUTE
+_SUBSTITUTE_AXIS = Vector3(0.0, 0.0, 1.0)
+SUBSTITUTE_LIMITS = JointLimits(-UNKNOWN, UNKNOWN, 1.0, 1.0)
 
 _AXES = {
     "x": Vector3(1.0, 0.0, 0.0),
@@ -59,34 +43,8 @@ _AXES = {
 }
 
 
-def position_measure(joint: Joint | None) -> Measure:
-    """Return what a position of a joint is measured in: an angle, a length, or either where its type is not known."""
-    if joint is None or joint.limits == _STAND_IN_LIMITS:
-        return ANGLE_OR_LENGTH
-    return _position_measure(joint.type)
-
-
-def _position_measure(kind: JointType | None) -> Measure:
-    motion = kind.motion if kind else Motion.UNKNOWN
-    return measure_of(POSITION, None, Motion.UNKNOWN if motion is Motion.OTHER else motion)
-
-
-def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
-    """Return the joints that a file itself writes, by name: its `joints`, and the one by which it hangs."""
-    sections = [section for name in ("joints", "mount") if isinstance(section := file.get(name), YamlMap)]
-    entries = (entry for section in sections for entry in section)
-    return {entry.name: entry.value for entry in entries if isinstance(entry.value, YamlMap)}
-
-
-def positions_of_type(joint: Located | None) -> Measure:
-    """Return what a position of a joint that is written somewhere is measured in; see `position_measure`."""
-    kind = joint.child("type") if joint else None
-    known = {str(each): each for each in JointType}
-    return _position_measure(known.get(kind.text) if isinstance(kind, YamlScalar) else None)
-
-
-class Ends(NamedTuple):
-    """What a joint joins: its links, None for one whose fault was told, and the pose of the child in the parent."""
+class JointEnds(NamedTuple):
+    """The links of a joint, None for a faulty one, and the pose of the child in the parent."""
 
     parent: str | None
     child: str | None
@@ -94,154 +52,115 @@ class Ends(NamedTuple):
 
 
 def lower_joints(file: Fields) -> Iterator[tuple[str, Joint | None]]:
-    """Lower the joints of a file, None for one that is lost."""
+    """Lower the joints of a file, None for a faulty one."""
     links = file.node.get("links")
     names = tuple(links.entries) if isinstance(links, YamlMap) else ()
-    return file.each("joints", "joint", lambda fields, name: _joint(fields, name, names))
+    return file.each("joints", "joint", lambda fields, name: _lower_joint(fields, name, names))
 
 
-def read_joint_of_any_type(fields: Fields, name: str) -> None:
-    """Read what a joint may say of its motion, for what there is to tell of it where its type may not be known."""
-    joint_type = fields.choice("type", JointType)
-    motion = joint_type.motion if joint_type else Motion.UNKNOWN
-    fields.origin()
-    _axis(fields, joint_type)
-    _limits(fields, joint_type, motion)
-    for part in (JointDynamics, JointSafetyController, JointCalibration):
-        _part(fields, part, motion)
-    _mimic(fields, motion)
-
-
-def _joint(fields: Fields, name: str, links: Sequence[str]) -> Joint | None:
-    """Lower one joint; of the file's `links`, one that it may hang on is the example where it says none."""
+def _lower_joint(fields: Fields, name: str, links: Sequence[str]) -> Joint | None:
+    """Lower one joint; an example for a missing parent is one of the `links` of the file."""
     valid_name = name if fields.name_is_valid(name, "joint") else None
     joint_type = fields.choice("type", JointType, required="revolute")
-    base = _some_base(fields, links) if fields.said("parent") is None else ""
-    ends = Ends(fields.text("parent", required=base), fields.text("child", required="arm"), fields.origin())
+    child_node = fields.get("child")
+    child_name = child_node.text if isinstance(child_node, YamlScalar) else None
+    example = next((link for link in links if link != child_name), "base")
+    parent, child = fields.text("parent", required=example), fields.text("child", required="arm")
+    ends = JointEnds(parent, child, lower_origin(fields))
     return joint_between(fields, valid_name, joint_type, ends)
 
 
-def _some_base(fields: Fields, links: Sequence[str]) -> str:
-    child = fields.said("child")
-    held = child.text if isinstance(child, YamlScalar) else None
-    return next((link for link in links if link != held), "base")
+def joint_between(fields: Fields, name: str | None, joint_type: JointType | None, ends: JointEnds) -> Joint | None:
+    """Lower the other fields of a joint between two links; None for a faulty one.
 
-
-def joint_between(fields: Fields, name: str | None, joint_type: JointType | None, ends: Ends) -> Joint | None:
-    """Lower what makes a joint of two links; None for one that is lost.
-
-    Name, type and links are None where their fault has been told. All that is left is read before the joint is
-    given up, so that every fault of it is told; without a type, nothing else can be read.
+    Name, type and links are None where they are faulty. All fields are read all the same, so that each of their faults
+    is reported; those that depend on the type are not if there is none.
     """
+    parent, child, origin = ends
     if joint_type is None:
-        return _joint_of_no_type(fields, name, ends)
-    motion = joint_type.motion
-    axis, axis_as_written = _axis(fields, joint_type)
-    limits = _limits(fields, joint_type, motion)
-    dynamics, mimic = _part(fields, JointDynamics, motion), _mimic(fields, motion)
-    safety, calibration = _part(fields, JointSafetyController, motion), _part(fields, JointCalibration, motion)
-    parent, child, origin = ends
-    if name is None or parent is None or child is None:
-        return None
-    if parent == child:
-        fields.tell(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
-        return None
-    return fields.build(
-        lambda: Joint(
-            name,
-            joint_type,
-            parent,
-            child,
-            origin,
-            axis,
-            limits,
-            dynamics,
-            mimic,
-            safety,
-            calibration,
-            axis_as_written=axis_as_written,
-            **besides(fields),
-        )
+        if name is None or parent is None or child is None or parent == child:
+            return None
+        parts = (_SUBSTITUTE_TYPE, parent, child, origin, _SUBSTITUTE_AXIS, SUBSTITUTE_LIMITS)
+        return fields.build(lambda: Joint(name, *parts, source=fields.ref))
+    axis, axis_as_written = _lower_axis(fields, joint_type)
+    if name is not None and parent is not None and parent == child:
+        fields.report(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
+        child = None
+    return lower_element(
+        Joint,
+        fields,
+        joint_type.motion,
+        name=name,
+        type=joint_type,
+        parent=parent,
+        child=child,
+        origin=origin,
+        axis=axis,
+        limits=_lower_limits(fields, joint_type, joint_type.motion),
+        axis_as_written=axis_as_written,
     )
 
 
-def _joint_of_no_type(fields: Fields, name: str | None, ends: Ends) -> Joint | None:
-    parent, child, origin = ends
-    if name is None or parent is None or child is None or parent == child:
-        return None
-    return fields.build(
-        lambda: Joint(name, _STAND_IN_TYPE, parent, child, origin, _STAND_IN_AXIS, _STAND_IN_LIMITS, source=fields.ref)
-    )
+def check_joint_defaults(fields: Fields, _name: str) -> None:
+    """Read what a joint may have that depends on its motion, to report its faults; its type may be unknown."""
+    joint_type = fields.choice("type", JointType)
+    motion = joint_type.motion if joint_type else Motion.UNKNOWN
+    _lower_axis(fields, joint_type)
+    limits = _lower_limits(fields, joint_type, motion)
+    lower_fields(Joint, fields, motion, name="", type=joint_type, parent="", child="", axis=None, limits=limits)
 
 
-def _axis(fields: Fields, joint_type: JointType | None) -> tuple[Vector3 | None, Vector3 | None]:
+def _lower_axis(fields: Fields, joint_type: JointType | None) -> tuple[Vector3 | None, Vector3 | None]:
     """Return the unit axis, and the axis as written where that is no unit vector."""
     if joint_type in HAVE_NO_AXIS:
         _refuse(fields, "axis", joint_type)
         return None, None
-    node = fields.said("axis", "z")
+    node = fields.get("axis", required="z")
     if node is None or isinstance(node, YamlFault):
-        return _STAND_IN_AXIS, None
+        return _SUBSTITUTE_AXIS, None
     if not isinstance(node, YamlList):
         axis = _AXES.get(node.text) if isinstance(node, YamlScalar) else None
         if axis is None:
-            fields.tell(UNKNOWN_AXIS, node, found=found(node))
-        return axis or _STAND_IN_AXIS, None
+            fields.report(UNKNOWN_AXIS, node, found=describe_node(node))
+        return axis or _SUBSTITUTE_AXIS, None
     written = fields.vector3_at(node, "axis", BARE)
     if written is None:
-        return _STAND_IN_AXIS, None
+        return _SUBSTITUTE_AXIS, None
     length = math.hypot(written.x, written.y, written.z)
     if length < EPSILON:
-        fields.tell(ZERO_AXIS, node)
-        return _STAND_IN_AXIS, None
+        fields.report(ZERO_AXIS, node)
+        return _SUBSTITUTE_AXIS, None
     if abs(length - 1) <= EPSILON:
         return written, None
     return Vector3(*(component / length for component in written)), written
 
 
-def _limits(fields: Fields, joint_type: JointType | None, motion: Motion) -> JointLimits | None:
+def _lower_limits(fields: Fields, joint_type: JointType | None, motion: Motion) -> JointLimits | None:
     if joint_type is JointType.FIXED:
         _refuse(fields, "limits", joint_type)
         return None
     example = _LIMITS_EXAMPLE.get(joint_type, "") if joint_type else ""
     limits = fields.map("limits", required=example)
     if limits is None:
-        return _STAND_IN_LIMITS if example else None
+        return SUBSTITUTE_LIMITS if example else None
     values = lower_fields(JointLimits, limits, motion)
     lower, upper = values["lower"], values["upper"]
     if lower is not None and upper is not None and lower > upper:
-        _tell_crossed(limits)
+        _report_crossed(limits)
         values |= {"lower": -UNKNOWN, "upper": UNKNOWN}
     if joint_type is JointType.CONTINUOUS:
-        # It has no range, and one that is stated is reported; what stands in for a faulty one is not.
+        # It has no range; one that is written is reported, but not the substitute of a faulty one.
         values |= {name: None for name in ("lower", "upper") if values[name] in (-UNKNOWN, UNKNOWN)}
-    return limits.build(lambda: JointLimits(**values, **besides(limits)))
+    return limits.build(lambda: JointLimits(**values, **common_kwargs(limits)))
 
 
-def _tell_crossed(limits: Fields) -> None:
+def _report_crossed(limits: Fields) -> None:
     lower, upper = limits.node.get("lower"), limits.node.get("upper")
     if lower is not None and upper is not None:
-        limits.tell(LIMITS_CROSSED, lower, lower=found(lower), upper=found(upper))
-
-
-def _part(fields: Fields, kind: type[E], motion: Motion) -> E | None:
-    part = fields.map(kind.TAG)
-    return lower_element(kind, part, motion) if part else None
-
-
-def _mimic(fields: Fields, motion: Motion) -> JointMimic | None:
-    mimic = fields.map("mimic")
-    if mimic is None:
-        return None
-    joint = mimic.text("joint", required="left_finger")
-    numbers = lower_fields(JointMimic, mimic, motion)
-    if joint is None:
-        return None
-    stated = stated_numbers(JointMimic, mimic)
-    return mimic.build(lambda: JointMimic(joint, **numbers, stated=stated, **besides(mimic)))
+        limits.report(LIMITS_CROSSED, lower, lower=describe_node(lower), upper=describe_node(upper))
 
 
 def _refuse(fields: Fields, key: str, joint_type: JointType) -> None:
     node = fields.node.get(key)
     if node is not None and not isinstance(node, YamlFault):
-        fields.tell(NOT_OF_THIS_TYPE, node, owner=fields.title, field=key, type=joint_type)
+        fields.report(NOT_OF_THIS_TYPE, node, owner=fields.title, field=key, type=joint_type)

@@ -1,4 +1,4 @@
-"""Links: their visuals, their collisions and their inertial."""
+"""Links: shapes, the inertial as written or computed from the shapes, and the order of the shapes in the output."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from linkforge_compile.core.constants import DEFAULT_LINK_MASS
 from linkforge_compile.core.fields import ABOVE_ZERO, NOT_NEGATIVE
 from linkforge_compile.core.models.geometry import Geometry, Mesh, Transform
 from linkforge_compile.core.models.link import (
-    PHYSICS_TAGS,
+    USUAL_PHYSICS,
     Collision,
     Inertial,
     InertiaTensor,
@@ -17,7 +17,9 @@ from linkforge_compile.core.models.link import (
     LinkPhysics,
     Visual,
 )
+from linkforge_compile.core.models.shape_order import COLLISION, KINDS, PAIRS, VISUAL, grouped, in_pairs
 from linkforge_compile.core.physics import inertial_of_shapes
+from linkforge_compile.diagnostics import notes_of
 from linkforge_compile.diagnostics.codes.model import (
     COPY_OF_NOTHING,
     DENSITY_WITH_INERTIA,
@@ -25,163 +27,133 @@ from linkforge_compile.diagnostics.codes.model import (
     MASS_AND_DENSITY,
     NO_MASS,
     ORIGIN_WITHOUT_INERTIA,
-    WRONG_KIND,
+    SHAPE_ORDER_COUNT,
+    UNKNOWN_CHOICE,
 )
-from linkforge_compile.lower.elements import lower_element, lower_fields
-from linkforge_compile.lower.extra import besides, outer_extras_of, with_extras
+from linkforge_compile.lower.elements import lower_element, lower_origin
+from linkforge_compile.lower.extra import common_kwargs, outer_extras_of
 from linkforge_compile.lower.fields import Fields
+from linkforge_compile.lower.file_scope import FileScope
 from linkforge_compile.lower.geometry import lower_geometry
 from linkforge_compile.lower.material import lower_visual_material
-from linkforge_compile.lower.quantities import Measure, found
-from linkforge_compile.lower.scope import FileScope
+from linkforge_compile.lower.numbers import NumberType
 from linkforge_compile.source import Key, SourceRef
-from linkforge_compile.syntax.nodes import YamlFault, YamlMap, YamlScalar
+from linkforge_compile.source.provenance import join_links, overrides_of
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension
 
-_MASS, _MASS_TO_SPREAD = Measure((Dimension.MASS,), NOT_NEGATIVE), Measure((Dimension.MASS,), ABOVE_ZERO)
-_DENSITY = Measure((Dimension.DENSITY,), ABOVE_ZERO)
-
-_UNSAID_PHYSICS = LinkPhysics()
+_MASS, _MASS_TO_SPREAD = NumberType((Dimension.MASS,), NOT_NEGATIVE), NumberType((Dimension.MASS,), ABOVE_ZERO)
+_DENSITY = NumberType((Dimension.DENSITY,), ABOVE_ZERO)
 
 Shapes = Sequence[Visual | None] | Sequence[Collision | None]
 
 
 def lower_links(file: Fields, scope: FileScope) -> Iterator[tuple[str, Link | None]]:
-    """Lower the links of a file, None for one that is lost."""
-    return file.each("links", "link", lambda fields, name: _link(fields, name, scope))
+    """Lower the links of a file, None for one with a faulty name; other faulty parts of a link are left out."""
+    return file.each("links", "link", lambda fields, name: _lower_link(fields, name, scope))
 
 
-def _link(fields: Fields, name: str, scope: FileScope) -> Link | None:
-    """Lower one link; a faulty part of it is left out, so None only for a name that no link may have."""
-    valid = fields.name_is_valid(name, "link")
-    visuals = [_visual(fields.map_at(node, "visual"), scope) for node in fields.items("visual")]
-    collisions = _collisions(fields, visuals, scope)
-    inertial, physics = _inertial(fields, collisions or visuals, scope), _physics(fields)
-    shape_order = _shape_order(fields, visuals, collisions)
-    if not valid:
+def _lower_link(fields: Fields, name: str, scope: FileScope) -> Link | None:
+    is_valid = fields.name_is_valid(name, "link")
+    visuals = [_lower_visual(fields.map_at(node, "visual"), scope) for node in fields.items("visual")]
+    collisions = _lower_collisions(fields, visuals, scope)
+    inertial = _lower_inertial(fields, collisions or visuals, scope)
+    physics = fields.map("physics")
+    lowered_physics = lower_element(LinkPhysics, physics) if physics else None
+    shape_order = _lower_shape_order(fields, visuals, collisions)
+    if not is_valid:
         return None
     return Link(
         name,
         inertial,
-        physics,
-        tuple([visual for visual in visuals if visual]),
-        tuple([collision for collision in collisions if collision]),
+        lowered_physics or USUAL_PHYSICS,
+        [visual for visual in visuals if visual],
+        [collision for collision in collisions if collision],
         shape_order=shape_order,
-        source=_source(fields),
+        source=_source_of(fields),
         **outer_extras_of(fields),
     )
 
 
-def _source(link: Fields) -> SourceRef:
-    """Return where a link was written; a key that is none may have been meant for the shapes that it does not have."""
+def _source_of(link: Fields) -> SourceRef:
+    """Return where a link was written; a field that could not be read may be the shapes that it does not have."""
     if not link.is_faulty:
         return link.ref
-    lost = next(entry for entry in link.node if isinstance(entry.value, YamlFault))
-    return replace(link.ref, node=YamlMap({"visual": lost, "collision": lost, **link.node.entries}, link.node.span))
+    fault = next(entry for entry in link.node if isinstance(entry.value, YamlFault))
+    return replace(link.ref, node=YamlMap({"visual": fault, "collision": fault, **link.node.entries}, link.node.span))
 
 
-def _shape_order(link: Fields, visuals: Shapes, collisions: Shapes) -> tuple[str, ...]:
-    said = [name for name in link.node.entries if name in _OF_ORDER]
-    if "shape_order" not in said and said != ["collision", "visual"]:
-        return ()
-    # Few links have an order of their own: a command's first line of work does not wait for what reads it.
-    from linkforge_compile.lower.shape_order import lower_shape_order
-
-    return lower_shape_order(link, visuals, collisions)
+# Shapes
 
 
-_OF_ORDER = ("visual", "collision", "shape_order")
-
-
-def _physics(link: Fields) -> LinkPhysics:
-    """Lower how a simulator treats a link in contact; what is unsaid or faulty is as the simulator has it."""
-    unsaid, physics = _UNSAID_PHYSICS, link.map("physics")
-    if physics is None:
-        return unsaid
-    lowered = physics.build(lambda: LinkPhysics(**lower_fields(LinkPhysics, physics), source=physics.ref))
-    if lowered is None:
-        return unsaid
-    said = [name for name in PHYSICS_TAGS if physics.node.get(name) is not None]
-    return replace(lowered, stated=[name for name in said if getattr(lowered, name) == getattr(unsaid, name)])
-
-
-def _visual(shape: Fields | None, scope: FileScope) -> Visual | None:
+def _lower_visual(shape: Fields | None, scope: FileScope) -> Visual | None:
     if shape is None:
         return None
-    geometry, origin = lower_geometry(shape, scope), shape.origin()
-    material, name = lower_visual_material(shape, scope), shape.text("name")
-    made = Visual(geometry, origin, material, name, source=shape.ref) if geometry else None
-    return made and with_extras(made, shape)
+    geometry, material = lower_geometry(shape, scope), lower_visual_material(shape, scope)
+    return lower_element(Visual, shape, geometry=geometry, material=material)
 
 
-def _collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) -> list[Collision | None]:
+def _lower_collision(shape: Fields | None, scope: FileScope) -> Collision | None:
+    return lower_element(Collision, shape, geometry=lower_geometry(shape, scope)) if shape else None
+
+
+def _lower_collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) -> list[Collision | None]:
+    """Lower `collision`: a shape, a list of them, or `visual` for the shapes of the visuals."""
     node = link.node.get("collision")
     if not isinstance(node, YamlScalar):
-        return [_collision(link.map_at(shape, "collision"), scope) for shape in link.items("collision")]
+        return [_lower_collision(link.map_at(shape, "collision"), scope) for shape in link.items("collision")]
     if node.text != "visual":
-        link.tell(
-            WRONG_KIND, node, field="collision", expected="a shape, a list of them or 'visual'", found=found(node)
-        )
+        link.report_wrong_kind(node, "collision", "a shape, a list of them or 'visual'")
         return [None]
     if not visuals and not link.is_faulty:
-        link.tell(COPY_OF_NOTHING, node, owner=link.title)
-    return [Collision(one.geometry, one.origin, source=one.source) if one else None for one in visuals]
+        link.report(COPY_OF_NOTHING, node, owner=link.title)
+    return [Collision(visual.geometry, visual.origin, source=visual.source) if visual else None for visual in visuals]
 
 
-def _collision(shape: Fields | None, scope: FileScope) -> Collision | None:
-    if shape is None:
-        return None
-    geometry, origin, name = lower_geometry(shape, scope), shape.origin(), shape.text("name")
-    made = Collision(geometry, origin, name, source=shape.ref) if geometry else None
-    return made and with_extras(made, shape)
+# The inertial
 
 
-def _inertial(link: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
-    """Lower the inertial: as written, or computed from these shapes; without `inertial`, none."""
+def _lower_inertial(link: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
+    """Lower the inertial as written, or computed from these shapes; a substitute for a faulty one."""
     inertial = link.map("inertial")
     if inertial is None and link.node.get("inertial") is None:
         return None
-    # What is faulty has been told: a stand-in keeps the checks from telling of a link without mass as well.
+    # The fault is reported: with the substitute, checks do not report a link without mass as well.
     return (inertial and _written_or_computed(link, inertial, shapes, scope)) or Inertial(DEFAULT_LINK_MASS)
 
 
 def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes, scope: FileScope) -> Inertial | None:
-    written = inertial.node.get("inertia") is not None
-    mass_taken = _MASS if written else _MASS_TO_SPREAD
-    mass, density = inertial.numbers(("mass", mass_taken, ""), ("density", _DENSITY, ""))
-    origin = inertial.origin()
-    if written:
-        return _written(inertial, mass, origin)
+    is_written = inertial.node.get("inertia") is not None
+    mass = inertial.number("mass", _MASS if is_written else _MASS_TO_SPREAD)
+    density = inertial.number("density", _DENSITY)
+    if is_written:
+        return _as_written(inertial, mass)
+    lower_origin(inertial)
     if (node := inertial.node.get("origin")) is not None:
-        inertial.tell(ORIGIN_WITHOUT_INERTIA, node, owner=inertial.title)
-    elif _one_of_mass_and_density(inertial) and _has_shapes(link, inertial, shapes):
+        inertial.report(ORIGIN_WITHOUT_INERTIA, node, owner=inertial.title)
+    elif _has_mass_or_density(inertial) and _has_shapes(link, inertial, shapes):
         return _computed(inertial, shapes, scope, mass, density)
     return None
 
 
-def _written(inertial: Fields, mass: float | None, origin: Transform) -> Inertial | None:
-    tensor = _tensor(inertial)
+def _as_written(inertial: Fields, mass: float | None) -> Inertial | None:
+    inertia = inertial.map("inertia")
+    tensor = lower_element(InertiaTensor, inertia) if inertia else None
+    lowered = lower_element(Inertial, inertial, mass=mass, inertia=tensor)
     if (density := inertial.node.get("density")) is not None:
-        inertial.tell(DENSITY_WITH_INERTIA, density, owner=inertial.title)
+        inertial.report(DENSITY_WITH_INERTIA, density, owner=inertial.title)
         return None
     if inertial.node.get("mass") is None:
-        inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass'")
-    if mass is None or tensor is None:
-        return None
-    return with_extras(Inertial(mass, origin, tensor, source=inertial.ref), inertial)
+        inertial.report_incomplete(NO_MASS, owner=inertial.title, choices="'mass'")
+    return lowered
 
 
-def _tensor(inertial: Fields) -> InertiaTensor | None:
-    inertia = inertial.map("inertia")
-    return lower_element(InertiaTensor, inertia) if inertia else None
-
-
-def _one_of_mass_and_density(inertial: Fields) -> bool:
+def _has_mass_or_density(inertial: Fields) -> bool:
     mass, density = inertial.node.get("mass"), inertial.node.get("density")
     if mass is None and density is None:
-        inertial.tell_lack(NO_MASS, owner=inertial.title, choices="'mass' or 'density'")
+        inertial.report_incomplete(NO_MASS, owner=inertial.title, choices="'mass' or 'density'")
     elif mass is not None and density is not None:
-        inertial.tell(MASS_AND_DENSITY, inertial.ref, Key("density"), owner=inertial.title)
+        inertial.report(MASS_AND_DENSITY, inertial.ref, Key("density"), owner=inertial.title)
     else:
         return True
     return False
@@ -189,14 +161,14 @@ def _one_of_mass_and_density(inertial: Fields) -> bool:
 
 def _has_shapes(link: Fields, inertial: Fields, shapes: Shapes) -> bool:
     if not shapes and not link.is_faulty:
-        inertial.tell(INERTIA_OF_NOTHING, inertial.ref, owner=inertial.title)
+        inertial.report(INERTIA_OF_NOTHING, inertial.ref, owner=inertial.title)
     return bool(shapes)
 
 
 def _computed(
     inertial: Fields, shapes: Shapes, scope: FileScope, mass: float | None, density: float | None
 ) -> Inertial | None:
-    """Compute mass, centre and tensor over all shapes together; None where one of them is faulty, or none there."""
+    """Compute mass, centre and tensor of all shapes together; None where one of them is faulty or not found."""
     bodies: list[tuple[Geometry, Transform]] = [(shape.geometry, shape.origin) for shape in shapes if shape]
 
     def compute() -> Inertial | None:
@@ -206,6 +178,62 @@ def _computed(
         if len(bodies) < len(shapes) or len(solids) < len(read) or (mass is None and density is None):
             return None
         computed = inertial_of_shapes(bodies, mass=mass, density=density, meshes=solids)
-        return replace(computed, **besides(inertial))
+        return replace(computed, **common_kwargs(inertial))
 
     return inertial.build(compute)
+
+
+# The order of the shapes
+
+
+def _lower_shape_order(link: Fields, visuals: Shapes, collisions: Shapes) -> tuple[str, ...]:
+    """Return the kinds of the shapes in the order of the output, () for the usual order: visuals first.
+
+    It is that of `shape_order`, else that of the keys. None among the shapes is a faulty one.
+    """
+    keys = [name for name in link.node.entries if name in KINDS]
+    if "shape_order" not in link.node.entries and keys != [COLLISION, VISUAL]:
+        return ()
+    counts = {VISUAL: len(visuals), COLLISION: len(collisions)}
+    kinds = [kind for kind in dict.fromkeys((*keys, *KINDS)) for _ in range(counts[kind])]
+    # The number of shapes that a faulty link should have is unknown.
+    is_whole = not link.is_faulty and None not in (*visuals, *collisions)
+    order = tuple(_written_shape_order(link, kinds, is_whole=is_whole) or kinds)
+    return () if order[:1] == (VISUAL,) and order == grouped(order) else order
+
+
+def _written_shape_order(link: Fields, kinds: Sequence[str], *, is_whole: bool) -> Sequence[str] | None:
+    """Return the order that `shape_order` gives to these kinds, None for no order or a faulty one."""
+    node = link.node.get("shape_order")
+    match node:
+        case None | YamlFault():
+            return None
+        case YamlScalar() if node.text == PAIRS:
+            return in_pairs(kinds)
+        case YamlList():
+            return _listed_shape_order(link, node, kinds) if is_whole else None
+    link.report_wrong_kind(node, "shape_order", f"'{PAIRS}' or a list of the words '{VISUAL}' and '{COLLISION}'")
+    return None
+
+
+def _listed_shape_order(link: Fields, node: YamlList, kinds: Sequence[str]) -> Sequence[str] | None:
+    words = [link.text_at(item, "shape_order") for item in node]
+    for item, word in zip(node, words, strict=True):
+        if word is not None and word not in KINDS:
+            link.report(UNKNOWN_CHOICE, item, near=KINDS, field="shape_order", choices=", ".join(KINDS), name=word)
+    listed = [word for word in words if word in KINDS]
+    if len(listed) < len(words):
+        return None
+    if sorted(listed) == sorted(kinds):
+        return listed
+    parts = [link.node, *(part for kind in KINDS if (part := link.node.get(kind)))]
+    overrides = overrides_of([change for part in parts for change in part.span.changes], node.span)
+    facts = {"owner": link.title, "expected": _count_words(kinds), "found": _count_words(listed)}
+    notes = notes_of(join_links(overrides))
+    link.sink.report(SHAPE_ORDER_COUNT.at(SourceRef(node, None, link.trail), notes=notes, **facts))
+    return None
+
+
+def _count_words(kinds: Sequence[str]) -> str:
+    counts = {kind: kinds.count(kind) for kind in KINDS}
+    return " and ".join(f"{count} {kind}{'' if count == 1 else 's'}" for kind, count in counts.items())

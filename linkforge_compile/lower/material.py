@@ -1,4 +1,4 @@
-"""Materials: declared by name in a file, or written where they are used."""
+"""Materials: declared by name in a file, or written in a visual; messages help with colors in bytes."""
 
 from __future__ import annotations
 
@@ -9,94 +9,95 @@ from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.diagnostics.codes.model import EMPTY_MATERIAL, OUT_OF_RANGE
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.lower.extra import Besides, besides
+from linkforge_compile.lower.elements import lower_element
+from linkforge_compile.lower.extra import CommonKwargs, common_kwargs
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import SHARE
-from linkforge_compile.lower.scope import FileScope
+from linkforge_compile.lower.file_scope import FileScope
+from linkforge_compile.lower.numbers import FRACTION
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 
 _BYTE = 255
 _LEAST_BYTE = 16
-"""The brightest part of a color that was meant in bytes is at least so large; 2 is a slip for 0.2."""
+"""A list is taken for a color in bytes if its largest number is at least this one; 2 is a slip for 0.2."""
 
 
 def lower_materials(file: Fields, scope: FileScope) -> dict[str, Material | None]:
     """Lower the materials that a file declares, None for a faulty one."""
-    return dict(file.each("materials", "material", lambda fields, name: _material(fields, name, scope)))
+    return dict(file.each("materials", "material", lambda fields, name: _lower_material(fields, name, scope)))
 
 
 def lower_visual_material(visual: Fields, scope: FileScope) -> Material | None:
-    """Lower a visual's material: one of the file's by its name, or one that is written in place."""
+    """Lower the material of a visual: the name of one that the file declares, or one written in place."""
     node = visual.node.get("material")
     if node is None:
         return None
     if isinstance(node, YamlMap):
         inline = visual.map_at(node, "material")
-        return None if inline is None else _material(inline, inline.text("name") or "", scope)
+        return None if inline is None else _lower_material(inline, inline.text("name") or "", scope)
     name = visual.text_at(node, "material")
     if name is None:
         return None
-    if name not in scope.materials and name not in scope.lost_materials:
+    if name not in scope.materials and name not in scope.unresolved_materials:
         hint = "" if nearest(name, scope.materials) else "; declare it in 'materials', or write '{color: [r, g, b]}'"
-        visual.tell(UNKNOWN_MATERIAL, node, near=scope.materials, name=name, hint=hint)
+        visual.report(UNKNOWN_MATERIAL, node, near=scope.materials, name=name, hint=hint)
     return scope.materials.get(name)
 
 
-def _material(fields: Fields, name: str, scope: FileScope) -> Material | None:
-    color, texture = fields.node.get("color"), fields.node.get("texture")
-    if color is None and texture is None:
-        fields.tell_lack(EMPTY_MATERIAL, owner=fields.title, hint=_color_in_comment(fields.node.key_span("color")))
+def _lower_material(fields: Fields, name: str, scope: FileScope) -> Material | None:
+    texture = fields.node.get("texture")
+    if fields.node.get("color") is None and texture is None:
+        hint = _color_in_comment(fields.node.key_span("color"))
+        fields.report_incomplete(EMPTY_MATERIAL, owner=fields.title, hint=hint)
         return None
-    rgba, file = _color(fields), fields.text("texture")
-    if rgba is None and file is None:
+    color, file = _lower_color(fields), fields.text("texture")
+    if color is None and file is None:
         return None
     image = scope.resource(file, texture) if file is not None and texture is not None else None
-    after_links = fields.flag("after_links") or False
-    return fields.build(lambda: Material(name, rgba, image, after_links=after_links, **besides(fields)))
+    return lower_element(Material, fields, name=name, color=color, texture=image)
 
 
 def _color_in_comment(key: Span | None) -> str:
-    """Say how a color is written that stands behind its key as in style sheets, which YAML takes for a comment."""
-    behind = key.file.line(key.line)[key.end_column - 1 :] if key else ""
-    written = re.match(r":[ \t]+(#((?:[0-9a-fA-F]{2}){3,4}))(?!\S)", behind)
+    """Return a hint for a color after its key as in style sheets, which YAML takes for a comment; empty for none."""
+    rest = key.file.line(key.line)[key.end_column - 1 :] if key else ""
+    written = re.match(r":[ \t]+(#((?:[0-9a-fA-F]{2}){3,4}))(?!\S)", rest)
     if written is None:
         return ""
     return f"; '{written[1]}' begins a comment: write '[{', '.join(map(_of_byte, bytes.fromhex(written[2])))}]'"
 
 
-def _color(fields: Fields) -> Color | None:
+def _lower_color(fields: Fields) -> Color | None:
     """Read `color`: red, green, blue and, unless it is 1, opacity, each from 0 to 1."""
     node = fields.node.get("color")
     long = fields.map_at(node, "color") if isinstance(node, YamlMap) else None
-    numbers = node if long is None else long.said("rgba", "[0.6, 0.6, 0.65]")
-    if isinstance(numbers, YamlList) and (meant := _of_bytes(numbers)):
-        seen = f"[{', '.join(item.text for item in numbers if isinstance(item, YamlScalar))}]; write '{meant}'"
-        fields.tell(OUT_OF_RANGE, numbers, field="color", bound=ZERO_TO_ONE.words, found=seen)
+    numbers = node if long is None else long.get("rgba", required="[0.6, 0.6, 0.65]")
+    if isinstance(numbers, YamlList) and (suggestion := _suggested_color(numbers)):
+        found = f"[{', '.join(item.text for item in numbers if isinstance(item, YamlScalar))}]; write '{suggestion}'"
+        fields.report(OUT_OF_RANGE, numbers, field="color", bound=ZERO_TO_ONE.words, found=found)
         return None
-    if isinstance(numbers, YamlList) and _tell_bytes(fields, numbers):
+    if isinstance(numbers, YamlList) and _report_bytes(fields, numbers):
         return None
-    rgba = None if numbers is None else fields.numbers_at(numbers, "color", SHARE, 3, 4)
+    rgba = None if numbers is None else fields.numbers_at(numbers, "color", FRACTION, 3, 4)
     if node is None or rgba is None:
         return None
-    rest: Besides = besides(long) if long else {"source": SourceRef(node, None, fields.trail)}
-    return fields.build(lambda: Color(*rgba, **rest))
+    common: CommonKwargs = common_kwargs(long) if long else {"source": SourceRef(node, None, fields.trail)}
+    return fields.build(lambda: Color(*rgba, **common))
 
 
-def _tell_bytes(fields: Fields, numbers: YamlList) -> bool:
-    """Tell of single parts that are written from 0 to 255, where the others are right; return whether there are any."""
-    others = [item for item in numbers if not _is_part(item)]
+def _report_bytes(fields: Fields, numbers: YamlList) -> bool:
+    """Report single components from 0 to 255, where the others are right; return whether there are any."""
+    others = [item for item in numbers if not _is_component(item)]
     large = [byte for item in others if (byte := _byte(item)) is not None and byte >= _LEAST_BYTE]
     if len(large) < len(others):
         return False
     for item, byte in zip(others, large, strict=True):
-        seen = f"{byte}; write '{_of_byte(byte)}'"
-        fields.tell(OUT_OF_RANGE, item, field="color", bound=ZERO_TO_ONE.words, found=seen)
+        found = f"{byte}; write '{_of_byte(byte)}'"
+        fields.report(OUT_OF_RANGE, item, field="color", bound=ZERO_TO_ONE.words, found=found)
     return bool(large)
 
 
-def _of_bytes(numbers: YamlList) -> str | None:
-    """Return the color whose parts are written from 0 to 255, each from 0 to 1; None for any other list."""
+def _suggested_color(numbers: YamlList) -> str | None:
+    """Return a color written from 0 to 255 as one from 0 to 1; None for any other list."""
     rgb = [byte for byte in map(_byte, numbers.items[:3]) if byte is not None]
     if len(rgb) < 3 or len(numbers) > 4 or max(rgb) < _LEAST_BYTE:
         return None
@@ -105,15 +106,15 @@ def _of_bytes(numbers: YamlList) -> str | None:
 
 
 def _opacity(node: YamlNode) -> str | None:
-    """Return an opacity from 0 to 1: style sheets count it so beside colors in bytes, others in bytes as well."""
-    if isinstance(node, YamlScalar) and _is_part(node):
+    """Return the opacity of a color in bytes: from 0 to 1 as in style sheets, else in bytes as well."""
+    if isinstance(node, YamlScalar) and _is_component(node):
         return node.text
     byte = _byte(node)
     return None if byte is None else _of_byte(byte)
 
 
-def _is_part(node: YamlNode) -> bool:
-    """Whether a number from 0 to 1 is written."""
+def _is_component(node: YamlNode) -> bool:
+    """Whether a node is a number from 0 to 1."""
     value = node.value if isinstance(node, YamlScalar) else None
     return isinstance(value, int | float) and not isinstance(value, bool) and 0 <= value <= 1
 

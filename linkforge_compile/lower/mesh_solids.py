@@ -1,4 +1,4 @@
-"""Meshes as solid bodies for the links whose inertia is computed: found, read once, and their faults reported."""
+"""Read the meshes that an inertia is computed from as solid bodies, once for all, and report their faults."""
 
 from __future__ import annotations
 
@@ -22,11 +22,10 @@ from linkforge_compile.diagnostics.codes.physics import (
     UNREADABLE_MESH,
     WIDE_MESH,
 )
-from linkforge_compile.expand.file_text import TooLargeError, UnreadableError, file_bytes
-from linkforge_compile.expand.mesh_files import FindMesh, misspelt_part
-from linkforge_compile.expand.noted import used_from
-from linkforge_compile.expand.path_starts import looked_for, written_place
-from linkforge_compile.expand.paths import as_typed
+from linkforge_compile.expand.annotating_sink import with_use_trace
+from linkforge_compile.expand.file_text import TooLargeError, UnreadableError, read_bytes
+from linkforge_compile.expand.paths import as_typed, misspelt_part, path_base, searched_note
+from linkforge_compile.expand.uses import FindMesh
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceRef, Span
@@ -40,7 +39,7 @@ MAX_BYTES = 128 * 1024 * 1024
 _MAX_WIDTH = 100.0  # [m]
 
 _BYTES_UNTIL_COLLECTION = 8 * 1024 * 1024
-"""After so many bytes of meshes the garbage collector runs, which is paused while compiling."""
+"""The garbage collector, paused during a compile, runs after this many bytes of meshes."""
 
 _CODES = {
     MeshFault.NO_LIBRARY: NO_MESH_LIBRARY,
@@ -59,7 +58,7 @@ class MeshSolids:
     """The solids of all mesh files of one compile, each read once."""
 
     def __init__(self, budget: Budget | None = None) -> None:
-        """`budget` is what the files of the compile share; without one it is a compile by itself."""
+        """`budget` is shared by the files of the compile; None for a new one."""
         self._budget = budget or Budget()
         self._known: dict[str, Solid | MeshError] = {}  # by real path
         self._files: list[Path] = []
@@ -117,7 +116,7 @@ class MeshSolids:
     def _content(self, path: Path) -> bytes | None:
         """Return the content of a file, None for a missing one; record one that cannot be read."""
         try:
-            content = file_bytes(path, MAX_BYTES, only_regular=True)
+            content = read_bytes(path, MAX_BYTES, only_regular=True)
         except UnreadableError as error:
             self._unread.append(as_typed(path))
             fault = MeshFault.TOO_LARGE if isinstance(error, TooLargeError) else MeshFault.UNREADABLE
@@ -145,7 +144,7 @@ class MeshReader:
 
         """
         written, where = _written(mesh)
-        path = self._find(written, written_place(where.node), used_from(sink, where.trail))
+        path = self._find(written, path_base(where.node), with_use_trace(sink, where.trail))
         if path is None:
             return None
         request = Note("its inertia is needed here", inertial.span)
@@ -159,7 +158,7 @@ class MeshReader:
             return None
         if solid is None:
             name, near = misspelt_part(path)
-            notes = [looked_for(path, written, where.node.span), request]
+            notes = [searched_note(path, written, where.node.span), request]
             sink.report(NO_SUCH_MESH.at(where, path=written, name=name, near=near, notes=notes))
             return None
         scaled = solid.scaled(mesh.scale)

@@ -1,42 +1,70 @@
-"""Positions of joints that modules bring: in what each is measured shows once the robots are joined."""
+"""Positions of joints: the unit depends on the type of the joint, which may be written in another file."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from linkforge_compile.core.models.joint import Joint
-from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.joint import joints_of, position_measure
-from linkforge_compile.lower.quantities import Refusal, si_number
-from linkforge_compile.syntax.nodes import YamlMap, YamlNode, YamlScalar
+from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.lower.fields import Fields, by_word
+from linkforge_compile.lower.joint import SUBSTITUTE_LIMITS
+from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, NumberType, Refusal, number_type, si_number
+from linkforge_compile.source.ref import Located
+from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
+from linkforge_compile.units import POSITION, Motion
+
+
+def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
+    """Return the joints that a file itself writes, by name: its `joints` and its `mount`."""
+    sections = [section for name in ("joints", "mount") if isinstance(section := file.get(name), YamlMap)]
+    entries = (entry for section in sections for entry in section)
+    return {entry.name: entry.value for entry in entries if isinstance(entry.value, YamlMap)}
+
+
+def position_type(joint: Joint | None) -> NumberType:
+    """Return what a position of a joint may be: an angle, a length, or either for a joint of unknown type."""
+    if joint is None or joint.limits == SUBSTITUTE_LIMITS:
+        return ANGLE_OR_LENGTH
+    return _position_type(joint.type)
+
+
+def position_type_of_node(joint: Located | None) -> NumberType:
+    """Return what a position may be of the joint that is written at a node."""
+    node = joint.child("type") if joint else None
+    return _position_type(by_word(JointType).get(node.text) if isinstance(node, YamlScalar) else None)
+
+
+def _position_type(joint_type: JointType | None) -> NumberType:
+    motion = joint_type.motion if joint_type else Motion.UNKNOWN
+    return number_type(POSITION, None, Motion.UNKNOWN if motion is Motion.OTHER else motion)
 
 
 class _Position(NamedTuple):
-    """A position of a joint, said by an object that is not the joint: which joint, and the object with the field."""
+    """A position under a key of an object that belongs to a joint."""
 
     joint: str
     fields: Fields
     key: str
 
 
-def judge_positions_elsewhere(file: Fields, joints: Mapping[str, Joint | None]) -> None:
-    """Report positions of joints that the file does not write, where they are no such position.
+def check_positions_of_module_joints(file: Fields, joints: Mapping[str, Joint | None]) -> None:
+    """Report positions in a file that are in a wrong unit for a joint of a module.
 
-    They were read as of any joint: an angle or a length. `joints` are those of the whole robot.
+    They were read as angles or lengths, because the joint was not known yet. `joints` are those of the whole robot.
     """
     own = joints_of(file.node)
-    for position in (*_in_transmissions(file), *_in_gazebo_blocks(file)):
-        said, joint = position.fields.node.get(position.key), joints.get(position.joint)
-        if said is None or joint is None or position.joint in own:
+    for joint_name, fields, key in (*_in_transmissions(file), *_in_gazebo_blocks(file)):
+        node, joint = fields.node.get(key), joints.get(joint_name)
+        if node is None or joint is None or joint_name in own:
             continue
-        if not isinstance(si_number(said, position_measure(None)), Refusal):
-            position.fields.number_at(said, position.key, position_measure(joint))
+        if not isinstance(si_number(node, ANGLE_OR_LENGTH), Refusal):
+            fields.number_at(node, key, position_type(joint))
 
 
 def _in_transmissions(file: Fields) -> Iterator[_Position]:
-    for transmission in _maps(file.node.get("transmissions")):
-        joints = transmission.get("joints")
+    transmissions = file.node.get("transmissions")
+    for transmission in transmissions if isinstance(transmissions, YamlMap) else ():
+        joints = transmission.value.child("joints")
         for entry in joints if isinstance(joints, YamlMap) else ():
             if isinstance(entry.value, YamlMap):
                 owner = f"transmission joint '{entry.name}'"
@@ -45,13 +73,7 @@ def _in_transmissions(file: Fields) -> Iterator[_Position]:
 
 def _in_gazebo_blocks(file: Fields) -> Iterator[_Position]:
     for node in file.items("gazebo"):
-        about = node.get("reference") if isinstance(node, YamlMap) else None
-        if isinstance(node, YamlMap) and isinstance(about, YamlScalar):
-            yield _Position(
-                about.text, Fields(node, file.owner, file.sink, file.trail, path="gazebo"), "springReference"
-            )
-
-
-def _maps(section: YamlNode | None) -> Iterator[YamlMap]:
-    entries = section if isinstance(section, YamlMap) else ()
-    yield from (entry.value for entry in entries if isinstance(entry.value, YamlMap))
+        reference = node.get("reference") if isinstance(node, YamlMap) else None
+        if isinstance(node, YamlMap) and isinstance(reference, YamlScalar):
+            block = Fields(node, file.owner, file.sink, file.trail, path="gazebo")
+            yield _Position(reference.text, block, "springReference")

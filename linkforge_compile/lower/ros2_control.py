@@ -1,87 +1,68 @@
-"""ros2_control: pieces of hardware with the joints, sensors and pins behind them."""
+"""ros2_control: interfaces are a list of names, or a map by name where some have parameters."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from enum import StrEnum
 from functools import partial
 from typing import TypeVar
 
-from linkforge_compile.core.constants import CONTROL_TYPE_ACTUATOR, CONTROL_TYPE_SENSOR, CONTROL_TYPE_SYSTEM
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.ros2_control import (
     Ros2Control,
     Ros2ControlGpio,
     Ros2ControlJoint,
     Ros2ControlSensor,
+    Ros2ControlType,
 )
-from linkforge_compile.lower.extra import EXTRA_KEYS, besides
+from linkforge_compile.lower.elements import lower_element
+from linkforge_compile.lower.extra import EXTRA_KEYS, common_kwargs, texts_in
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.free_part import free_texts, texts_in
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlMap
 
-Commanded = TypeVar("Commanded", Ros2ControlJoint, Ros2ControlGpio)
-
-
-class _Type(StrEnum):
-    SYSTEM = CONTROL_TYPE_SYSTEM
-    ACTUATOR = CONTROL_TYPE_ACTUATOR
-    SENSOR = CONTROL_TYPE_SENSOR
+Component = TypeVar("Component", Ros2ControlJoint, Ros2ControlGpio, Ros2ControlSensor)
 
 
 def lower_ros2_controls(file: Fields) -> Iterator[Ros2Control]:
-    """Lower the ros2_control blocks of a file, without those that are lost."""
-    for _, control in file.each("ros2_control", "ros2_control", _control):
+    """Lower the ros2_control blocks of a file, without the faulty ones."""
+    for _, control in file.each("ros2_control", "ros2_control", _lower_control):
         if control:
             yield control
 
 
-def _control(fields: Fields, name: str) -> Ros2Control | None:
-    kind = _Type.SYSTEM if fields.node.get("type") is None else fields.choice("type", _Type)
-    plugin = fields.text("hardware_plugin", required="mock_components/GenericSystem")
-    joints = dict(fields.each("joints", "ros2_control joint", partial(_commanded, Ros2ControlJoint)))
-    sensors = dict(fields.each("sensors", "ros2_control sensor", _sensor))
-    gpios = dict(fields.each("gpios", "ros2_control gpio", partial(_commanded, Ros2ControlGpio)))
-    parameters = free_texts(fields, "parameters")
-    if kind is None or plugin is None:
-        return None
-    return fields.build(
-        lambda: Ros2Control(
-            name,
-            kind.value,
-            plugin,
-            [joint for joint in joints.values() if joint],
-            [sensor for sensor in sensors.values() if sensor],
-            parameters,
-            gpios=[gpio for gpio in gpios.values() if gpio],
-            **besides(fields),
-        )
+def _lower_control(fields: Fields, name: str) -> Ros2Control | None:
+    kind = Ros2ControlType.SYSTEM if fields.get("type") is None else fields.choice("type", Ros2ControlType)
+    return lower_element(
+        Ros2Control,
+        fields,
+        name=name,
+        type=kind and kind.value,
+        joints=_lower_components(Ros2ControlJoint, fields, "joints"),
+        sensors=_lower_components(Ros2ControlSensor, fields, "sensors"),
+        gpios=_lower_components(Ros2ControlGpio, fields, "gpios"),
     )
 
 
-def _commanded(kind: type[Commanded], part: Fields, name: str) -> Commanded | None:
-    commands = tuple(_interfaces(part, "command_interfaces"))
-    states = tuple(_interfaces(part, "state_interfaces"))
-    parameters = free_texts(part, "parameters")
-    make = partial(kind, name, commands, states, parameters, **besides(part))
-    return part.build(make)
+def _lower_components(kind: type[Component], fields: Fields, key: str) -> list[Component]:
+    lowered = fields.each(key, f"ros2_control {kind.TAG}", partial(_lower_component, kind))
+    return [component for _, component in lowered if component]
 
 
-def _sensor(part: Fields, name: str) -> Ros2ControlSensor | None:
-    states, parameters = tuple(_interfaces(part, "state_interfaces")), free_texts(part, "parameters")
-    return part.build(lambda: Ros2ControlSensor(name, states, parameters, **besides(part)))
+def _lower_component(kind: type[Component], fields: Fields, name: str) -> Component | None:
+    states = _lower_interfaces(fields, "state_interfaces")
+    if kind is Ros2ControlSensor:
+        return lower_element(kind, fields, name=name, state_interfaces=states)
+    commands = _lower_interfaces(fields, "command_interfaces")
+    return lower_element(kind, fields, name=name, command_interfaces=commands, state_interfaces=states)
 
 
-def _interfaces(part: Fields, key: str) -> Iterator[Interface]:
-    """Read interfaces: a list of their names, or a map by name where some have parameters."""
-    if isinstance(part.node.get(key), YamlMap):
-        yield from (interface for _, interface in part.each(key, "interface", _interface) if interface is not None)
-        return
-    for name, node in part.named_items(key):
-        yield Interface(name, source=SourceRef(node, None, part.trail))
+def _lower_interfaces(fields: Fields, key: str) -> tuple[Interface, ...]:
+    if isinstance(fields.get(key), YamlMap):
+        by_name = fields.each(key, "interface", _lower_interface)
+        return tuple(interface for _, interface in by_name if interface is not None)
+    named = fields.named_items(key)
+    return tuple(Interface(name, source=SourceRef(node, None, fields.trail)) for name, node in named)
 
 
-def _interface(interface: Fields, name: str) -> Interface:
-    parameters = texts_in(interface, *EXTRA_KEYS)
-    return Interface(name, parameters, **besides(interface))
+def _lower_interface(fields: Fields, name: str) -> Interface:
+    return Interface(name, texts_in(fields, *EXTRA_KEYS), **common_kwargs(fields))

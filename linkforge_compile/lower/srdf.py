@@ -1,11 +1,12 @@
-"""The semantic part: what planners know beyond the tree. Group states are resolved in srdf_states."""
+"""The semantic description: what motion planning knows about the robot. Group states are lowered by group_states."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from enum import StrEnum
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from functools import partial
-from typing import NamedTuple
+from operator import attrgetter
+from typing import NamedTuple, TypeVar
 
 from linkforge_compile.core.fields import NOT_NEGATIVE
 from linkforge_compile.core.models.srdf import (
@@ -21,153 +22,127 @@ from linkforge_compile.core.models.srdf import (
     VirtualJoint,
 )
 from linkforge_compile.diagnostics.codes.model import EMPTY_GROUP, PAIR_WITH_ITSELF
-from linkforge_compile.lower.duplicates import tell_duplicate
-from linkforge_compile.lower.extra import besides
+from linkforge_compile.lower.elements import lower_each, lower_element
+from linkforge_compile.lower.extra import common_kwargs, is_absent
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.free_part import is_unsaid
-from linkforge_compile.lower.quantities import LENGTH, Measure
-from linkforge_compile.lower.srdf_states import WrittenState, written_states
+from linkforge_compile.lower.group_states import WrittenState, written_states
+from linkforge_compile.lower.numbers import LENGTH, NumberType
+from linkforge_compile.lower.object_context import report_duplicate
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode
 from linkforge_compile.units import Dimension
 
-_RADIUS = Measure((Dimension.LENGTH,), NOT_NEGATIVE)
+T = TypeVar("T")
+
+_RADIUS = NumberType((Dimension.LENGTH,), NOT_NEGATIVE)
 
 
-class Semantic(NamedTuple):
-    """A file's semantic part without its states, and its states as written.
-
-    `lost` are the names of its groups and virtual joints that are faulty.
-    """
+class LoweredSemantic(NamedTuple):
+    """The semantic part of a file without its states, its states as written, and names of faulty groups and joints."""
 
     description: SemanticRobotDescription
     states: tuple[WrittenState, ...]
-    lost: frozenset[str]
+    faulty_names: frozenset[str]
 
 
-class _VirtualJointType(StrEnum):
-    FIXED = "fixed"
-    PLANAR = "planar"
-    FLOATING = "floating"
-
-
-def lower_semantic(file: Fields) -> Semantic | None:
-    """Lower a file's semantic part; whether the links, joints and groups that it names exist is not judged."""
+def lower_semantic(file: Fields) -> LoweredSemantic | None:
+    """Lower the semantic part of a file; checks find out whether the links, joints and groups that it names exist."""
     semantic = file.map("semantic")
     if semantic is None:
         return None
-    groups = dict(semantic.each("groups", "group", _group))
-    effectors = dict(semantic.each("end_effectors", "end effector", _end_effector))
-    virtual_joints = dict(semantic.each("virtual_joints", "virtual joint", _virtual_joint))
+    groups = dict(semantic.each("groups", "group", _lower_group))
+    effectors = lower_each(EndEffector, semantic, "end_effectors", "end effector")
+    virtual_joints = lower_each(VirtualJoint, semantic, "virtual_joints", "virtual joint")
     description = SemanticRobotDescription(
         virtual_joints=[joint for joint in virtual_joints.values() if joint],
         groups=[group for group in groups.values() if group],
         end_effectors=[effector for effector in effectors.values() if effector],
-        passive_joints=tuple(_passive_joints(semantic)),
-        disabled_collisions=tuple(_collision_pairs(semantic, "disabled_collisions")),
-        enabled_collisions=tuple(_collision_pairs(semantic, "enabled_collisions")),
+        passive_joints=tuple(_lower_passive_joints(semantic)),
+        disabled_collisions=tuple(_lower_collision_pairs(semantic, "disabled_collisions")),
+        enabled_collisions=tuple(_lower_collision_pairs(semantic, "enabled_collisions")),
         no_default_collision_links=semantic.names("no_default_collision_links"),
-        link_sphere_approximations=tuple(_sphere_approximations(semantic)),
-        joint_properties=tuple(_joint_properties(semantic)),
-        **besides(semantic),
+        link_sphere_approximations=tuple(_lower_sphere_approximations(semantic)),
+        joint_properties=tuple(_lower_joint_properties(semantic)),
+        **common_kwargs(semantic),
     )
-    named = (*groups.items(), *virtual_joints.items())
-    lost = frozenset(name for name, part in named if part is None)
-    return Semantic(description, tuple(written_states(semantic)), lost)
+    faulty = [name for name, part in (*groups.items(), *virtual_joints.items()) if part is None]
+    return LoweredSemantic(description, tuple(written_states(semantic)), frozenset(faulty))
 
 
-def _virtual_joint(fields: Fields, name: str) -> VirtualJoint | None:
-    joint_type = fields.choice("type", _VirtualJointType, required="fixed")
-    parent_frame = fields.text("parent_frame", required="world")
-    child_link = fields.text("child_link", required="base")
-    if joint_type is None or parent_frame is None or child_link is None:
-        return None
-    return fields.build(lambda: VirtualJoint(name, joint_type.value, parent_frame, child_link, **besides(fields)))
+def group_by_name(semantic: SemanticRobotDescription) -> SemanticRobotDescription:
+    """Put the states of a group, the pairs of a first link, and the properties of a joint next to each other.
+
+    A spec nests them under that name; a module may add to a name of the file that uses it. Names keep the order of
+    their first mention.
+    """
+    return replace(
+        semantic,
+        group_states=_grouped(semantic.group_states, attrgetter("group")),
+        disabled_collisions=_grouped(semantic.disabled_collisions, attrgetter("link1")),
+        enabled_collisions=_grouped(semantic.enabled_collisions, attrgetter("link1")),
+        joint_properties=_grouped(semantic.joint_properties, attrgetter("joint_name")),
+    )
 
 
-def _group(fields: Fields, name: str) -> PlanningGroup | None:
-    chains = [_chain(fields, node) for key in ("chain", "chains") for node in fields.items(key)]
+def _grouped(members: Iterable[T], name_of: Callable[[T], str]) -> tuple[T, ...]:
+    by_name: dict[str, list[T]] = {}
+    for member in members:
+        by_name.setdefault(name_of(member), []).append(member)
+    return tuple(member for group in by_name.values() for member in group)
+
+
+def _lower_group(fields: Fields, name: str) -> PlanningGroup | None:
+    keys = ("chain", "chains", "links", "joints", "subgroups")
+    chain_fields = [fields.map_at(node, "chain") for key in keys[:2] for node in fields.items(key)]
+    chains = [chain for each in chain_fields if each and (chain := lower_element(Chain, each))]
     links, joints, subgroups = fields.names("links"), fields.names("joints"), fields.names("subgroups")
-    if not any(fields.items(key) for key in ("chain", "chains", "links", "joints", "subgroups")):
-        fields.tell_lack(EMPTY_GROUP, group=name)
+    if not any(fields.items(key) for key in keys):
+        fields.report_incomplete(EMPTY_GROUP, group=name)
         return None
-    whole = [chain for chain in chains if chain]
-    if not (whole or links or joints or subgroups):
-        return None  # all its members are faulty and told
-    return fields.build(lambda: PlanningGroup(name, links, joints, whole, subgroups, **besides(fields)))
+    if not (chains or links or joints or subgroups):
+        return None  # all its members are faulty
+    return fields.build(lambda: PlanningGroup(name, links, joints, chains, subgroups, **common_kwargs(fields)))
 
 
-def _chain(group: Fields, node: YamlNode) -> Chain | None:
-    chain = group.map_at(node, "chain")
-    if chain is None:
-        return None
-    base, tip = chain.text("base_link", required="base"), chain.text("tip_link", required="tool0")
-    if base is None or tip is None:
-        return None
-    return chain.build(lambda: Chain(base, tip, **besides(chain)))
-
-
-def _end_effector(fields: Fields, name: str) -> EndEffector | None:
-    group, parent_link = fields.text("group", required="gripper"), fields.text("parent_link", required="tool0")
-    parent_group = fields.text("parent_group")
-    if group is None or parent_link is None:
-        return None
-    return fields.build(lambda: EndEffector(name, group, parent_link, parent_group, **besides(fields)))
-
-
-def _passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
-    first: dict[str, SourceRef] = {}
+def _lower_passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
+    """Lower passive joints: a map by their names, or a list of names."""
     if isinstance(semantic.node.get("passive_joints"), YamlMap):
-        named = dict(semantic.each("passive_joints", "passive joint", _passive_joint))
+        named = lower_each(PassiveJoint, semantic, "passive_joints", "passive joint")
         yield from (joint for joint in named.values() if joint)
         return
+    first: dict[str, SourceRef] = {}
     for node in semantic.items("passive_joints"):
         name = semantic.text_at(node, "passive_joints")
         item = semantic.arranged("passive_joints", node, name=node)
         if name is None:
             continue
         if name in first:
-            tell_duplicate(semantic.sink, "passive joint", name, item.ref, first[name])
+            report_duplicate(semantic.sink, "passive joint", name, item.ref, first[name])
         elif joint := item.build(partial(PassiveJoint, name, source=item.ref)):
             first[name] = item.ref
             yield joint
 
 
-def _passive_joint(fields: Fields, name: str) -> PassiveJoint | None:
-    return fields.build(lambda: PassiveJoint(name, **besides(fields)))
-
-
-def _collision_pairs(semantic: Fields, key: str) -> Iterator[CollisionPair]:
+def _lower_collision_pairs(semantic: Fields, key: str) -> Iterator[CollisionPair]:
     for first, entry in semantic.nested(key):
         if first.text == entry.name:
-            semantic.tell(PAIR_WITH_ITSELF, entry.key, link=entry.name)
+            semantic.report(PAIR_WITH_ITSELF, entry.key, link=entry.name)
             continue
-        item = _long(semantic, "collision pair", entry, "reason", link1=first, link2=entry.key)
-        make = partial(CollisionPair, first.text, entry.name, item.text("reason"), **besides(item))
-        if pair := item.build(make):
+        item = _long_form(semantic, "collision pair", entry, "reason", link1=first, link2=entry.key)
+        if pair := lower_element(CollisionPair, item, link1=first.text, link2=entry.name):
             yield pair
 
 
-def _sphere_approximations(semantic: Fields) -> Iterator[LinkSphereApproximation]:
+def _lower_sphere_approximations(semantic: Fields) -> Iterator[LinkSphereApproximation]:
     section = semantic.map("link_sphere_approximations")
     for entry in section.node if section else ():
-        item = _long(semantic, f"sphere approximation of link '{entry.name}'", entry, "spheres", link=entry.key)
-        spheres = [_sphere(item, node) for node in item.items("spheres")]
-        whole = [sphere for sphere in spheres if sphere]
-        make = partial(LinkSphereApproximation, entry.name, whole, **besides(item))
-        if approximation := item.build(make):
+        item = _long_form(semantic, f"sphere approximation of link '{entry.name}'", entry, "spheres", link=entry.key)
+        spheres = [sphere for node in item.items("spheres") if (sphere := _lower_sphere(item, node))]
+        if approximation := lower_element(LinkSphereApproximation, item, link=entry.name, spheres=spheres):
             yield approximation
 
 
-def _long(semantic: Fields, owner: str, entry: YamlEntry, short: str, **ends: YamlNode) -> Fields:
-    """Return an entry in its long form, with the names that it stands under as fields."""
-    said = entry.value
-    if isinstance(said, YamlMap):
-        return semantic.arranged(owner, entry.key, *said, **ends)
-    return semantic.arranged(owner, entry.key, **ends, **{short: said})
-
-
-def _sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
+def _lower_sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
     sphere = approximation.map_at(node, "sphere")
     if sphere is None:
         return None
@@ -175,22 +150,27 @@ def _sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
     radius = sphere.number("radius", _RADIUS, required="0.1")
     if center is None or radius is None:
         return None
-    return sphere.build(lambda: SrdfSphere(center.x, center.y, center.z, radius, **besides(sphere)))
+    return sphere.build(lambda: SrdfSphere(center.x, center.y, center.z, radius, **common_kwargs(sphere)))
 
 
-def _joint_properties(semantic: Fields) -> Iterator[JointProperty]:
+def _lower_joint_properties(semantic: Fields) -> Iterator[JointProperty]:
     for joint, entry in semantic.nested("joint_properties"):
         owner = f"property '{entry.name}' of joint '{joint.text}'"
-        item = _long(semantic, owner, entry, "value", joint_name=joint, property_name=entry.key)
-        said = item.node.entries.get("value")
-        # A free part: a null that was written is text, and only what nobody wrote is none.
-        if said is None or is_unsaid(said.value):
+        item = _long_form(semantic, owner, entry, "value", joint_name=joint, property_name=entry.key)
+        value = item.node.entries.get("value")
+        # As in a free part, a written null is a text.
+        if value is None or is_absent(value.value):
             if isinstance(entry.value, YamlMap):
-                item.said("value", "true")
+                item.get("value", required="true")
             continue
-        value = item.text_at(said.value, entry.name)
-        if value is None:
-            continue
-        make = partial(JointProperty, joint.text, entry.name, value, **besides(item))
-        if remark := item.build(make):
-            yield remark
+        text = item.text_at(value.value, entry.name)
+        lowered = lower_element(JointProperty, item, joint_name=joint.text, property_name=entry.name, value=text)
+        if lowered:
+            yield lowered
+
+
+def _long_form(semantic: Fields, owner: str, entry: YamlEntry, short_key: str, **ends: YamlNode) -> Fields:
+    """Return an entry as a map that has the names around it as fields, and a value that is no map at `short_key`."""
+    if isinstance(entry.value, YamlMap):
+        return semantic.arranged(owner, entry.key, *entry.value, **ends)
+    return semantic.arranged(owner, entry.key, **ends, **{short_key: entry.value})

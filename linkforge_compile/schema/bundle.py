@@ -1,23 +1,140 @@
-"""The one self-contained schema file that editors want."""
+"""Make the self-contained schema for editors: which parts may be empty, what is completed, and with which snippets.
+
+The validator ignores fields without a value and offers no completions; an editor knows only what the schema says.
+tests/editor holds the completions of yaml-language-server.
+"""
 
 from __future__ import annotations
 
-from linkforge_compile.schema.for_editors import EditorForm
-from linkforge_compile.schema.json_types import Schema
+import json
+from collections.abc import Mapping
+
+from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import IDENTIFIER, ROOT, definitions, definitions_with_patches
+from linkforge_compile.schema.repetition import LONG_FORM, is_list
 
 
 def bundle() -> Schema:
-    """Return the schema of a whole file, with all that it refers to under `definitions`."""
+    """Return the schema of a whole file, with everything that it refers to under `definitions`."""
     whole = definitions_with_patches()
-    form = EditorForm(whole)
+    form = _EditorForm(whole)
     parts = {name: form.of(part, is_patch=name not in definitions()) for name, part in whole.items()}
     root = {**parts.pop(ROOT), "type": "object"}
     return {"$schema": "http://json-schema.org/draft-07/schema#", "$id": IDENTIFIER, **root, "definitions": {**parts}}
 
 
 def bundle_text() -> str:
-    """Return the bundle as JSON text, the same bytes on every run and machine."""
-    import json
-
+    """Return the bundle as JSON, the same bytes in every run."""
     return json.dumps(bundle(), ensure_ascii=False, indent=2) + "\n"
+
+
+class _EditorForm:
+    """Rewrites schemas for editors; `definitions` are those that they refer to."""
+
+    def __init__(self, definitions: Mapping[str, Schema]) -> None:
+        self._definitions = definitions
+
+    def of(self, schema: Schema, *, is_item: bool = False, is_patch: bool = False) -> Schema:
+        """Return a schema in which every map and list may be empty, except as an item of a list.
+
+        `null` is offered as a completion in a patch only, where it deletes.
+        """
+        whole = {key: self._parts(key, part, is_patch) for key, part in schema.items()}
+        listed = _kinds(schema)
+        is_section = "object" in listed or ("array" in listed and is_list(schema))
+        if is_section and not is_item and "null" not in listed and schema.get("title") != LONG_FORM:
+            whole["type"] = [*listed, "null"]
+        if isinstance(entry := whole.get("additionalProperties"), dict) and (snippets := _snippets_of_entries(schema)):
+            whole["additionalProperties"] = _with_snippets(snippets, entry)
+        return _with_silent_kinds(whole, ("boolean",) if is_patch else ("boolean", "null"))
+
+    def _parts(self, key: str, part: Json, is_patch: bool) -> Json:
+        match key, part:
+            case "properties" | "patternProperties", dict():
+                return {name: self._property(mapping(inner), is_patch) for name, inner in part.items()}
+            case "anyOf", list():
+                return [self.of(mapping(branch), is_patch=is_patch) for branch in part]
+            case "items", dict():
+                return self.of(self._flat_item(part), is_item=True, is_patch=is_patch)
+            case "additionalProperties", dict():
+                return self.of(part, is_patch=is_patch)
+        return part
+
+    def _property(self, schema: Schema, is_patch: bool) -> Schema:
+        """Return the schema of a property with the snippet of the object that it refers to.
+
+        The server looks for a snippet at the property itself, and only if that has no keys of its own.
+        """
+        whole = self.of(schema, is_patch=is_patch)
+        target = self._target(schema)
+        if reference(schema) is None or not {"properties", "defaultSnippets"} <= target.keys():
+            return whole
+        descriptions = {key: part for key, part in target.items() if key in ("description", "markdownDescription")}
+        return _with_snippets(target["defaultSnippets"], {**descriptions, **whole})
+
+    def _flat_item(self, schema: Schema) -> Schema:
+        """Return the schema of an item that is a scalar or the long form without a union.
+
+        Of a union in a list the server offers each branch as a new item with `- `, wherever the caret is.
+        """
+        parts = branches(schema)
+        if len(parts) != 2 or parts[1].get("title") != LONG_FORM:
+            return schema
+        scalar, long_form = self._target(parts[0]), parts[1]
+        if "enum" in scalar or not set(_kinds(scalar)) <= {"string", "number", "boolean"}:
+            return schema
+        properties = mapping(long_form["properties"])
+        value: Schema = {**mapping(properties["value"]), "examples": ["$(i)"]}
+        return {
+            **scalar,
+            "type": [*_kinds(scalar), "object"],
+            "properties": {**properties, "value": value},
+            "additionalProperties": False,
+        }
+
+    def _target(self, schema: Schema) -> Schema:
+        """Return a schema merged with what it refers to; its own entries win."""
+        name = reference(schema)
+        own = {key: part for key, part in schema.items() if key != "$ref"}
+        return own if name is None else {**self._target(self._definitions[name]), **own}
+
+
+def _kinds(schema: Schema) -> list[Json]:
+    kinds = schema.get("type")
+    return kinds if isinstance(kinds, list) else [kinds]
+
+
+def _with_snippets(snippets: Json, schema: Schema) -> Schema:
+    """Return a schema with snippets; its `$ref` moves into `allOf`, because the server ignores snippets next to it."""
+    own = {key: part for key, part in schema.items() if key != "$ref"}
+    referred: Schema = {"allOf": [{"$ref": schema["$ref"]}]} if "$ref" in schema else {}
+    return {**own, "defaultSnippets": snippets, **referred}
+
+
+def _snippets_of_entries(schema: Schema) -> list[Json]:
+    """Return the snippets of a map of names without the name, for an entry that has its name already."""
+    snippets = schema.get("defaultSnippets")
+    listed = [mapping(snippet) for snippet in snippets] if isinstance(snippets, list) else []
+    return [
+        {**snippet, "body": body}
+        for snippet in listed
+        for name, body in mapping(snippet["body"]).items()
+        if name.startswith("$") and isinstance(body, dict)
+    ]
+
+
+def _with_silent_kinds(schema: Schema, silent: tuple[str, ...]) -> Schema:
+    """Return an equivalent schema that does not offer `true`, `false` and `null` as completions.
+
+    The server offers the kinds under `type`, but not those under `if`. A map without known keys keeps its type, by
+    which the server knows to insert a key with its colon.
+    """
+    listed = _kinds(schema)
+    hidden: list[Json] = [kind for kind in listed if kind in silent]
+    is_bare_map = "object" in listed and not {"properties", "defaultSnippets"} & schema.keys()
+    if not hidden or len(listed) == 1 or listed[0] == "boolean" or is_bare_map:
+        return schema
+    shown: list[Json] = [kind for kind in listed if kind not in silent]
+    message = schema.get("patternErrorMessage", f"expected {schema['title']}")
+    kept = {key: part for key, part in schema.items() if key != "type"}
+    return {**kept, "if": {"type": hidden}, "else": {"type": shown, "errorMessage": message}}

@@ -1,4 +1,4 @@
-"""One error of jsonschema, in one human sentence at one place: a function a keyword."""
+"""Turn an error of jsonschema into diagnostics, with a function for each keyword."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from linkforge_compile.diagnostics.codes.schema import (
 )
 from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, TAB_INDENTATION, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.schema.json_types import Schema, mapping
-from linkforge_compile.schema.keys_meant import like_space_before, unknown_keys
-from linkforge_compile.schema.meant import Misfit, Path, way_out, word_meant
-from linkforge_compile.schema.numbers_meant import is_row
+from linkforge_compile.schema.json_types import Schema, linked_part, mapping
+from linkforge_compile.schema.key_hints import find_like_space, group_unknown_keys
+from linkforge_compile.schema.number_hints import is_row
 from linkforge_compile.schema.shapes import Shape, shape_of, shapes
+from linkforge_compile.schema.value_hints import Path, SchemaMismatch, value_hint, word_hint
 from linkforge_compile.schema.words import (
-    branch_meant,
     expected,
     field,
+    find_branch,
     found,
     shortened,
     words_of,
@@ -33,21 +33,21 @@ from linkforge_compile.schema.words import (
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.entries import STUCK
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
-from linkforge_compile.syntax.xacro import xacro_facts
+from linkforge_compile.syntax.scalars import xacro_facts
 
 if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError
 
 
-_LOOKED_AT = 100
-"""How many unknown keys may be what is missing; a hostile file has a hundred thousand."""
+_MOST_COMPARED = 100
+"""How many unknown keys are compared with a missing key; a hostile file has a hundred thousand."""
 
 
-class Judgement(NamedTuple):
-    """A fault, and the path of the node that must not go on: a YamlFault takes its place.
+class Finding(NamedTuple):
+    """A diagnostic and the path of the node that it is about, which a YamlFault replaces.
 
-    `also` are the paths of others that are part of the same fault; `wrong_kind` is a number for what the schema takes
-    where a value is of another kind, else 0.
+    `also` are the paths of further nodes with the same fault. `wrong_kind` identifies the schema of a scalar of the
+    wrong kind, else it is 0.
     """
 
     diagnostic: Diagnostic
@@ -56,52 +56,52 @@ class Judgement(NamedTuple):
     wrong_kind: int = 0
 
 
-def explain(error: ValidationError, tree: YamlMap) -> Iterator[Judgement]:
-    """Yield the faults behind one error; none where nothing was said or the reader has reported it already."""
+def explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
+    """Yield the findings of one error; none for an empty field and for what the reader has reported."""
     path = tuple(error.absolute_path)
     node = _node_at(tree, path)
     if isinstance(node, YamlFault) or (is_null(node) and not isinstance(path[-1], int)):
         return
-    if nameless := _thing_without_name(tree, path):
+    if nameless := _object_without_name(tree, path):
         yield nameless
         return
-    misfit = Misfit(node, path, mapping(error.schema), tree)
-    meant = None if error.validator != "anyOf" or _is_text(node) else branch_meant(misfit.schema, node)
-    if meant is not None:
+    mismatch = SchemaMismatch(node, path, mapping(error.schema), tree)
+    branch = None if error.validator != "anyOf" or _is_text(node) else find_branch(mismatch.schema, node)
+    if branch is not None:
         for inner in error.context or ():
-            if inner.schema_path[0] == meant:
+            if inner.schema_path[0] == branch:
                 yield from explain(inner, tree)
-    elif isinstance(node, YamlScalar) and _lacks_space(node, misfit.schema):
-        yield Judgement(SPACE_AFTER_COLON.at(node.span, text=node.text), path)
+    elif isinstance(node, YamlScalar) and _lacks_space(node, mismatch.schema):
+        yield Finding(SPACE_AFTER_COLON.at(node.span, text=node.text), path)
     elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
         for one in facts:
-            yield Judgement(XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
+            yield Finding(XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
     else:
-        yield from _EXPLAIN[str(error.validator)](misfit)
+        yield from _EXPLAIN[str(error.validator)](mismatch)
 
 
 def _lacks_space(node: YamlScalar, schema: Schema) -> bool:
-    """Whether a text is a key and its value without a space, where an object with such a key belongs."""
+    """Whether a text is a key and its value without a space, in place of an object that has the key."""
     key, _, value = node.text.partition(":")
-    shape = shape_of(schema)
+    shape = shape_of(linked_part(schema))
     is_stuck = STUCK.fullmatch(node.text) and node.text == node.span.text and not value.startswith("//")
     return bool(is_stuck) and (shape.has_names or key in shape.keys)
 
 
-def _unknown_keys(misfit: Misfit) -> Iterator[Judgement]:
-    node, path, schema, _ = misfit
-    for entries, hint, near in unknown_keys(node, schema) if isinstance(node, YamlMap) else ():
+def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
+    node, path, schema, _ = mismatch
+    for entries, hint, near in group_unknown_keys(node, schema) if isinstance(node, YamlMap) else ():
         first, *others = entries
         hinted = f"; {hint}" if hint else ""
         fault = UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
-        if like_space := like_space_before(first):
-            fault = TAB_INDENTATION.at(like_space, found=f"{code_point(like_space.text or '')}, which looks like one")
-        yield Judgement(fault, (*path, first.name), tuple((*path, other.name) for other in others))
+        if space_like := find_like_space(first):
+            fault = TAB_INDENTATION.at(space_like, found=f"{code_point(space_like.text or '')}, which looks like one")
+        yield Finding(fault, (*path, first.name), tuple((*path, other.name) for other in others))
 
 
-def _missing_keys(misfit: Misfit) -> Iterator[Judgement]:
-    """Tell of all missing keys: the error does not say which one it is for, and the sink takes equal faults as one."""
-    node, path, schema, _ = misfit
+def _missing_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
+    """Report all missing keys; the error does not name its own, and the sink drops repeated diagnostics."""
+    node, path, schema, _ = mismatch
     required = schema["required"]
     if not isinstance(node, YamlMap) or not isinstance(required, list):
         return
@@ -109,60 +109,62 @@ def _missing_keys(misfit: Misfit) -> Iterator[Judgement]:
     known = mapping(schema["properties"])
     unknown = [entry for entry in node if entry.name not in known]
     for name in map(str, required):
-        # What is misspelt, or stands in a map that does not belong around it, is told by its key.
-        is_told = any(entry.value.child(name) or nearest(entry.name, known) == name for entry in unknown[:_LOOKED_AT])
-        if node.get(name) is None and not is_told:
+        # A misspelt key, or one in a map that should not be there, is reported as unknown.
+        is_reported = any(
+            entry.value.child(name) or nearest(entry.name, known) == name for entry in unknown[:_MOST_COMPARED]
+        )
+        if node.get(name) is None and not is_reported:
             code = MISSING_VERSION if name == "linkforge" else MISSING_NAME
-            yield Judgement(code.at(first), (*path, name))
+            yield Finding(code.at(first), (*path, name))
 
 
-def _other_version(misfit: Misfit) -> Iterator[Judgement]:
-    yield Judgement(OTHER_VERSION.at(misfit.node.span, found=found(misfit.node)), misfit.path)
+def _other_version(mismatch: SchemaMismatch) -> Iterator[Finding]:
+    yield Finding(OTHER_VERSION.at(mismatch.node.span, found=found(mismatch.node)), mismatch.path)
 
 
-def _wrong_word(misfit: Misfit) -> Iterator[Judgement]:
-    """Say which words there are, of text; of anything else, `type` has told already."""
-    node, path, schema, _ = misfit
+def _wrong_word(mismatch: SchemaMismatch) -> Iterator[Finding]:
+    """Report a text that is none of the words; the keyword `type` reports other values."""
+    node, path, schema, _ = mismatch
     if isinstance(node, YamlScalar) and isinstance(node.value, str):
         words = words_of(schema)
-        hint = word_meant(misfit, words)
+        hint = word_hint(mismatch, words)
         facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint}
-        yield Judgement(UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
+        yield Finding(UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
 
 
-def _wrong_kind(misfit: Misfit) -> Iterator[Judgement]:
-    node, path, schema, _ = misfit
-    seen = f"{found(node)}{way_out(misfit)}"
-    fault = WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=seen)
-    yield Judgement(fault, path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0)
+def _wrong_kind(mismatch: SchemaMismatch) -> Iterator[Finding]:
+    node, path, schema, _ = mismatch
+    actual = f"{found(node)}{value_hint(mismatch)}"
+    fault = WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=actual)
+    yield Finding(fault, path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0)
 
 
-def _no_branch(misfit: Misfit) -> Iterator[Judgement]:
-    word = _is_text(misfit.node) and not is_row(misfit.node) and words_of(misfit.schema)
-    yield from (_wrong_word if word else _wrong_kind)(misfit)
+def _no_branch(mismatch: SchemaMismatch) -> Iterator[Finding]:
+    word = _is_text(mismatch.node) and not is_row(mismatch.node) and words_of(mismatch.schema)
+    yield from (_wrong_word if word else _wrong_kind)(mismatch)
 
 
-def _wrong_length(misfit: Misfit) -> Iterator[Judgement]:
-    node, path, schema, _ = misfit
-    # A row of numbers without commas is told as that.
+def _wrong_length(mismatch: SchemaMismatch) -> Iterator[Finding]:
+    node, path, schema, _ = mismatch
+    # A row of numbers without commas is reported at its item.
     if isinstance(node, YamlList) and not any(map(is_row, node)):
-        seen = f"{len(node)}{way_out(misfit)}"
-        yield Judgement(WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=seen), path)
+        actual = f"{len(node)}{value_hint(mismatch)}"
+        yield Finding(WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=actual), path)
 
 
-def _thing_without_name(tree: YamlMap, path: Path) -> Judgement | None:
-    """Tell of one thing that stands where several would by their names: all that is wrong in it comes of that."""
+def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:
+    """Report an object in place of a map of such objects by name, as the only error in it."""
     node, shape = tree, shapes()
-    # What an expression made stands alone in its tree.
+    # A node that an expression made is not in a file.
     for length, key in enumerate(path if "linkforge" in tree.entries else ()):
         entry = shape.under(str(key))
-        if shape.has_names and _is_one_of(node, entry):
+        if shape.has_names and _is_single_object(node, entry):
             field, first = path[length - 1], next(iter(node))
-            said = next(one for one in node if one.name in entry.keys)
-            name = "NAME" if first is said else first.name
-            seen = f"the keys of one; write '{field}: {{{name}: {{{said.name}: …}}}}'"
-            where = said.key.span
-            return Judgement(WRONG_KIND.at(where, field=f"'{field}'", expected=shape.title, found=seen), path[:length])
+            known = next(one for one in node if one.name in entry.keys)
+            name = "NAME" if first is known else first.name
+            actual = f"the keys of a single one; write '{field}: {{{name}: {{{known.name}: …}}}}'"
+            where = known.key.span
+            return Finding(WRONG_KIND.at(where, field=f"'{field}'", expected=shape.title, found=actual), path[:length])
         inner = node.child(key)
         if not isinstance(inner, YamlMap):
             return None
@@ -170,15 +172,15 @@ def _thing_without_name(tree: YamlMap, path: Path) -> Judgement | None:
     return None
 
 
-def _is_one_of(node: YamlMap, thing: Shape) -> bool:
-    """Whether a map has the keys of a thing, and values of which not all can be things; its name may be above."""
+def _is_single_object(node: YamlMap, shape: Shape) -> bool:
+    """Whether a map has only keys of an object, apart from a first one without a value that may be its name."""
     first = next(iter(node), None)
-    # The names first: of a hundred thousand things, the first ones tell.
-    has_keys = all(entry.name in thing.keys or (entry is first and is_null(entry.value)) for entry in node)
+    # The keys first: `all` stops early for a map with a hundred thousand names.
+    has_keys = all(entry.name in shape.keys or (entry is first and is_null(entry.value)) for entry in node)
     return has_keys and not all(is_null(entry.value) or isinstance(entry.value, YamlMap) for entry in node)
 
 
-_EXPLAIN: dict[str, Callable[[Misfit], Iterator[Judgement]]] = {
+_EXPLAIN: dict[str, Callable[[SchemaMismatch], Iterator[Finding]]] = {
     "additionalProperties": _unknown_keys,
     "required": _missing_keys,
     "const": _other_version,

@@ -1,31 +1,34 @@
-"""Accept what jsonschema-rs finds valid; jsonschema, which takes longer, gives the errors in the rest."""
+"""Accept valid nodes with jsonschema-rs; only the rest needs jsonschema, which is slower but explains its errors."""
 
 from __future__ import annotations
 
 from functools import cache
 from typing import TYPE_CHECKING
 
-from linkforge_compile.schema.json_types import Schema
-from linkforge_compile.schema.registry import IDENTIFIER, unlinked, whole_schema
+from linkforge_compile.schema.json_types import LinkedSchema
+from linkforge_compile.schema.registry import IDENTIFIER, whole_schema
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 
 if TYPE_CHECKING:
     from jsonschema_rs import Draft7Validator, Registry
 
+HEADER = ("linkforge", "name")
+"""The keys that every file needs; an included file needs the first only."""
+
 FAULTY = object()
-"""Stands for a YamlFault in plain data: no kind of value, so every schema with a type errs on it."""
+"""Takes the place of a YamlFault in plain data; it has no JSON type, so every schema with a type rejects it."""
 
 
-def accepts(schema: Schema, node: YamlNode) -> bool:
-    """Whether a node is valid by a part of the linked schema, or by FREE's; then jsonschema finds no error in it.
+def accepts(schema: LinkedSchema, node: YamlNode) -> bool:
+    """Whether a node is valid by a part of the linked schema; jsonschema then finds no error in it either.
 
-    False does not mean that an error is reported: `explain` ignores faults and fields without a value, and infinity
-    is a number to jsonschema alone.
+    False does not imply that an error is reported: faults and fields without a value are skipped, and only
+    jsonschema takes infinity for a number.
     """
     try:
         return _validator(schema).is_valid(plain(node))
     except ValueError:
-        return False  # FAULTY is in it
+        return False  # it contains FAULTY
 
 
 def plain(node: YamlNode) -> object:
@@ -39,22 +42,17 @@ def plain(node: YamlNode) -> object:
     return FAULTY
 
 
-def _validator(schema: Schema) -> Draft7Validator:
+@cache
+def _validator(schema: LinkedSchema) -> Draft7Validator:
     import jsonschema_rs
 
-    # The schemas are made once and stay, so their identity is theirs for ever.
-    if id(schema) not in _VALIDATORS:
-        _VALIDATORS[id(schema)] = jsonschema_rs.Draft7Validator(
-            unlinked(schema),
-            registry=_registry(),
-            offline=True,
-            # Of its two engines the one that takes linear time.
-            pattern_options=jsonschema_rs.RegexOptions(),
-        )
-    return _VALIDATORS[id(schema)]
-
-
-_VALIDATORS: dict[int, Draft7Validator] = {}
+    return jsonschema_rs.Draft7Validator(
+        schema.source,
+        registry=_registry(),
+        offline=True,
+        # The regex engine that runs in linear time.
+        pattern_options=jsonschema_rs.RegexOptions(),
+    )
 
 
 @cache

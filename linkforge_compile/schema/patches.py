@@ -1,4 +1,4 @@
-"""Makes patch forms of schemas, for `override` and `defaults`: null deletes, and a map of positions patches a list."""
+"""Make patch forms of schemas for `override` and `defaults`: null deletes, and a map by position patches a list."""
 
 from __future__ import annotations
 
@@ -6,26 +6,26 @@ from linkforge_compile.schema.json_types import Json, Schema, branches, mapping,
 from linkforge_compile.schema.repetition import LONG_FORM, WORDS, has_names, is_list, is_plain
 
 PATCH = "patch"
-"""Beside a `$ref`, this `$comment` says that the patch form of what it refers to is meant."""
+"""The `$comment` of a `$ref` to the patch form of a definition."""
 
 POSITION = "^[0-9]+$"
-"""The keys by which a map patches a list; the first item is 0."""
+"""The keys of a map that patches a list by position, from 0."""
 
 PATCH_SUFFIX = "_patch"
-"""How the names of patch forms end."""
+"""The suffix of the names of patch forms."""
 
 _NOT_PATCHED = frozenset(
     {"linkforge", "name", "version", "description", "metadata", "parameters", "variables", "data", "variants"}
     | {"packages", "include", "defaults", "frames"}
 )
-"""Keys of a robot that no override reaches: what computes it, and frames, which are links and joints by then."""
+"""Keys of a robot that no override changes: those it is computed from, and frames, which are links and joints then."""
 
 
 def add_patches(definitions: dict[str, Schema], root: str) -> dict[str, Schema]:
-    """Return the definitions with the patch form of each that is referred to so, as `link_patch`."""
+    """Return the definitions and the patch forms that they refer to, such as `link_patch`."""
     forms = _PatchForms(definitions, root)
-    whole = {name: mapping(forms.led_to_patches(schema)) for name, schema in definitions.items()}
-    return {**whole, **forms.made()}
+    whole = {name: mapping(forms.with_patch_references(schema)) for name, schema in definitions.items()}
+    return {**whole, **forms.make()}
 
 
 class _PatchForms:
@@ -34,18 +34,18 @@ class _PatchForms:
         self._root = root
         self._wanted: dict[str, Schema | None] = {}
 
-    def led_to_patches(self, node: Json) -> Json:
-        """Return a schema in which every reference marked as a patch leads to the patch form."""
+    def with_patch_references(self, node: Json) -> Json:
+        """Return a schema with the references marked as PATCH leading to patch forms."""
         if isinstance(node, list):
-            return [self.led_to_patches(item) for item in node]
+            return [self.with_patch_references(item) for item in node]
         if not isinstance(node, dict):
             return node
         if node.get("$comment") == PATCH and reference(node) is not None:
             return self._reference(node)
-        return {key: self.led_to_patches(value) for key, value in node.items()}
+        return {key: self.with_patch_references(value) for key, value in node.items()}
 
-    def made(self) -> dict[str, Schema]:
-        """Return all patch forms that are wanted, and those that these want."""
+    def make(self) -> dict[str, Schema]:
+        """Return all patch forms that are referred to, also by other patch forms."""
         while waiting := [name for name, form in self._wanted.items() if form is None]:
             for name in waiting:
                 self._wanted[name] = self._whole(name)
@@ -67,7 +67,7 @@ class _PatchForms:
 
     def _reference(self, schema: Schema) -> Schema:
         name = reference(schema)
-        assert name is not None, "asked of references only"
+        assert name is not None, "called for references only"
         self._wanted.setdefault(name, None)
         kept = {key: value for key, value in schema.items() if key != "$comment"}
         return {**kept, "$ref": f"#/definitions/{name}{PATCH_SUFFIX}"}
@@ -90,10 +90,10 @@ class _PatchForms:
         if not is_list(schema):
             return form
         union: list[Json] = [form, self._positions(schema)]
-        return {"anyOf": union, **_said_of(schema)}
+        return {"anyOf": union, **_descriptions(schema)}
 
     def _union(self, parts: list[Schema]) -> list[Schema]:
-        """Return the branches of a union; where one is a list of another, a map may be either's patch."""
+        """Return the branches of a union; next to a list of objects, a map may patch the object or the list."""
         lists = [part for part in parts if is_list(part)]
         objects = [part for part in parts if self._is_object(part)]
         forms = [self._form(part) for part in parts if part not in lists and not (lists and part in objects)]
@@ -108,7 +108,7 @@ class _PatchForms:
         return forms
 
     def _positions(self, schema: Schema) -> Schema:
-        """Return the map of patches by position for a list."""
+        """Return the schema of the map that patches a list by position."""
         item = self._form(mapping(schema["items"]))
         return {
             "title": "items by position",
@@ -136,5 +136,5 @@ class _PatchForms:
         return form
 
 
-def _said_of(schema: Schema) -> Schema:
+def _descriptions(schema: Schema) -> Schema:
     return {key: value for key, value in schema.items() if key.endswith(("escription", "examples"))}

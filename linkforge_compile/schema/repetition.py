@@ -1,22 +1,22 @@
-"""Puts `for`, `when` and the long form into the schemas: in all objects alike, so that no schema file says so."""
+"""Add `for`, `when` and the long form to the objects of all schemas, so that no schema file has to."""
 
 from __future__ import annotations
 
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
 
 PLAIN = "plain"
-"""A schema with this `$comment` has keys and items that are the author's: `for`, `when` and `value` too."""
+"""The `$comment` of a schema whose keys and items are the author's own, even `for`, `when` and `value`."""
 
 LONG_FORM = "the long form"
-"""The title of what an entry or item may be that is no object: `{for: {i: 3}, value: joint_$(i)}`."""
+"""The title of the form of an entry or item that is no object: `{for: {i: 3}, value: joint_$(i)}`."""
 
 XML = "XML"
-"""The title of what is raw XML."""
+"""The title of raw XML."""
 
 WORDS = ("for", "when", "value")
 
 RAW = ("extra", "extra_attributes", "extra_inside")
-"""What most objects may say; the only keys but WORDS that are no names in a map keyed by names."""
+"""Raw parts of most objects; in a map keyed by names, these and WORDS are no names."""
 
 _FOR: Schema = {"$ref": "#/definitions/for"}
 _WHEN: Schema = {"$ref": "#/definitions/when"}
@@ -28,30 +28,30 @@ _VALUE: Schema = {
 
 
 def add_repetition(definitions: dict[str, Schema], root: str) -> None:
-    """Change every definition so that it admits repetition: `when` in objects, `for` in entries and items as well.
+    """Add repetition to every definition: `when` to objects, and `for` to those that are entries or items.
 
-    What is no object takes the long form there; in a map of names, it is the three words that are no names.
-    Lists of a fixed length are one value, such as a vector, and repeat nothing within.
+    Entries and items that are no objects get the long form; maps keyed by names get WORDS as keys. Lists of a fixed
+    length, such as vectors, are single values and are not changed.
     """
     for name, schema in definitions.items():
-        _Repetition(definitions).admit_in(schema, takes_when=name != root)
+        _Repetition(definitions).add_to(schema, has_when=name != root)
 
 
 class _Repetition:
     def __init__(self, definitions: dict[str, Schema]) -> None:
         self._definitions = definitions
 
-    def admit_in(self, schema: Schema, *, takes_when: bool = True) -> None:
-        """Admit repetition in whatever a schema describes, but not in what it refers to."""
+    def add_to(self, schema: Schema, *, has_when: bool = True) -> None:
+        """Add repetition to a schema, but not to the definitions that it refers to."""
         if is_plain(schema):
             return
         for branch in branches(schema):
             if branch is not schema:
-                self.admit_in(branch)
+                self.add_to(branch)
         properties = mapping(schema.get("properties", {}))
         for part in properties.values():
-            self.admit_in(mapping(part))
-        if properties and takes_when:
+            self.add_to(mapping(part))
+        if properties and has_when:
             properties.setdefault("when", {**_WHEN})
         if is_list(schema):
             schema["items"] = self._repeatable(mapping(schema["items"]))
@@ -59,8 +59,8 @@ class _Repetition:
             schema["additionalProperties"] = self._repeatable(mapping(schema["additionalProperties"]))
 
     def _repeatable(self, schema: Schema) -> Schema:
-        """Return the schema of an entry or item as one that takes `for` and `when`."""
-        self.admit_in(schema)
+        """Return the schema of an entry or item with `for` and `when`."""
+        self.add_to(schema)
         whole = self._target(schema)
         if is_plain(whole):
             return schema
@@ -69,9 +69,9 @@ class _Repetition:
             if is_plain(part):
                 continue
             if has_names(part):
-                value = {key: said for key, said in part.items() if key != "properties"} | _VALUE
-                said = mapping(part.get("properties", {}))
-                part["properties"] = {**said, "for": {**_FOR}, "when": {**_WHEN}, "value": value}
+                value = {key: inner for key, inner in part.items() if key != "properties"} | _VALUE
+                keys = mapping(part.get("properties", {}))
+                part["properties"] = {**keys, "for": {**_FOR}, "when": {**_WHEN}, "value": value}
                 return schema
             if "properties" in part:
                 mapping(part["properties"]).update({"for": {**_FOR}, "when": {**_WHEN}})
@@ -83,33 +83,33 @@ class _Repetition:
         return {"anyOf": [*union, _long_form({**schema, **_VALUE})]}
 
     def _target(self, schema: Schema) -> Schema:
-        """Return the definition that a schema refers to, itself where it is one."""
+        """Return the definition that a schema refers to, or the schema itself."""
         name = reference(schema)
         return schema if name is None else self._target(self._definitions[name])
 
 
 def is_plain(schema: Schema) -> bool:
-    """Whether the keys and items of what a schema describes mean nothing to the compiler."""
+    """Whether the keys and items of a schema are the author's own."""
     return schema.get("$comment") == PLAIN
 
 
 def has_names(schema: Schema) -> bool:
-    """Whether a schema describes a map keyed by names of things; one of free texts is none."""
+    """Whether a schema describes a map keyed by names; a map of the author's own is none."""
     keys, entry = mapping(schema.get("properties", {})).keys(), schema.get("additionalProperties")
     return isinstance(entry, dict) and not is_plain(entry) and not is_plain(schema) and keys <= {*WORDS, *RAW}
 
 
 def is_short_form(schema: Schema) -> bool:
-    """Whether a schema describes what stands in an object's place: a text, a number or a list, but no expression."""
+    """Whether a schema describes a text, a number or a list in place of an object, but not an expression."""
     return "object" not in str(schema.get("type")) and schema.get("pattern") != _EXPRESSION and "type" in schema
 
 
 _EXPRESSION = r"\$\("
-"""The pattern of what is nothing but an expression."""
+"""The pattern of a text that must be an expression."""
 
 
 def is_list(schema: Schema) -> bool:
-    """Whether a schema describes a list of any length, whose items are things of their own."""
+    """Whether a schema describes a list of any length."""
     return isinstance(schema.get("items"), dict) and "minItems" not in schema
 
 

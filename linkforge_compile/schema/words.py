@@ -1,8 +1,9 @@
-"""What a schema takes and what a node is, in words: the parts of sentences about faults."""
+"""Describe in words what a schema accepts and what a node is."""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 
 from linkforge_compile.schema.json_types import Schema, branches, mapping
@@ -12,7 +13,7 @@ from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNod
 from linkforge_compile.syntax.scalars import scalar_value
 
 COMMON_KEYS = frozenset({*WORDS, *RAW})
-"""What stands in most objects, so no sentence about one of them lists it."""
+"""Keys that most objects have, so that messages do not list them."""
 
 _SHOWN_KEYS = 4
 _SHOWN_TEXT = 40
@@ -26,25 +27,24 @@ def alternatives(words: Sequence[str], last: str = "or") -> str:
     return f"{', '.join(words[:-1])} {last} {words[-1]}" if len(words) > 1 else words[0]
 
 
-def branch_meant(schema: Schema, node: YamlNode) -> int | None:
-    """Return which branch of a union a node is judged by: a map by the one of maps, a list by the one of lists.
+def find_branch(schema: Schema, node: YamlNode) -> int | None:
+    """Return the index of the first branch of a union that accepts the kind of a node, None if none does.
 
-    None where no branch takes its kind. Text is judged by all branches together, since a word, a quantity and an
-    expression are all text: for others only.
+    Not for text, which may match several branches: words, quantities and expressions are all text.
     """
-    return next((position for position, branch in enumerate(branches(schema)) if _takes(branch, node)), None)
+    return next((position for position, branch in enumerate(branches(schema)) if _accepts_kind_of(branch, node)), None)
 
 
-def _takes(schema: Schema, node: YamlNode) -> bool:
-    """Tell whether the schema, itself no union, takes this kind of node, whatever it says of what is within."""
+def _accepts_kind_of(schema: Schema, node: YamlNode) -> bool:
+    """Whether a schema that is no union accepts the kind of a node, whatever the node contains."""
     if schema.get("title") == LONG_FORM and isinstance(node, YamlMap) and not node.entries.keys() & set(WORDS):
-        return False  # a map of other keys was never meant as one
+        return False  # a map without these keys is not intended as the long form
     kinds = schema.get("type")
     return kinds is None or _kind(node) in (kinds if isinstance(kinds, list) else [kinds])
 
 
 def _kind(node: YamlNode) -> str | None:
-    """Return JSON Schema's word for what the node is, None for a fault."""
+    """Return the JSON type of a node, None for a fault."""
     match node:
         case YamlMap():
             return "object"
@@ -57,9 +57,9 @@ def _kind(node: YamlNode) -> str | None:
 
 
 def expected(schema: Schema) -> str:
-    """Return what the schema takes: "a number [kg] or a quantity such as '3 kg'", "'x', 'y' or three numbers".
+    """Return what the schema accepts: "a number [kg] or a quantity such as '3 kg'", "'x', 'y' or three numbers".
 
-    That any value may be an expression, and any item repeated, goes without saying.
+    Expressions and repetition are not mentioned, because any value may be one.
     """
     if "anyOf" in schema:
         return alternatives([word for branch in branches(schema) for word in _nouns(branch)])
@@ -77,16 +77,16 @@ def _nouns(schema: Schema) -> list[str]:
 
 
 def words_of(schema: Schema) -> list[str]:
-    """Return the words of the enum that the schema is, or holds as a branch; in a patch, null goes without saying."""
+    """Return the words of the enums of a schema and its branches, without the null of patches."""
     listed = [branch.get("enum") for branch in branches(schema)]
     return [str(word) for words in listed if isinstance(words, list) for word in words if word is not None]
 
 
 def found(node: YamlNode) -> str:
-    """Return what stands there: "a map", "a list", "3", "'three'", "the text '3'"."""
+    """Return what a node is: "a map", "a list", "3", "'three'", "the text '3'"."""
     match node:
         case YamlFault():
-            raise TypeError("a fault is not judged")
+            raise TypeError("a fault has been reported already")
         case YamlScalar(text=text, value=str()):
             return f"the text '{text}'" if is_number(text) else f"'{shortened(text)}'"
         case YamlScalar(text=text, value=value) if value is not None:
@@ -95,13 +95,13 @@ def found(node: YamlNode) -> str:
 
 
 def shortened(text: str) -> str:
-    """Return the text as it fits in a sentence: its first line, not too long."""
+    """Return the first line of a text, shortened to fit into a message."""
     line = text.partition("\n")[0]
     return line if line == text and len(line) <= _SHOWN_TEXT else f"{line[:_SHOWN_TEXT].rstrip()}…"
 
 
 def shown(node: YamlNode) -> str:
-    """Return a value as it may be written on one line, "…" for one that is too long for a sentence."""
+    """Return a value as it may be written on one line, "…" if it is too long for a message."""
     match node:
         case YamlScalar(text=text):
             written = text
@@ -113,12 +113,24 @@ def shown(node: YamlNode) -> str:
 
 
 def field(path: Sequence[str | int]) -> str:
-    """Return the name of a place: "'xyz'", "item 2 of 'xyz'"."""
+    """Return the name of the field at a path: "'xyz'", "item 2 of 'xyz'"."""
     name = next(key for key in reversed(path) if isinstance(key, str))
     return f"item {path[-1] + 1} of '{name}'" if isinstance(path[-1], int) else f"'{name}'"
 
 
 def is_number(text: str) -> bool:
-    """Whether the text is read as a number, and not as infinity, where it stands without quotes."""
+    """Whether a text without quotes is a finite number."""
     value = scalar_value(text)
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def split_path(key: str) -> Sequence[str]:
+    """Return the keys of a path written as one key, `limits/effort`; the key itself if it is none."""
+    return re.split(r"[/.]", key)
+
+
+def nested(keys: Sequence[str], value: str) -> str:
+    """Return a value under a path of keys on one line: `limits: {effort: 20}`."""
+    first, *steps = keys
+    inside = "".join(f"{{{step}: " for step in steps)
+    return f"{first}: {inside}{value}{'}' * len(steps)}"

@@ -1,4 +1,4 @@
-"""Text to positioned tree: YAML as the language reads it, every key and value with its place; `writer` leads back."""
+"""Read YAML into a tree of nodes with their spans in the file; `writer` writes such a tree."""
 
 from linkforge_compile.syntax.nodes import (
     ScalarValue,

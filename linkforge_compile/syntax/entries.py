@@ -1,4 +1,4 @@
-"""The entries of a map, by name: of their keys, what is twice, and what `<<` lays in."""
+"""Make the entries of a map: report faulty and repeated keys, and merge `<<`."""
 
 from __future__ import annotations
 
@@ -10,30 +10,28 @@ from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 
 STUCK = re.compile(r"[A-Za-z_]\w*:\S.*")
-"""A key and its value without the space between them."""
+"""A key and its value without a space between them."""
 
 
-def plain_entries(written: Sequence[tuple[YamlNode, YamlNode]]) -> dict[str, YamlEntry] | None:
-    """Return the entries that pairs of nodes make, as of nearly all maps; None where some keys need a second look."""
-    entries = {key.text: YamlEntry(key, value) for key, value in written if isinstance(key, YamlScalar)}
-    return entries if len(entries) == len(written) and "<<" not in entries else None
-
-
-def entries_of(
+def make_entries(
     written: Sequence[tuple[YamlNode, YamlNode]], sink: Diagnostics, *, flow: bool, is_top: bool
 ) -> dict[str, YamlEntry]:
-    """Return the entries that pairs of nodes make; `flow` is whether they stand in braces, `is_top` in the file's map.
+    """Return the entries of pairs of nodes, by name; report faulty keys and leave them out.
 
-    A key that is none is left out, and reported.
+    `flow` is whether the map is in braces, `is_top` whether it is the file's own map.
     """
-    named = [entry for key, value in written if (entry := _entry(key, value, sink, flow=flow))]
-    return _merged(_unique(named, sink, is_top=is_top), sink)
+    entries = {key.text: YamlEntry(key, value) for key, value in written if isinstance(key, YamlScalar)}
+    is_plain = len(entries) == len(written) and "<<" not in entries
+    if is_plain and not (flow and any(is_null(value) for _, value in written)):
+        return entries
+    named = [entry for key, value in written if (entry := _make_entry(key, value, sink, flow=flow))]
+    return _merge(_unique(named, sink, is_top=is_top), sink)
 
 
-def _entry(key: YamlNode, value: YamlNode, sink: Diagnostics, *, flow: bool) -> YamlEntry | None:
-    """Return the entry; None where its key is at fault, which is reported."""
+def _make_entry(key: YamlNode, value: YamlNode, sink: Diagnostics, *, flow: bool) -> YamlEntry | None:
+    """Return an entry; None where its key is faulty, which is reported."""
     if isinstance(key, YamlScalar) and not (flow and is_null(value)):
-        return YamlEntry(key, value)  # all but a few
+        return YamlEntry(key, value)
     if isinstance(key, YamlFault):
         return None
     if not isinstance(key, YamlScalar):
@@ -48,9 +46,9 @@ def _entry(key: YamlNode, value: YamlNode, sink: Diagnostics, *, flow: bool) -> 
 
 
 def _unique(entries: Sequence[YamlEntry], sink: Diagnostics, *, is_top: bool = False) -> dict[str, YamlEntry]:
-    """Return the entries by name; which of two is meant nobody knows, so that what they say is a fault.
+    """Return the entries by name; the value of a repeated key becomes a YamlFault.
 
-    Two sections of one name, at the top, are one with the entries of both, since others use the names in them.
+    Two sections of the same name at the top of a file are merged, because other sections use the names in them.
     """
     unique = {entry.key.text: entry for entry in entries}
     if len(unique) == len(entries):
@@ -60,8 +58,8 @@ def _unique(entries: Sequence[YamlEntry], sink: Diagnostics, *, is_top: bool = F
     for entry in entries:
         if entry is not (kept := unique.setdefault(entry.name, entry)):
             again.setdefault(entry.name, [kept]).append(entry)
-    begin = None if is_top else _begin_of_another(entries, again)
-    if begin is not None and (line := _tell_another(entries, begin, again, sink)):
+    begin = None if is_top else _find_second_entry(entries, again)
+    if begin is not None and (line := _report_second_entry(entries, begin, again, sink)):
         unique[line.name] = YamlEntry(line.key, YamlFault(line.key.span))
     for first, *others in again.values() if begin is None else ():
         note = Note("first written here", first.key.span)
@@ -75,10 +73,10 @@ def _unique(entries: Sequence[YamlEntry], sink: Diagnostics, *, is_top: bool = F
     return unique
 
 
-def _begin_of_another(entries: Sequence[YamlEntry], again: Mapping[str, Sequence[YamlEntry]]) -> int | None:
-    """Return where the keys of a second entry begin, whose own line is not where it was; None where there is none.
+def _find_second_entry(entries: Sequence[YamlEntry], again: Mapping[str, Sequence[YamlEntry]]) -> int | None:
+    """Return the index at which the keys of a second entry begin whose own line is missing; None for no such entry.
 
-    Such keys are several, and from the first of them on none stands there for the first time and comes again.
+    It has several repeated keys, and after its first one no key that is repeated later.
     """
     seconds = {id(second) for _, second, *_ in again.values()}
     begin = next((at for at, entry in enumerate(entries) if id(entry) in seconds), 0)
@@ -87,10 +85,10 @@ def _begin_of_another(entries: Sequence[YamlEntry], again: Mapping[str, Sequence
     return begin if is_one and not any(id(entry) in firsts for entry in entries[begin:]) else None
 
 
-def _tell_another(
+def _report_second_entry(
     entries: Sequence[YamlEntry], begin: int, again: Mapping[str, Sequence[YamlEntry]], sink: Diagnostics
 ) -> YamlEntry | None:
-    """Tell of the keys of a second entry at the first of them; return the line with its name, if that stands above."""
+    """Report the keys of a second entry at the first of them; return the entry above if that may be its name."""
     first, before = entries[begin], entries[begin - 1]
     note = Note("first written here", again[first.name][0].key.span)
     others = [f"'{entry.name}'" for entry in entries[begin + 1 :] if entry.name in again]
@@ -101,10 +99,10 @@ def _tell_another(
     return line
 
 
-def _merged(entries: dict[str, YamlEntry], sink: Diagnostics) -> dict[str, YamlEntry]:
-    """Lay what `<<` names where it stands; the map's own entries win, then those of the earlier map."""
+def _merge(entries: dict[str, YamlEntry], sink: Diagnostics) -> dict[str, YamlEntry]:
+    """Put the entries that `<<` names in its place; the map's own entries win, then those of the earlier map."""
     merge = entries.get("<<")
-    if merge is None or merge.key.span.text != "<<":  # in quotes it is a key as any other
+    if merge is None or merge.key.span.text != "<<":  # in quotes it is an ordinary key
         return entries
     merged: dict[str, YamlEntry] = {}
     for entry in entries.values():
@@ -114,7 +112,7 @@ def _merged(entries: dict[str, YamlEntry], sink: Diagnostics) -> dict[str, YamlE
 
 
 def _merge_sources(value: YamlNode, sink: Diagnostics) -> Iterator[YamlEntry]:
-    """Yield the entries of the map or maps that `<<` names, and report what is none."""
+    """Yield the entries of the map or maps that `<<` names; report anything else."""
     for source in value if isinstance(value, YamlList) else (value,):
         if isinstance(source, YamlMap):
             yield from source
@@ -123,7 +121,7 @@ def _merge_sources(value: YamlNode, sink: Diagnostics) -> Iterator[YamlEntry]:
 
 
 def kind_of(node: YamlNode) -> str:
-    """Return what stands at a node, as messages say it."""
+    """Return what messages call a node: "a map", "text", ..."""
     match node:
         case YamlMap():
             return "a map"

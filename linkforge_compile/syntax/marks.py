@@ -1,4 +1,4 @@
-"""From the parser's marks to spans of the file."""
+"""Spans of parser events in their file."""
 
 from __future__ import annotations
 
@@ -16,54 +16,49 @@ _BLOCK_STYLES = ("|", ">")
 
 
 class Marks:
-    """Turns the parser's marks, which count lines, columns and characters from 0, into spans.
-
-    `text` is what the parser sees of the file.
-    """
+    """Turns the parser's marks, which count characters from 0, into spans; `text` is what the parser reads."""
 
     def __init__(self, file: SourceFile) -> None:
         self.file = file
         self.text = file.counted
 
     def event(self, event: Event, last: Event | None = None) -> Span:
-        """Return the span from the start of an event to its end, or to that of the last one."""
+        """Return the span from the start of an event to its end, or to the end of `last`."""
         return self.file.between(self.begin(event), self.end(last or event))
 
     def begin(self, event: Event) -> int:
-        """Return the index of the first character of an event, of a node with its anchor and tag."""
+        """Return the index of the first character of an event; a node's anchor and tag belong to it."""
         assert event.start_mark is not None, "the parser marks every event"
         return event.start_mark.index
 
     def end(self, event: Event) -> int:
-        """Return the index behind the last character of an event.
+        """Return the index after the last character of an event.
 
-        libyaml ends every file with a line break, be there one or not: it may lie behind the end of the text.
+        It may lie beyond the end of the text: libyaml reads every file as if it ended with a line break.
         """
         assert event.end_mark is not None, "the parser marks every event"
         return event.end_mark.index
 
     def part(self, index: int, length: int) -> Span:
-        """Return the span of `length` characters, or as many as there are, from the one at `index`."""
+        """Return the span of up to `length` characters from `index`."""
         return self.file.between(index, index + length)
 
     def scalar(self, event: ScalarEvent) -> Span:
-        """Return a scalar's span with its quotes, without its anchor; a block scalar ends with its last line."""
-        return self.file.between(*self.ends(event))
+        """Return the span of a scalar with its quotes, without its anchor; a block scalar ends with its last line."""
+        return self.file.between(*self.scalar_ends(event))
 
-    def ends(self, event: ScalarEvent) -> tuple[int, int]:
-        """Return the indexes between which a scalar stands, as in `scalar`."""
-        begin, end = self.begin(event), self.end(event)
-        if self.are_its_ends(event):
+    def scalar_ends(self, event: ScalarEvent) -> tuple[int, int]:
+        """Return the first index of a scalar and the index after it, as for `scalar`."""
+        assert event.start_mark is not None, "the parser marks every event"
+        assert event.end_mark is not None, "the parser marks every event"
+        begin, end = event.start_mark.index, event.end_mark.index
+        if event.anchor is None and event.tag is None and event.style not in _BLOCK_STYLES:
             return begin, end
         written = self.text[begin:end].rstrip()
         properties = _PROPERTIES.match(written)
         return begin + (properties.end() if properties else 0), begin + len(written)
 
-    def are_its_ends(self, event: ScalarEvent) -> bool:
-        """Whether a scalar stands right between the marks of its event."""
-        return event.anchor is None and event.tag is None and event.style not in _BLOCK_STYLES
-
     def tag(self, event: NodeEvent) -> Span:
-        """Return the span of the tag that a node carries."""
+        """Return the span of a node's tag."""
         found = _TAG.search(self.text, event.start_mark.index) if event.start_mark else None
         return self.part(found.start(), len(found[0])) if found else self.event(event)

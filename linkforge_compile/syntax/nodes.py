@@ -1,7 +1,7 @@
-"""The positioned tree: what the text says, with the span of every key and value, frozen.
+"""Nodes of the positioned tree: immutable, each key and value with its span in the file.
 
 Every stage up to lowering reads and makes these nodes. Expanding replaces a scalar that holds an expression
-by a node of its value with the expression's span, so a tree without expressions is a tree of the same kind.
+by a node of its value with the expression's span.
 """
 
 from __future__ import annotations
@@ -16,18 +16,17 @@ from linkforge_compile.units import Quantity
 ScalarValue: TypeAlias = None | bool | int | float | str | Quantity
 
 MAX_DEPTH = 100
-"""How deep lists and maps may nest: every later stage walks the tree by recursion."""
+"""How deep lists and maps may nest; later stages walk the tree by recursion."""
 
 
 class YamlScalar(NamedTuple):
-    """A scalar: its text as written (without quotes) and what that means in YAML 1.2's core schema.
+    """A scalar: its text as written (without quotes) and its value in YAML 1.2's core schema.
 
-    Only an evaluated expression or a variable gives a Quantity; a quantity that was typed is still a str here.
-    Fields that are text or names take `text`, so that `version: 1.0` stays "1.0"; numbers take `value`.
+    Only an evaluated expression or a variable has a Quantity as its value; a quantity in the file is a str.
+    Fields that are text or names read `text`, so that `version: 1.0` stays "1.0"; numbers read `value`.
 
-    A scalar that was read knows its file and between which indexes it stands there; its span is computed when
-    asked for.
-    `end` is None where it ends with its text.
+    `place` is a span, or the file that it was read from between the indexes `begin` and `end` (None: the length
+    of the text), from which the span is computed on demand.
     """
 
     text: str
@@ -49,7 +48,7 @@ class YamlScalar(NamedTuple):
     def __deepcopy__(self, memo: object) -> YamlScalar:
         return self
 
-    # Like every node, it is equal to itself alone: two that say the same at one place may come from two parts.
+    # Nodes are equal by identity: two with the same text at one place may come from two parts.
 
     def __eq__(self, other: object) -> bool:
         return self is other
@@ -63,7 +62,7 @@ class YamlScalar(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class YamlList:
-    """A sequence, in block or flow style; its place is said as that of a scalar."""
+    """A sequence in block or flow style; its place is that of a scalar."""
 
     items: tuple[YamlNode, ...]
     place: Span | SourceFile
@@ -93,8 +92,8 @@ class YamlList:
 class YamlEntry(NamedTuple):
     """A key and its value; the key is a scalar whose text is the name.
 
-    `replaced` is the entry of the same name whose value this one took the place of: what an override changed, or
-    the default that an entry's own word goes before. Values that were merged have it further down.
+    `replaced` is the entry of the same name that this one replaced: the one changed by an override, or a default.
+    Merged maps have it at their own entries.
     """
 
     key: YamlScalar
@@ -120,7 +119,7 @@ class YamlEntry(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class YamlMap:
-    """A mapping, keys unique by their text, in the order written; its place is said as that of a scalar."""
+    """A mapping in the order written, its keys unique by their text; its place is that of a scalar."""
 
     entries: Mapping[str, YamlEntry]
     place: Span | SourceFile
@@ -132,7 +131,7 @@ class YamlMap:
         return span_of(self.place, self.begin, self.end)
 
     def get(self, key: str) -> YamlNode | None:
-        """Return what is said under `key`, None where nothing is: a value of null is as if not written."""
+        """Return the value of `key`; None if there is none or it is null."""
         entry = self.entries.get(key)
         if entry is None:
             return None
@@ -159,9 +158,9 @@ class YamlMap:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class YamlFault:
-    """Something stood here and its fault has been reported: who meets it stays silent and goes on.
+    """Takes the place of a faulty node after its error was reported; later stages skip it.
 
-    `keys` are those of the map that it was, and of all maps in it: names that somebody may look for.
+    `keys` are those of all maps in that node: names that other parts may refer to.
     """
 
     span: Span
@@ -180,16 +179,16 @@ class YamlFault:
 YamlNode: TypeAlias = YamlScalar | YamlList | YamlMap | YamlFault
 
 Tags: TypeAlias = Mapping[str, Callable[[YamlScalar], YamlNode]]
-"""What a scalar with a tag becomes, by the tag; a fault of it is for the function to report."""
+"""Functions by tag that make a node of a scalar with that tag and report its errors."""
 
 
 def fault_of(node: YamlNode) -> YamlFault:
-    """Return what takes the place of a node that is at fault."""
+    """Return the YamlFault that takes the place of a faulty node."""
     return node if isinstance(node, YamlFault) else YamlFault(node.span, frozenset(_keys_in(node)))
 
 
 def names_at_fault(node: YamlNode | None) -> Iterator[str]:
-    """Yield the keys of a map whose values are at fault, and the keys in those: names that somebody may look for."""
+    """Yield the keys of a map whose values are faulty, and the keys in those values."""
     for entry in node if isinstance(node, YamlMap) else ():
         if isinstance(entry.value, YamlFault):
             yield entry.name
@@ -206,12 +205,12 @@ def _keys_in(node: YamlNode) -> Iterator[str]:
 
 
 def is_null(node: YamlNode) -> bool:
-    """Whether a node is null, written as `null` or by writing nothing."""
+    """Whether a node is null or empty."""
     return isinstance(node, YamlScalar) and node.value is None
 
 
 def leaves_in(node: YamlNode) -> Iterator[YamlNode]:
-    """Yield all keys, scalars and empty nodes; not what holds others, for an arranged map spans nothing of its own."""
+    """Yield all keys, scalars and empty nodes in a node."""
     match node:
         case YamlMap() if node.entries:
             for entry in node:

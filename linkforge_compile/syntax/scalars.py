@@ -1,4 +1,4 @@
-"""What a plain scalar means: YAML 1.2's core schema, not the 1.1 that PyYAML's own loaders read."""
+"""Values of plain scalars by YAML 1.2's core schema; PyYAML's own loaders read YAML 1.1."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _WORDS: dict[str, ScalarValue] = {
 }
 
 TRUTHS_OF_YAML_1_1 = {"yes": "true", "on": "true", "no": "false", "off": "false"}
-"""What older YAML reads as true and false in any case, and YAML 1.2 as text: what to write for each."""
+"""Words, in any case, that YAML 1.1 reads as booleans and YAML 1.2 as text, and what to write for each."""
 
 _NUMBER = re.compile(
     r"""(?P<decimal> [-+]? [0-9]+ )
@@ -30,13 +30,13 @@ IN_QUOTES = re.compile(r"'[^']*'|\"[^\"]*\"")
 
 _BASES = {"decimal": 10, "octal": 8, "hexadecimal": 16}
 _MOST_DIGITS = 400
-"""A double ends at 309 digits; Python refuses to read integers of more than 4,300."""
+"""More than the 309 digits of a double; Python refuses integers of more than 4,300."""
 
 
 def scalar_value(text: str) -> ScalarValue:
-    """Return what plain text means: null, a boolean, a number, else the text itself.
+    """Return null, a boolean or a number if the plain text is one, else the text itself.
 
-    Units are not read here: `90 deg` is text. A number beyond a double is infinite, whole numbers too.
+    A quantity such as `90 deg` is text here. Numbers beyond a double are infinite, integers too.
     """
     if text in _WORDS:
         return _WORDS[text]
@@ -50,17 +50,17 @@ def scalar_value(text: str) -> ScalarValue:
 
 
 def is_overflow(text: str, value: ScalarValue) -> bool:
-    """Whether plain text was a number too large for a double; a written `.inf` is not."""
+    """Whether plain text is a number too large for a double; `.inf` is not."""
     return isinstance(value, float) and math.isinf(value) and text not in _WORDS
 
 
 def has_expression(text: str) -> bool:
-    """Whether text holds an expression, `$(...)`, or `$$(` for a literal `$(`."""
+    """Whether text holds an expression `$(...)`, or `$$(` for a literal `$(`."""
     return "$(" in text
 
 
 def is_cut_expression(text: str) -> bool:
-    """Whether a plain scalar holds `$(` without its `)`: in a flow list a comma or a bracket ended it early."""
+    """Whether a plain scalar holds `$(` without its `)`, because a comma or bracket of a flow list ended it."""
     start = text.find("$(")
     if start < 0:
         return False
@@ -69,9 +69,9 @@ def is_cut_expression(text: str) -> bool:
 
 
 def word_value(text: str) -> ScalarValue:
-    """Return the value of text that stands for itself, so that it needs no quotes where that does no harm.
+    """Return the value that text has without quotes; the text itself where it needs quotes.
 
-    Plain, it would be read as nothing, or refused as too large a number.
+    Without quotes, null would be no value, and a number too large for a double an error.
     """
     value = scalar_value(text)
     return text if value is None or is_overflow(text, value) else value
@@ -87,3 +87,14 @@ def _whole_number(text: str, base: int) -> int | float:
     except OverflowError:
         return too_large
     return number
+
+
+# Expressions of xacro, which newcomers write
+
+XACRO_EXPRESSION = re.compile(r"\$\{(?P<within>[^{}\r\n]*)\}")
+
+
+def xacro_facts(text: str) -> tuple[dict[str, str], ...]:
+    """Return for each `${length / 2}` in a text the facts of the code XACRO_EXPRESSION."""
+    found = XACRO_EXPRESSION.finditer(text)
+    return tuple({"text": each[0], "ours": f"$({each['within'].strip()})"} for each in found)

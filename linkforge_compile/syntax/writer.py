@@ -1,4 +1,4 @@
-"""Tree to text: YAML as a tidy person writes it, which reads back to the same tree."""
+"""Write a tree as tidy YAML that reads back to the same tree."""
 
 from __future__ import annotations
 
@@ -13,18 +13,17 @@ from linkforge_compile.syntax.scalars import is_cut_expression, scalar_value
 from linkforge_compile.units import Quantity, number_text
 
 WIDTH = 100
-"""A line with brackets keeps to so many columns; what needs more is laid out over several."""
+"""The most columns of a line with brackets; longer lists and maps are written in block style."""
 
 Comments: TypeAlias = Mapping[YamlNode, str]
-"""Comments, each by the key of the entry, or by the item of the list, above which it stands."""
+"""Comments by the entry's key or list item that they are written above."""
 
 _INDENT = "  "
 _MOST_NESTED = 3
-"""How many levels of brackets a person still reads at a glance."""
+"""The most levels of brackets on a line."""
 
-# Text to YAML 1.2, and to readers of 1.1 a boolean, a number to base 2, 8 or 60, one with its digits in groups, a
-# date, a merge or a default. `y` and `n` are not here: hardly a reader takes them for booleans, and `axis: y` is the
-# language.
+# Text in YAML 1.2, but in 1.1 a boolean, a number to base 2, 8 or 60, one with grouped digits, a date, a merge or a
+# default. `y` and `n` are left out: few readers take them for booleans, and `axis: y` is common.
 _MISREAD = re.compile(
     r"""(?i: yes | no | on | off )
       | [-+]? 0b [01_]+
@@ -42,24 +41,23 @@ _ESCAPES = str.maketrans({"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "\
 
 
 def write(tree: YamlMap, comments: Comments = MappingProxyType({}), endings: Comments = MappingProxyType({})) -> str:
-    """Return a tree as YAML of which `read` makes the same tree, spans and entries at fault aside.
+    """Return YAML that `read` turns into the same tree, except for spans and faulty entries.
 
-    `endings` are comments below the last entry or item, by the map or list that holds it, `tree` itself for the end
-    of the file. Expressions stay what they are. Text with characters that no spec may hold is written, and refused
-    when read.
+    `endings` are comments below the last entry or item of a map or list; those of `tree` end the file. Characters
+    that no spec may contain are written as they are, so `read` rejects them.
     """
     return "".join(f"{line}\n" for line in _Layout(comments, endings).document(tree))
 
 
 class _Layout:
-    """Lays nodes out over lines; an `indent` is that of entries and items themselves."""
+    """Lays out nodes as lines; `indent` is that of entries and items."""
 
     def __init__(self, comments: Comments, endings: Comments) -> None:
         self._comments, self._endings = comments, endings
         self._keys: dict[tuple[str, bool], str] = {}
 
     def document(self, tree: YamlMap) -> Iterator[str]:
-        """Yield the lines of a file: its sections apart, and none in brackets, for there names are looked up."""
+        """Yield the lines of a file: sections are separated by empty lines and never in brackets."""
         was_section = False
         for place, entry in enumerate(tree):
             is_section = isinstance(entry.value, YamlMap) and len(entry.value) > 0
@@ -91,7 +89,7 @@ class _Layout:
         yield from _commented(self._endings.get(node, ""), indent)
 
     def _value(self, key: str, node: YamlNode, indent: str) -> Iterator[str]:
-        """Yield the lines of an entry: on that of its key, or below it."""
+        """Yield the lines of an entry: on the line of its key, or below it."""
         if isinstance(node, YamlScalar):
             yield from _scalar_lines(key, node, indent)
         elif brackets := self._fitting(node, len(key)):
@@ -101,7 +99,7 @@ class _Layout:
             yield from self._block(node, indent + _INDENT)
 
     def _item(self, node: YamlNode, indent: str) -> Iterator[str]:
-        """Yield the lines of a list's item, the first of them behind the dash."""
+        """Yield the lines of a list item, the first of them after the dash."""
         dash = f"{indent}-"
         if isinstance(node, YamlScalar):
             yield from _scalar_lines(dash, node, indent)
@@ -113,44 +111,44 @@ class _Layout:
             yield from rest
 
     def _fitting(self, node: YamlNode, column: int) -> str | None:
-        """Return a list or map in brackets, None where it does not fit behind the column or nests too deep."""
-        room = WIDTH - column - 1
-        text = self._in_brackets(node, _MOST_NESTED, room)
-        return text if text is not None and len(text) <= room else None
+        """Return a list or map in brackets, None if it does not fit after the column or nests too deep."""
+        width = WIDTH - column - 1
+        text = self._in_brackets(node, _MOST_NESTED, width)
+        return text if text is not None and len(text) <= width else None
 
-    def _in_brackets(self, node: YamlNode, levels: int, room: int) -> str | None:
-        """Return a node as it stands in brackets; None where it cannot, or takes more than so many columns for sure."""
+    def _in_brackets(self, node: YamlNode, levels: int, width: int) -> str | None:
+        """Return a node for use inside brackets; None if it cannot be or is longer than `width`."""
         if isinstance(node, YamlScalar):
             return None if _is_paragraph(node) else _scalar(node, in_brackets=True)
         if not isinstance(node, YamlMap | YamlList) or (len(node) and (not levels or node in self._endings)):
             return None
-        # What is too long is known by its beginning: it is asked for again at each level.
+        # Stop as soon as it is too long: each level tries again.
         inside = []
-        for part in self._parts(node, levels - 1, room):
-            room -= 0 if part is None else len(part) + len(", ")
-            if part is None or room < 0:
+        for part in self._parts(node, levels - 1, width):
+            width -= 0 if part is None else len(part) + len(", ")
+            if part is None or width < 0:
                 return None
             inside.append(part)
         return f"{{{', '.join(inside)}}}" if isinstance(node, YamlMap) else f"[{', '.join(inside)}]"
 
-    def _parts(self, node: YamlMap | YamlList, levels: int, room: int) -> Iterator[str | None]:
-        """Yield the entries or items as they stand in brackets, None for one that cannot."""
+    def _parts(self, node: YamlMap | YamlList, levels: int, width: int) -> Iterator[str | None]:
+        """Yield the entries or items for use inside brackets, None for one that cannot be."""
         if isinstance(node, YamlList):
             for item in node:
-                # Nothing between two commas is no item.
+                # Two commas with nothing between them make no item.
                 cannot = item in self._comments or _is_empty(item)
-                yield None if cannot else self._in_brackets(item, levels, room)
+                yield None if cannot else self._in_brackets(item, levels, width)
             return
         for entry in node:
-            value = None if entry.key in self._comments else self._in_brackets(entry.value, levels, room)
+            value = None if entry.key in self._comments else self._in_brackets(entry.value, levels, width)
             yield None if value is None else f"{self._key(entry.name, in_brackets=True)}: {value}"
 
     def _key(self, name: str, *, in_brackets: bool) -> str:
-        """Return a key; a spec says the same few again and again."""
-        asked = name, in_brackets
-        if asked not in self._keys:
-            self._keys[asked] = _text(name, in_brackets=in_brackets)
-        return self._keys[asked]
+        """Return a key, quoted where needed; cached, because a spec repeats a few keys."""
+        variant = name, in_brackets
+        if variant not in self._keys:
+            self._keys[variant] = _text(name, in_brackets=in_brackets)
+        return self._keys[variant]
 
     def _comment(self, node: YamlNode, indent: str) -> Iterator[str]:
         yield from _commented(self._comments.get(node, ""), indent)
@@ -172,7 +170,7 @@ def _scalar_lines(start: str, node: YamlScalar, indent: str) -> Iterator[str]:
 
 
 def _is_paragraph(node: YamlScalar) -> bool:
-    """Whether a scalar is text of several lines that stands better as it is than in quotes."""
+    """Whether a scalar is text of several lines that can be written as a block."""
     if not isinstance(node.value, str) or "\n" not in node.text:
         return False
     lines = node.text.removesuffix("\n").split("\n")
@@ -187,7 +185,7 @@ def _is_empty(node: YamlNode) -> bool:
 
 
 def _scalar(node: YamlScalar, *, in_brackets: bool) -> str:
-    """Return a scalar as it was written where that says its value, and spelled anew where it was computed."""
+    """Return a scalar as it was written, or its computed value as text."""
     value = node.value
     if isinstance(value, str):
         return _text(node.text, in_brackets=in_brackets)
@@ -207,9 +205,9 @@ def _text(text: str, *, in_brackets: bool) -> str:
 
 
 def _is_plain(text: str, in_brackets: bool) -> bool:
-    """Whether text needs no quotes: everyone reads it as text, and as the whole of it."""
+    """Whether text needs no quotes: every reader reads all of it, as text."""
     return (
-        scalar_value(text) is text
+        isinstance(scalar_value(text), str)
         and not _MISREAD.fullmatch(text)
         and text.isprintable()
         and text.strip() == text

@@ -1,4 +1,4 @@
-"""Quantities: numbers that know their dimension, the units people write them in, and numbers as text."""
+"""Quantities, their units, and numbers as text."""
 
 from linkforge_compile.units.field_unit import (
     ANGLE,

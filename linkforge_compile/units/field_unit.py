@@ -9,7 +9,7 @@ from linkforge_compile.units.quantity import Dimension
 
 
 class Motion(Enum):
-    """How a joint moves, as far as the units of its numbers go."""
+    """How a joint moves, which the units of its numbers depend on."""
 
     TURNING = auto()
     SLIDING = auto()

@@ -1,4 +1,4 @@
-"""Dimensions and quantities."""
+"""Dimensions, and numbers that have one."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from linkforge_compile.units.numbers import number_text
 
 
 class Dimension(StrEnum):
-    """What a number measures; the words are the parameter types of the language (inertia is of fields only)."""
+    """What a number measures; the values are the parameter types of the language (inertia is for fields only)."""
 
     LENGTH = "length"
     ANGLE = "angle"
@@ -26,7 +26,7 @@ class Dimension(StrEnum):
 
     @property
     def si_unit(self) -> str:
-        """The unit that a bare number has."""
+        """The unit of a bare number."""
         return _SI_UNITS[self]
 
 
@@ -46,12 +46,12 @@ _SI_UNITS = {
 
 
 WIDEST_ANGLE = 2 * math.pi + 0.005
-"""Beyond this a bare angle [rad] was meant in degrees; a whole turn rounded to two decimals (6.29) is still radians."""
+"""A larger bare angle [rad] is probably in degrees; a whole turn rounded to two decimals (6.29) is still radians."""
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number in the SI unit of its dimension; `written` is how a person wrote it, None for what was computed."""
+    """A number in the SI unit of its dimension; `written` is its source text, None for a computed one."""
 
     value: float
     dimension: Dimension
@@ -62,4 +62,5 @@ class Quantity:
 
     @property
     def in_si(self) -> str:
+        """The number with its SI unit: "0.1 m"."""
         return f"{number_text(self.value)} {self.dimension.si_unit}"

@@ -1,4 +1,4 @@
-"""The units of the language, and reading `90 deg` with them."""
+"""Units of the language, and parsing of quantities such as `90 deg`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TypeAlias
 from linkforge_compile.units.quantity import Dimension, Quantity
 
 _Ratio: TypeAlias = tuple[int, int]
-"""Numerator and denominator: to import `fractions` takes longer than all that is done with them here."""
+"""Numerator and denominator; importing `fractions` would take longer than all the arithmetic here."""
 
 _INCH: _Ratio = (254, 10_000)
 _POUND: _Ratio = (45_359_237, 100_000_000)
@@ -19,7 +19,7 @@ _STANDARD_GRAVITY: _Ratio = (980_665, 100_000)
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit and how many SI units it is: `numerator` over `denominator`, times pi where `per_pi` is set."""
+    """A unit and its size in SI units: `numerator / denominator`, times pi where `per_pi` is set."""
 
     name: str
     dimension: Dimension
@@ -28,10 +28,10 @@ class Unit:
     per_pi: bool = False
 
     def to_si(self, digits: str) -> float:
-        """Return the number written as `digits` in SI units; infinite where it is beyond a double.
+        """Convert the number written as `digits` to SI units; infinite if it is beyond a double.
 
-        Decimal units are converted exactly and rounded once, so `25 mm` is the double nearest to 0.025 and not
-        25 * 0.001. Angles go through the same product as `radians()`, so `30 deg` equals `radians(30)`.
+        Decimal units are converted exactly and rounded once, so `25 mm` is the double nearest to 0.025, not
+        25 * 0.001. Angles use the same product as `radians()`, so `30 deg` equals `radians(30)`.
         """
         if self.per_pi:
             return float(digits) * (math.pi * self.numerator / self.denominator)
@@ -41,7 +41,7 @@ class Unit:
         tens: int = 10 ** abs(power)
         over, under = int(whole + decimals) * self.numerator, self.denominator
         try:
-            # Division of whole numbers gives the nearest double, however long they are.
+            # Dividing integers gives the nearest double, however long they are.
             return over * tens / under if power > 0 else over / (under * tens)
         except OverflowError:
             return -math.inf if over < 0 else math.inf
@@ -109,7 +109,7 @@ _TABLE = (
 )
 
 UNITS: dict[str, Unit] = {unit.name: unit for unit in _TABLE}
-"""Every unit by the name that messages use."""
+"""The units by the name that messages use."""
 
 _SPELLINGS = {
     "Nm": "N*m",
@@ -121,7 +121,7 @@ _SPELLINGS = {
     "μm": "um",
     "°": "deg",
 }
-"""Other spellings that people use; the product may also be written with a dot, powers as superscripts."""
+"""Other accepted spellings; products may also be written with a dot, powers as superscripts."""
 
 _WORDS = {
     "deg": ("degree", "degrees", "degs"),
@@ -148,9 +148,9 @@ _WORDS = {
     "g*mm^2": ("gmm2", "gmm^2", "g*mm2"),
 }
 _UNITS_BY_WORD = {word: UNITS[name] for name, words in _WORDS.items() for word in words}
-"""What people write for a unit, which messages answer with it: taking all of it would make specs of many tongues."""
+"""Words that are not accepted for a unit, but for which messages suggest it."""
 
-# Bounded digits: a float needs no more, and the whole number that 1e999999999 is would fill the memory.
+# The number of digits is bounded: the integer 1e999999999 would fill the memory.
 _QUANTITY = re.compile(
     r"([+-]?(?:[0-9]{1,400}(?:\.[0-9]{0,400})?|\.[0-9]{1,400})(?:[eE][+-]?[0-9]{1,3})?)\s*([A-Za-zµμ°][^\s]*)"
 )
@@ -158,13 +158,13 @@ _PLAIN = str.maketrans({"·": "*", "⋅": "*", "²": "^2", "³": "^3"})
 
 
 def unit_text(text: str) -> str | None:
-    """Return the word behind the number in text that looks like a quantity, whether or not it is a unit we know."""
+    """Return the word after the number in text that looks like a quantity, whether or not it is a known unit."""
     match = _QUANTITY.fullmatch(text.strip())
     return match[2] if match else None
 
 
 def parse_quantity(text: str) -> Quantity | None:
-    """Return the quantity that the whole text is, None where it is not a number and a known unit."""
+    """Parse a text that is a number and a known unit; None for any other text."""
     match = _QUANTITY.fullmatch(text.strip())
     if match is None:
         return None
@@ -174,12 +174,12 @@ def parse_quantity(text: str) -> Quantity | None:
 
 
 def unit_meant(word: str) -> Unit | None:
-    """Return the unit that a word which is none stands for: `deg` for `degrees`; None for any other word."""
+    """Return the unit to suggest for a word that is not one: `deg` for `degrees`; None for any other word."""
     return _UNITS_BY_WORD.get(word.translate(_PLAIN).replace("**", "^"))
 
 
 def spellings_of(unit: str) -> tuple[str, ...]:
-    """Return the other words that are taken for a unit."""
+    """Return the other accepted spellings of a unit."""
     return tuple(spelling for spelling, name in _SPELLINGS.items() if name == unit)
 
 

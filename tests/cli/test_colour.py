@@ -4,7 +4,7 @@ import io
 
 import pytest
 
-from linkforge_compile.cli.colour import is_coloured
+from linkforge_compile.cli.reports import is_colored
 
 
 class Terminal(io.StringIO):
@@ -20,9 +20,9 @@ def _plain_environment(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_terminal_has_colours_and_a_file_has_none():
-    assert is_coloured(Terminal())
-    assert not is_coloured(io.StringIO())
-    assert not is_coloured(None)
+    assert is_colored(Terminal())
+    assert not is_colored(io.StringIO())
+    assert not is_colored(None)
 
 
 @pytest.mark.parametrize(
@@ -42,6 +42,6 @@ def test_the_environment_decides(
 ):
     for name, value in settings.items():
         monkeypatch.setenv(name, value)
-    assert (is_coloured(Terminal()), is_coloured(io.StringIO())) == (on_terminal, in_file)
-    assert is_coloured(io.StringIO(), "always")
-    assert not is_coloured(Terminal(), "never")
+    assert (is_colored(Terminal()), is_colored(io.StringIO())) == (on_terminal, in_file)
+    assert is_colored(io.StringIO(), "always")
+    assert not is_colored(Terminal(), "never")

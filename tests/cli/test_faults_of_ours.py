@@ -19,7 +19,7 @@ def plant(monkeypatch: pytest.MonkeyPatch, fault: BaseException) -> None:
         raise fault
 
     monkeypatch.delenv("LINKFORGE_DEBUG", raising=False)
-    monkeypatch.setattr(pipeline, "compile_file", fail)
+    monkeypatch.setattr(pipeline, "compile_path", fail)
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from threading import Event
 import pytest
 
 from linkforge_compile import Import, compile_file
-from linkforge_compile.cli import waiting
+from linkforge_compile.cli import reports
 from linkforge_compile.cli.main import main
 from tests.cli.in_process import linkforge
 
@@ -216,9 +216,9 @@ def test_who_waits_at_a_terminal_is_told_for_what(arm, monkeypatch: pytest.Monke
         return Import("linkforge: 1\n", ())
 
     terminal, is_told = Terminal(), Event()
-    say = waiting.say
-    monkeypatch.setattr(waiting, "say", lambda *words: (say(*words), is_told.set()))
-    monkeypatch.setattr(waiting, "PATIENCE", 0.01)
+    print_status = reports.print_status
+    monkeypatch.setattr(reports, "print_status", lambda *words: (print_status(*words), is_told.set()))
+    monkeypatch.setattr(reports, "PATIENCE", 0.01)
     monkeypatch.setattr(sys, "stderr", terminal)
     monkeypatch.setattr("linkforge_compile.importing.import_urdf", slow)
     urdf = arm()

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import Compilation
-from linkforge_compile.cli.build import Order
+from linkforge_compile.cli.build import BuildRequest
 from linkforge_compile.cli.commands import watch as watch_command
 from linkforge_compile.cli.main import main
 
@@ -235,11 +235,11 @@ def test_a_command_that_fails_is_told_also_where_all_else_is_quiet(watch: Callab
 def test_what_is_saved_while_it_is_compiled_is_compiled_again(
     cell: Path, watch: Callable[..., list[str]], monkeypatch: pytest.MonkeyPatch
 ):
-    compile_order = watch_command.compile_order
+    compile_request = watch_command.compile_request
     saves = iter([ARM.replace("hand", "gripper")])
 
-    def compile_while_a_person_saves(order: Order, arguments: argparse.Namespace) -> Compilation:
-        compilation = compile_order(order, arguments)
+    def compile_while_a_person_saves(request: BuildRequest, arguments: argparse.Namespace) -> Compilation:
+        compilation = compile_request(request, arguments)
         for text in saves:
             (cell / "arm.robot.yaml").write_text(text)
             # The clock of a file system may be some milliseconds behind.
@@ -247,7 +247,7 @@ def test_what_is_saved_while_it_is_compiled_is_compiled_again(
             os.utime(cell / "arm.robot.yaml", ns=(now, now))
         return compilation
 
-    monkeypatch.setattr(watch_command, "compile_order", compile_while_a_person_saves)
+    monkeypatch.setattr(watch_command, "compile_request", compile_while_a_person_saves)
     assert watch(nothing)[2:] == ["arm.robot.yaml changed", "wrote out/cell.urdf", WATCHING]
     assert '<link name="arm_gripper"/>' in (cell / "out" / "cell.urdf").read_text()
 

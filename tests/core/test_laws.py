@@ -67,7 +67,7 @@ def test_merging_twice_under_one_prefix_fails_whole(component, prefix):
 def test_copies_and_pickles_are_equal_and_of_their_own(robot):
     for other in (robot.clone(), copy.deepcopy(robot), pickle.loads(pickle.dumps(robot))):
         assert other == robot
-        assert other.says_semantic == robot.says_semantic
+        assert other.has_semantic == robot.has_semantic
         other.links[0].name += "x"
         assert other != robot
 
@@ -85,7 +85,7 @@ def test_normalized_robots_are_equal_whatever_the_order_of_their_parts(robot, da
     other = robot.clone()
     for collection in COLLECTIONS[:-1]:
         setattr(other, collection, data.draw(st.permutations(getattr(other, collection)), label=collection))
-    if robot.says_semantic:
+    if robot.has_semantic:
         groups = data.draw(st.permutations(robot.semantic.groups), label="groups")
         pairs = data.draw(st.permutations(robot.semantic.disabled_collisions), label="pairs")
         other.semantic = replace(robot.semantic, groups=groups, disabled_collisions=pairs)

@@ -36,7 +36,7 @@ def test_every_path_is_offered_once_and_no_other(folder: str, left_out: tuple[st
         paths.paths_from(other, ())
     offered = [
         mapping(snippet)["label"]
-        for snippets in found(paths.paths_from(folder, left_out), paths.made, "defaultSnippets")
+        for snippets in found(paths.paths_from(folder, left_out), paths.definitions, "defaultSnippets")
         for snippet in (snippets if isinstance(snippets, list) else [])
     ]
     wanted = [posixpath.relpath(spec, folder or ".") for spec in SPECS if spec not in left_out]
@@ -49,7 +49,7 @@ def test_every_path_leads_to_the_offer_of_its_spec(folder: str):
     offers = paths.entries_from(folder)
     leads = {
         str(mapping(mapping(mapping(condition)["properties"])["use"])["const"])
-        for condition in found({"allOf": offers}, paths.made, "if")
+        for condition in found({"allOf": offers}, paths.definitions, "if")
     }
     assert leads >= {posixpath.relpath(spec, folder or ".") for spec in SPECS}
 

@@ -7,8 +7,14 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft7Validator
 
-from linkforge_compile.editor import TooManyFilesError, Vocabulary, specs_below, vocabulary_of, workspace_text
-from linkforge_compile.editor import specs as specs_module
+from linkforge_compile.editor import (
+    TooManyFilesError,
+    Vocabulary,
+    find_specs,
+    read_vocabulary,
+    spec_files,
+    workspace_text,
+)
 from linkforge_compile.roots import Roots
 from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
@@ -81,7 +87,7 @@ def written(root: Path, files: Mapping[str, str] = FILES) -> Path:
 
 
 def schema_text(root: Path) -> str:
-    return workspace_text([vocabulary_of(spec, root) for spec in specs_below(root)])
+    return workspace_text([read_vocabulary(spec, root) for spec in find_specs(root)])
 
 
 @pytest.fixture(scope="session")
@@ -205,7 +211,7 @@ def lessons(folder: Path) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("spec", specs_below(ROOT / "examples"), ids=lambda path: path.stem)
+@pytest.mark.parametrize("spec", find_specs(ROOT / "examples"), ids=lambda path: path.stem)
 def test_nothing_is_underlined_in_an_example(server: LanguageServer, lessons: Path, spec: Path):
     modeline = f"# yaml-language-server: $schema={(lessons / 'lessons.schema.json').as_uri()}\n"
     place = spec.relative_to(ROOT / "examples").as_posix()
@@ -227,15 +233,15 @@ def test_the_bytes_are_the_same_wherever_the_folder_lies(tmp_path: Path):
 
 def test_names_are_final_and_of_whatever_can_be_read(tmp_path: Path):
     root = written(tmp_path)
-    cell = vocabulary_of(root / "cells/cell.robot.yaml", root)
+    cell = read_vocabulary(root / "cells/cell.robot.yaml", root)
     assert cell.files == ("cells/cell.robot.yaml", "cells/palette.yaml")
     assert cell.names["joint"] == ("left_elbow", "left_joint")
     assert "base" not in cell.names["link"]
-    faulty = vocabulary_of(root / "faulty.robot.yaml", root)
+    faulty = read_vocabulary(root / "faulty.robot.yaml", root)
     assert not faulty.is_whole
     assert "base" in faulty.names["link"]
     (root / "faulty.robot.yaml").write_text("links: [", "utf-8")
-    assert vocabulary_of(root / "faulty.robot.yaml", root).names == {}
+    assert read_vocabulary(root / "faulty.robot.yaml", root).names == {}
 
 
 def test_a_name_is_put_in_as_yaml_reads_it(server: LanguageServer, folder: Path):
@@ -319,7 +325,7 @@ def test_specs_are_those_that_a_person_wrote(tmp_path: Path):
     copies = {f"{folder}/arm.robot.yaml": ARM for folder in (".venv", "build/arm", "install/share", "parts/.hidden")}
     hidden = {"a/.b.robot.yml": ARM, "._c.robot.yaml": "\0"}
     root = written(tmp_path / "repo", {**copies, **hidden, "a/b.robot.yml": ARM, "c.robot.yaml": ARM, "d.yaml": ARM})
-    assert [path.relative_to(root).as_posix() for path in specs_below(root)] == ["a/b.robot.yml", "c.robot.yaml"]
+    assert [path.relative_to(root).as_posix() for path in find_specs(root)] == ["a/b.robot.yml", "c.robot.yaml"]
 
 
 def test_a_spec_that_links_lead_to_is_one(tmp_path: Path):
@@ -330,7 +336,7 @@ def test_a_spec_that_links_lead_to_is_one(tmp_path: Path):
     (root / ".#a.robot.yaml").symlink_to("somebody@machine.123")
     (root / "lock.robot.yaml").symlink_to("somebody@machine.123")
     (root / "d.robot.yaml").symlink_to(".hidden/d.robot.yaml")
-    assert [path.relative_to(root).as_posix() for path in specs_below(root)] == ["d.robot.yaml", "parts/a.robot.yaml"]
+    assert [path.relative_to(root).as_posix() for path in find_specs(root)] == ["d.robot.yaml", "parts/a.robot.yaml"]
 
 
 def test_a_link_out_of_the_folders_that_may_be_read_is_no_spec(tmp_path: Path):
@@ -341,15 +347,15 @@ def test_a_link_out_of_the_folders_that_may_be_read_is_no_spec(tmp_path: Path):
     for link, target in zip(links, (far / "d.robot.yaml", far / "gone", Path("/dev/zero")), strict=True):
         link.symlink_to(target)
     outside: list[Path] = []
-    assert specs_below(root, outside=outside.append) == (root / "a.robot.yaml",)
+    assert find_specs(root, outside=outside.append) == (root / "a.robot.yaml",)
     assert sorted(outside) == sorted(links)
-    assert specs_below(root, roots=Roots.around(root, (far,))) == (root / "a.robot.yaml", root / "d.robot.yaml")
+    assert find_specs(root, roots=Roots.around(root, (far,))) == (root / "a.robot.yaml", root / "d.robot.yaml")
 
 
 def test_a_folder_of_more_than_robots_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     root = written(tmp_path)
     with pytest.raises(TooManyFilesError, match="more than 2 specs"):
-        specs_below(root, at_most=2)
-    monkeypatch.setattr(specs_module, "MAX_FOLDERS", 2)
+        find_specs(root, at_most=2)
+    monkeypatch.setattr(spec_files, "MAX_FOLDERS", 2)
     with pytest.raises(TooManyFilesError, match="more than 2 folders"):
-        specs_below(root)
+        find_specs(root)

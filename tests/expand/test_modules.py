@@ -7,7 +7,7 @@ import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.expand import Instance, Loader, Unset, arguments_from_text, expand
-from linkforge_compile.expand.expansion import MAX_DEPTH
+from linkforge_compile.expand.expand_uses import MAX_DEPTH
 from tests.expand.assembling import metadata_of, plain, write
 
 
@@ -75,11 +75,11 @@ def test_an_instance_knows_its_name_its_prefix_its_entry_and_its_trail(tmp_path,
     ]
     assert plain(left.entry.node) == {"use": "arm.robot.yaml", "parent": "left_shoulder"}
     assert (left.entry.span.text, left.entry.at("parent").text) == ("$(side)_arm", "$(side)_shoulder")
-    assert [(Path(use.file.name).name, use.line) for use in hand.trail] == [
+    assert [(Path(use.file.name).name, use.line) for use in hand.include_stack] == [
         ("arm.robot.yaml", 3),
         ("robot.robot.yaml", 5),
     ]
-    assert hand.entry.trail == left.trail
+    assert hand.entry.trail == left.include_stack
 
 
 def test_a_fault_of_a_module_says_who_used_it(tmp_path, sink):

@@ -6,8 +6,8 @@ import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.expand import Arguments, Loader, SpecFile, Unset
-from linkforge_compile.expand.expansion import expanded
-from linkforge_compile.expand.plain import as_written, computes_nothing
+from linkforge_compile.expand.expand import is_plain, plain_instance
+from linkforge_compile.expand.expand_uses import expand_uses
 from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
 
@@ -22,21 +22,21 @@ def opened(path: Path) -> SpecFile | None:
 
 
 SPECS = sorted(path for folder in ("tests/cases", "examples") for path in (ROOT / folder).rglob("*.yaml"))
-PLAIN = {path.relative_to(ROOT).as_posix(): spec for path in SPECS if (spec := opened(path)) and computes_nothing(spec)}
+PLAIN = {path.relative_to(ROOT).as_posix(): spec for path in SPECS if (spec := opened(path)) and is_plain(spec)}
 
 
 @pytest.mark.parametrize("name", PLAIN)
 def test_a_plain_file_is_its_own_assembly(name: str):
     spec = PLAIN[name]
     sink, long_way, short_way = Diagnostics(), Loader(), Loader()
-    whole = expanded(spec, Arguments(), long_way, sink, unset=Unset.ERROR, variant=None)
-    plain = as_written(spec, short_way)
+    whole = expand_uses(spec, Arguments(), long_way, sink, unset=Unset.ERROR, variant=None)
+    plain = plain_instance(spec, short_way)
     assert not list(sink)
     assert whole.tree is not None
     assert plain.tree is not None
     assert plain.tree.entries == whole.tree.entries
     assert plain.tree.span == whole.tree.span
-    others = ("name", "entry", "prefix", "mesh_bases", "trail", "modules", "references", "removed", "packages")
+    others = ("name", "entry", "prefix", "mesh_bases", "include_stack", "modules", "references", "removed", "packages")
     for field in (*others, "defaults"):
         assert getattr(plain, field) == getattr(whole, field), field
     assert short_way.budget.left(Limit.ENTRIES) == long_way.budget.left(Limit.ENTRIES)
@@ -67,17 +67,17 @@ def test_a_plain_file_is_its_own_assembly(name: str):
 def test_what_computes_or_may_lack_a_file_is_not_plain(said: str):
     spec = Loader().parse(f"linkforge: 1\nname: r\n{said}\n", "r.robot.yaml", Path(), Diagnostics())
     assert spec
-    assert not computes_nothing(spec)
+    assert not is_plain(spec)
 
 
 def test_words_of_repetition_that_are_no_keys_compute_nothing():
     text = "linkforge: 1\nname: for\nlinks: {base: }  # a value for when there is effort\n"
     spec = Loader().parse(text, "r.robot.yaml", Path(), Diagnostics())
     assert spec
-    assert computes_nothing(spec)
+    assert is_plain(spec)
 
 
-def test_what_its_author_keeps_for_himself_computes_nothing():
+def test_what_its_author_keeps_for_himself_is_plain():
     spec = Loader().parse("linkforge: 1\nname: r\nx-mine: $(1)\n", "r.robot.yaml", Path(), Diagnostics())
     assert spec
-    assert computes_nothing(spec)
+    assert is_plain(spec)

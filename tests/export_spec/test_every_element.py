@@ -14,7 +14,7 @@ from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.part import Element, Inside
 from linkforge_compile.diagnostics import Severity
 from linkforge_compile.export_spec import write_spec
-from linkforge_compile.formats import render_srdf, render_urdf, srdf_limits, urdf_limits
+from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from tests.export_spec.test_every_field import full
 from tests.export_spec.test_laws import compiled
 from tests.formats.everything import everything
@@ -44,7 +44,7 @@ def test_every_element_may_have_more(robot: Callable[[], Robot], render: Callabl
             continue
         assert {"own", "inner"} & {*element.attrib}, etree.tostring(element)
         assert element.find("more") is not None, etree.tostring(element)
-    told = [*urdf_limits(marked), *srdf_limits(marked)]
+    told = [*URDF.limits(marked, {}), *SRDF.limits(marked, {})]
     assert not [fault for fault in told if fault.severity is Severity.ERROR]
     again = compiled(write_spec(marked))
     assert render(again) == render(marked)

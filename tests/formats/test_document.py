@@ -13,9 +13,8 @@ from linkforge_compile.core.models.geometry import Capsule, Mesh, Sphere, Transf
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.material import Color, Material
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics.codes.backends import OTHER_QUATERNION
-from linkforge_compile.formats import BACKENDS, render_srdf, render_urdf
-from linkforge_compile.formats.limits import urdf_limits
+from linkforge_compile.diagnostics.codes.formats import OTHER_QUATERNION
+from linkforge_compile.formats import FORMATS, URDF, render_srdf, render_urdf
 from tests.conftest import ROOT
 
 ARM = Robot("arm", links=[Link("base", collisions=[Collision(Sphere(0.5))]), Link("tool0")])
@@ -25,8 +24,8 @@ def mesh(resource: str) -> Robot:
     return Robot("r", links=[Link("base", visuals=[Visual(Mesh(resource))])])
 
 
-def test_every_backend_is_in_the_table():
-    assert dict(BACKENDS) == {"urdf": render_urdf, "srdf": render_srdf}
+def test_every_format_is_in_the_table():
+    assert [(one.name, one.suffix) for one in FORMATS] == [("urdf", ".urdf"), ("srdf", ".srdf")]
 
 
 def test_a_document_declares_itself_and_ends_its_last_line():
@@ -153,5 +152,5 @@ def test_a_quaternion_that_turns_otherwise_is_told_where_it_is_read(shape: Spher
     robot = Robot(
         "r", links=[Link("a", visuals=[Visual(shape, Transform(extra_attributes=[("quat_xyzw", "0 0 1 0")]))])]
     )
-    told = [one for one in urdf_limits(robot) if one.code is OTHER_QUATERNION]
+    told = [one for one in URDF.limits(robot, {}) if one.code is OTHER_QUATERNION]
     assert len(told) == isinstance(shape, Capsule)

@@ -13,7 +13,7 @@ from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Severity
-from linkforge_compile.formats import render_srdf, render_urdf, srdf_limits, urdf_limits
+from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from tests import strategies
 
 # The first document waits for Jinja to be imported and the templates to be compiled.
@@ -43,7 +43,7 @@ def robots(draw: st.DrawFn) -> Robot:
 @unhurried
 @given(robots(), st.booleans(), st.sampled_from(["gz", "classic"]))
 def test_a_document_is_well_formed_or_refused_and_told(robot: Robot, pretty: bool, gazebo: str):
-    errors = [told for told in urdf_limits(robot, gazebo=gazebo) if told.severity is Severity.ERROR]
+    errors = [told for told in URDF.limits(robot, {"gazebo": gazebo}) if told.severity is Severity.ERROR]
     try:
         text = render_urdf(robot, pretty=pretty, gazebo=gazebo)
     except RobotGeneratorError:
@@ -68,7 +68,7 @@ def _without_layout(text: str) -> etree._Element:
 @given(strategies.semantics)
 def test_an_srdf_is_well_formed(semantic):
     robot = Robot("r", semantic=semantic)
-    assert not list(srdf_limits(robot))
+    assert not list(SRDF.limits(robot, {}))
     etree.fromstring(render_srdf(robot).encode())
 
 
@@ -79,7 +79,7 @@ def test_any_text_comes_back_or_is_refused(texture: str, banner: str):
     try:
         text = render_urdf(robot, banner=banner)
     except RobotGeneratorError:
-        assert list(urdf_limits(robot))
+        assert list(URDF.limits(robot, {}))
     else:
         assert etree.fromstring(text.encode()).find("material/texture").get("filename") == texture
 

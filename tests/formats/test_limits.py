@@ -27,14 +27,14 @@ from linkforge_compile.core.models.sensor import (
 from linkforge_compile.core.models.srdf import SemanticRobotDescription
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.core.part import Element
-from linkforge_compile.formats import srdf_limits, urdf_limits
+from linkforge_compile.formats import SRDF, URDF
 from linkforge_compile.formats.parts import _ways_into, doubtful_parts_in
 from tests.export_spec.test_every_field import full, parts
 from tests.formats.everything import everything
 
 
 def told(robot: Robot, **options: str) -> list[tuple[str, str]]:
-    return [(diagnostic.code.id, diagnostic.message) for diagnostic in urdf_limits(robot, **options)]
+    return [(diagnostic.code.id, diagnostic.message) for diagnostic in URDF.limits(robot, options)]
 
 
 def robot(*visuals: Visual, **parts) -> Robot:
@@ -44,7 +44,7 @@ def robot(*visuals: Visual, **parts) -> Robot:
 def test_an_ordinary_robot_is_within_the_limits():
     arm = robot(Visual(Sphere(1), material=Material("red", Color(1, 0, 0))))
     assert not told(arm)
-    assert not list(srdf_limits(arm))
+    assert not list(SRDF.limits(arm, {}))
 
 
 def test_a_robot_with_everything_is_told_of_its_capsule_alone():
@@ -137,7 +137,7 @@ def test_the_semantic_part_is_its_own_formats_affair():
     semantic = SemanticRobotDescription(groups=[PlanningGroup("arm", links=[TOLL])])
     faulty = Robot("r", semantic=semantic)
     assert not told(faulty)
-    assert [diagnostic.code.id for diagnostic in srdf_limits(faulty)] == ["LF7001"]
+    assert [diagnostic.code.id for diagnostic in SRDF.limits(faulty, {})] == ["LF7001"]
 
 
 def test_nothing_is_taken_for_plain_that_xml_may_be_unable_to_hold():

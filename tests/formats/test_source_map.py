@@ -14,8 +14,9 @@ from lxml import etree
 
 from linkforge_compile import Robot, compile_file, compile_text, render_srdf, render_urdf
 from linkforge_compile.export_spec import explain
+from linkforge_compile.formats import render_srdf_with_map, render_urdf_with_map
 from linkforge_compile.formats.map_file import NoMapError, map_text, read_map
-from linkforge_compile.formats.source_map import Mapped, SourceMap, render_srdf_with_map, render_urdf_with_map
+from linkforge_compile.formats.source_map import Mapped, SourceMap
 from linkforge_compile.source import Span
 from linkforge_compile.source.provenance import Kind
 from tests.conftest import ROOT
@@ -273,7 +274,7 @@ def test_an_override_an_include_and_a_use_are_on_the_trail(tmp_path: Path):
     assert velocity.span.text == "2"
     assert [use.text for use in velocity.spans(Kind.USE)] == ["arm.robot.yaml"]
 
-    whole = json.loads(map_text(mapped, "cell.urdf", tmp_path / "build"))
+    whole = json.loads(map_text(*mapped, "cell.urdf", tmp_path / "build"))
     paths = {source["path"] for source in whole["sources"]}
     assert paths == {"../cell.robot.yaml", "../arm.robot.yaml", "../parts/joints.yaml"}
     [*_, trail] = whole["mappings"][str(number)][-1]
@@ -282,9 +283,9 @@ def test_an_override_an_include_and_a_use_are_on_the_trail(tmp_path: Path):
 
 def test_the_file_of_a_map_is_what_its_schema_says_and_reads_back(robot: Robot):
     mapped = render_urdf_with_map(robot)
-    text = map_text(mapped, "robot.urdf", ROOT / "examples")
+    text = map_text(*mapped, "robot.urdf", ROOT / "examples")
     SCHEMA.validate(json.loads(text))
-    assert text == map_text(render_urdf_with_map(robot), "robot.urdf", ROOT / "examples")
+    assert text == map_text(*render_urdf_with_map(robot), "robot.urdf", ROOT / "examples")
     assert str(ROOT) not in text
     read = read_map(text)
     lines = mapped.text.split("\n")

@@ -370,7 +370,7 @@ def test_what_a_view_says_of_other_elements_is_told_where_there_are_none(text: s
         "{{ robot.add_link(robot.links[0]) }}",
         "{{ robot.export_urdf() }}",
         "{{ robot.clone() }}",
-        "{{ robot._links }}",
+        "{{ robot._tree }}",
         "{{ urdf._replace }}",
         "{{ [].append(1) }}",
     ],

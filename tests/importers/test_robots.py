@@ -53,7 +53,7 @@ def compiled(text: str, folder: Path) -> Documents:
     assert not errors
     robot = compilation.result()
     folder.mkdir()
-    documents = Documents(folder / "robot.urdf", folder / "robot.srdf" if robot.says_semantic else None)
+    documents = Documents(folder / "robot.urdf", folder / "robot.srdf" if robot.has_semantic else None)
     documents.urdf.write_text(render_urdf(robot), "utf-8")
     if documents.srdf:
         documents.srdf.write_text(render_srdf(robot), "utf-8")

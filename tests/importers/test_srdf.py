@@ -220,7 +220,7 @@ def test_comments_around_both_files_are_kept(tmp_path: Path):
 def test_an_srdf_that_says_nothing_is_one(tmp_path: Path):
     whole = imported(tmp_path, '<robot name="r"/>')
     assert whole.text is not None
-    assert compile_text(whole.text).result().says_semantic
+    assert compile_text(whole.text).result().has_semantic
 
 
 @pytest.mark.parametrize("srdf", ["<robot/>", '<group name="g"/>', "<robot", '<robot name="r"><xacro:a/></robot>'])

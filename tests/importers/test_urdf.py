@@ -676,7 +676,7 @@ def test_what_cannot_but_be_too_much_is_told_where_it_gets_there(
     limit: Limit, room: str, line: int, monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.setattr(f"linkforge_compile.importers.{room}.Budget", _leaving(10, limit))
-    monkeypatch.setattr("linkforge_compile.importing.count_entries", None)
+    monkeypatch.setattr("linkforge_compile.importing.charge_entries", None)
     links = "".join(f"<link name='l{i}'/>\n" for i in range(20))
     imported = import_urdf("r.urdf", text=f"<robot name='r'>\n{links}</robot>")
     [told] = imported.diagnostics

@@ -39,7 +39,7 @@ class Spec:
             ref = SourceRef(use.value, use.key, trail)
             inner = (use.key.span, *trail)
             if spec is None:
-                modules.append(Instance(key, None, ref, f"{key}_", trail=inner))
+                modules.append(Instance(key, None, ref, f"{key}_", include_stack=inner))
             else:
                 modules.append(spec.instance(sink, order, key, ref, inner))
         prefix = "" if entry is None else prefix_of(entry, name)

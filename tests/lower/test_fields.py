@@ -5,8 +5,9 @@ import pytest
 
 from linkforge_compile.core import Box, Transform, Vector3
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.lower.elements import lower_origin
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.quantities import EXTENT, Measure
+from linkforge_compile.lower.numbers import EXTENT, NumberType
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar, read
 from linkforge_compile.units import Dimension
@@ -33,7 +34,7 @@ def test_what_is_absent_or_null_is_read_as_none_in_silence():
     assert fields.number("mass") is None
     assert fields.text("name") is None
     assert fields.vector3("axis") is None
-    assert fields.origin() == Transform.identity()
+    assert lower_origin(fields) == Transform.identity()
     assert told(fields) == []
 
 
@@ -42,7 +43,7 @@ def test_what_is_required_and_missing_is_told_at_the_object_with_what_to_write()
     assert fields.text("parent", required="base") is None
     limits = fields.map("limits")
     assert limits is not None
-    assert limits.number("effort", Measure((Dimension.TORQUE,)), required="50 N*m") is None
+    assert limits.number("effort", NumberType((Dimension.TORQUE,)), required="50 N*m") is None
     assert told(fields) == [
         "spec.yaml:1:1: error: joint 'elbow' has no 'parent'; write 'parent: base' [LF5005]",
         "spec.yaml:1:9: error: joint 'elbow' has no 'limits.effort'; write 'effort: 50 N*m' [LF5005]",
@@ -109,8 +110,8 @@ def test_a_name_with_a_space_is_told_at_the_name():
 
 def test_an_origin_is_three_lengths_or_a_map_of_xyz_and_rpy():
     zero = Vector3(0, 0, 0)
-    assert fields_of("origin: [1, 20 mm, 0]").origin() == Transform(Vector3(1, 0.02, 0))
-    turned = fields_of("origin: {rpy: [0, 0, 1 rev]}").origin()
+    assert lower_origin(fields_of("origin: [1, 20 mm, 0]")) == Transform(Vector3(1, 0.02, 0))
+    turned = lower_origin(fields_of("origin: {rpy: [0, 0, 1 rev]}"))
     assert (turned.xyz, turned.rpy.z) == (zero, pytest.approx(6.283185307))
 
 

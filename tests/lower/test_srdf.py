@@ -125,4 +125,4 @@ def test_a_faulty_group_is_a_gap():
 
 @pytest.mark.parametrize("text", ["", "semantic:"])
 def test_a_robot_that_says_nothing_semantic_has_no_semantic_part(text):
-    assert not robot_of(f"name: arm\n{text}").says_semantic
+    assert not robot_of(f"name: arm\n{text}").has_semantic

@@ -50,7 +50,7 @@ SENTENCES = {
     "ros2_control: {arm: {parameters: {a: {b: 1}}}}": "'a' takes text, found a map",
     "links: {arm: {extra: {a: 1}}}": "'extra' takes XML or a list of XML texts, found a map",
     "links: [base, arm]": (
-        "'links' takes a map of links by name, found a list; write each under its name, without '-': 'base: …'"
+        "'links' takes a map of links by name, found a list; write each entry under its name, without '-': 'base: …'"
     ),
     "links: {arm: box}": "'arm' takes a map of visual, collision, inertial, physics and gazebo, found 'box'",
     "links: {arm: {inertial: {mass: [3]}}}": "'mass' takes a number [kg] or a quantity such as '3 kg', found a list",

@@ -13,7 +13,7 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.diagnostics.codes.syntax import UNQUOTED_EXPRESSION
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, event_reader, read
+from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, read, reader
 
 PARSERS = [yaml.BaseLoader, *([yaml.CBaseLoader] if yaml.__with_libyaml__ else [])]
 
@@ -21,7 +21,7 @@ PARSERS = [yaml.BaseLoader, *([yaml.CBaseLoader] if yaml.__with_libyaml__ else [
 @pytest.fixture(params=PARSERS)
 def _each_parser(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each parser of PyYAML, with libyaml or without, gives the same tree and the same faults."""
-    monkeypatch.setattr(event_reader, "PARSER", request.param)
+    monkeypatch.setattr(reader, "PARSER", request.param)
 
 
 pytestmark = pytest.mark.usefixtures("_each_parser")
@@ -241,8 +241,8 @@ def test_a_field_of_a_flow_map_may_be_left_empty():
 
 @pytest.mark.skipif(not yaml.__with_libyaml__, reason="without libyaml, its own parser reads all")
 def test_only_a_file_of_common_size_is_read_by_the_slow_parser(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(event_reader, "PARSER", yaml.CBaseLoader)
-    monkeypatch.setattr(event_reader, "MAX_READ_TWICE", 10)
+    monkeypatch.setattr(reader, "PARSER", yaml.CBaseLoader)
+    monkeypatch.setattr(reader, "MAX_READ_TWICE", 10)
     assert read_text("a: {b:}\n")[1] == []
     assert read_text("a: {bcdef:}\n")[1] == ["1:10 this is not YAML: found unexpected ':'"]
 

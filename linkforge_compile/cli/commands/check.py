@@ -1,4 +1,4 @@
-"""`linkforge check`: all that is wrong with specs, every error at once."""
+"""`linkforge check`: all errors and warnings of specs in one report."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.one_spec import check_spec
+from linkforge_compile.cli.inputs import check_settings_of, check_spec
 from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments
-from linkforge_compile.cli.telling import add_telling_options, has_errors, selected, to_stderr, written
+from linkforge_compile.cli.reports import add_report_options, format_diagnostics, has_errors, select, write_to_stderr
 
 if TYPE_CHECKING:
     import argparse
@@ -21,20 +21,20 @@ if TYPE_CHECKING:
     _Compilations: TypeAlias = Mapping[str | None, Compilation | None]
 
 _EXAMPLES = """\
-A required parameter without a value is no error here: what depends on it is not judged.
+A required parameter without a value is not an error here; values that depend on it are not checked.
 
 examples:
   linkforge check robots/*.robot.yaml
-  linkforge check                                   every spec below, but in hidden folders, build, install and log
+  linkforge check                                   every spec below, except in hidden folders, build, install and log
   linkforge check arm.robot.yaml hardware:=mock
   linkforge check --all-variants arm.robot.yaml     with the defaults and with each of its variants
   linkforge check --format github *.robot.yaml      as annotations of a pull request, on standard output
-  linkforge check --ignore LF5003 arm.robot.yaml    without these warnings; --select LF5 for those alone
+  linkforge check --ignore LF5003 arm.robot.yaml    without these warnings; --select LF5 reports only those
 """
 
 
 _MAX_SPECS = 5_000
-"""In one folder; of more, most are hardly somebody's own."""
+"""The most specs in one folder; more are hardly the sources of robots."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -43,13 +43,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "words",
         metavar="SPEC",
         nargs="*",
-        help="specs, NAME.robot.yaml, or folders (. unless said); - for standard input",
+        help="specs, NAME.robot.yaml, or folders (default: .); - for standard input",
     )
     parser.add_argument(
         "--all-variants", action="store_true", help="check the defaults and every variant of each spec, in one report"
     )
     add_spec_options(parser)
-    add_telling_options(parser, is_product=True)
+    add_report_options(parser, is_product=True)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -57,30 +57,30 @@ def run(arguments: argparse.Namespace) -> int:
 
     words, assignments = split_assignments(arguments.words)
     unread: list[Diagnostic] = []
-    meant = {word: _specs(word, arguments, unread.append) for word in words or ["."]}
-    specs = list(dict.fromkeys(spec for ours in meant.values() for spec in ours))
+    specs_by_word = {word: _find_specs(word, arguments, unread.append) for word in words or ["."]}
+    specs = list(dict.fromkeys(spec for some in specs_by_word.values() for spec in some))
     if arguments.all_variants and arguments.variant is not None:
         raise UsageError("takes --variant or --all-variants, not both")
     if arguments.all_variants and "-" in specs:
         raise UsageError("--all-variants takes files, not standard input")
-    # Specs that use one module share its faults: each is told and counted once.
-    found = {str(one): one for one in unread or _without_specs(meant)}
-    reports = _without_parts({spec: _report(_checked(spec, assignments, arguments)) for spec in specs})
+    # Specs that use the same module repeat its diagnostics: report and count each once.
+    found = {str(one): one for one in unread or _report_empty(specs_by_word)}
+    reports = _without_parts({spec: _merge_runs(_check(spec, assignments, arguments)) for spec in specs})
     for report in reports.values():
         for diagnostic in report.diagnostics:
             found.setdefault(str(diagnostic), diagnostic)
-    told = selected(found.values(), arguments)
-    _write(told, arguments)
+    chosen = select(found.values(), arguments)
+    _print(chosen, arguments)
     if not arguments.quiet:
-        variants = _variants_of(reports.values()) if arguments.all_variants else ""
-        to_stderr(f"checked {_counted(len(reports), 'spec')}{variants}: {summary(told)}\n")
-    return FAULTY_SPEC if has_errors(told) else OK
+        variants = _variants_summary(reports.values()) if arguments.all_variants else ""
+        write_to_stderr(f"checked {_count(len(reports), 'spec')}{variants}: {summary(chosen)}\n")
+    return FAULTY_SPEC if has_errors(chosen) else OK
 
 
-def _specs(word: str, arguments: argparse.Namespace, tell: Callable[[Diagnostic], object]) -> tuple[str, ...]:
-    """Return what a word of the command line means: itself, or every spec in a folder and below, if any.
+def _find_specs(word: str, arguments: argparse.Namespace, report: Callable[[Diagnostic], object]) -> tuple[str, ...]:
+    """Return the specs that a word of the command line names: itself, or every spec below a folder.
 
-    Folders that cannot be read, in which specs may lie, are told, and links that may not be followed.
+    Folders that cannot be read, in which specs may be, are reported, and links that may not be followed.
     """
     # Path.is_dir raises for a name that is too long.
     if not os.path.isdir(word):  # noqa: PTH112
@@ -88,48 +88,45 @@ def _specs(word: str, arguments: argparse.Namespace, tell: Callable[[Diagnostic]
     from linkforge_compile.diagnostics import Note
     from linkforge_compile.diagnostics.codes.modules import UNREADABLE_FILE
     from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
-    from linkforge_compile.editor.specs import TooManyFilesError, specs_below
+    from linkforge_compile.editor.spec_files import TooManyFilesError, find_specs
     from linkforge_compile.roots import ANYWHERE, Roots
 
     folder = Path(word)
     roots = ANYWHERE if arguments.allow_outside else Roots.around(folder, map(Path, packages_of(arguments).values()))
 
     def unread(error: OSError) -> None:
-        tell(UNREADABLE_FILE.at(None, path=error.filename, reason=(error.strerror or "").lower()))
+        report(UNREADABLE_FILE.at(None, path=error.filename, reason=(error.strerror or "").lower()))
 
     def outside(link: Path) -> None:
-        tell(OUTSIDE_ROOTS.at(None, path=link, name="NAME", notes=map(Note, roots.reasons(link))))
+        report(OUTSIDE_ROOTS.at(None, path=link, name="NAME", notes=map(Note, roots.reasons(link))))
 
     try:
-        return tuple(map(str, specs_below(folder, _MAX_SPECS, roots=roots, unread=unread, outside=outside)))
+        return tuple(map(str, find_specs(folder, _MAX_SPECS, roots=roots, unread=unread, outside=outside)))
     except TooManyFilesError as error:
         raise UsageError(f"there are {error} below '{word}'; name the folders of the robots") from error
 
 
-def _without_specs(meant: Mapping[str, tuple[str, ...]]) -> Iterator[Diagnostic]:
-    """Tell of folders that hold no spec."""
+def _report_empty(specs_by_word: Mapping[str, tuple[str, ...]]) -> Iterator[Diagnostic]:
+    """Report folders without a spec."""
     from linkforge_compile.diagnostics.codes.modules import NO_SPEC_BELOW
 
-    return (NO_SPEC_BELOW.at(None, path=word) for word, specs in meant.items() if not specs)
+    return (NO_SPEC_BELOW.at(None, path=word) for word, specs in specs_by_word.items() if not specs)
 
 
-def _checked(spec: str, assignments: list[str], arguments: argparse.Namespace) -> _Compilations:
-    """Check a spec with the variant that was asked for, or with the defaults, None, and every variant."""
+def _check(spec: str, assignments: list[str], arguments: argparse.Namespace) -> _Compilations:
+    """Return the results by variant, where None means the defaults."""
     if not arguments.all_variants:
         return {arguments.variant: check_spec(spec, assignments, arguments)}
-    from linkforge_compile.pipeline import check_variants
+    from linkforge_compile.pipeline import check_each_variant
 
-    parameters, packages = [*arguments.parameters, *assignments], packages_of(arguments)
-    return check_variants(
-        spec, parameters=parameters, packages=packages, gazebo=arguments.gazebo, allow_outside=arguments.allow_outside
-    )
+    return check_each_variant(Path(spec), check_settings_of(assignments, arguments))
 
 
-def _write(told: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
-    """Write text to standard error, where people read, and every form for programs to standard output."""
-    text = written(told, arguments)
+def _print(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
+    """Print text for people on standard error, and forms for programs on standard output."""
+    text = format_diagnostics(diagnostics, arguments)
     if arguments.diagnostics == "text":
-        to_stderr(text)
+        write_to_stderr(text)
     else:
         from linkforge_compile.cli.output import write_to_stdout
 
@@ -137,7 +134,7 @@ def _write(told: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
 
 
 class _Report(NamedTuple):
-    """What is told of a spec, how many variants of it were checked and were not, and the real paths of its files."""
+    """The diagnostics of a spec, the numbers of its variants, and the real paths of its files."""
 
     diagnostics: tuple[Diagnostic, ...]
     variants: int
@@ -145,7 +142,8 @@ class _Report(NamedTuple):
     files: frozenset[str]
 
 
-def _report(compilations: _Compilations) -> _Report:
+def _merge_runs(compilations: _Compilations) -> _Report:
+    """Return the report of a spec, with the diagnostics of all its variants merged."""
     from linkforge_compile.diagnostics.runs import told_once
 
     checked = {variant: one for variant, one in compilations.items() if one is not None}
@@ -157,21 +155,21 @@ def _report(compilations: _Compilations) -> _Report:
     return _Report(told_once(runs), len(checked) - 1, len(compilations) - len(checked), files)
 
 
-def _variants_of(reports: Collection[_Report]) -> str:
-    """Say how many variants of the specs were checked, and how many were not."""
-    words = f" with the defaults and {_counted(sum(report.variants for report in reports), 'variant')}"
+def _variants_summary(reports: Collection[_Report]) -> str:
+    """Return how many variants of the specs were checked, and how many were not, for the summary."""
+    words = f" with the defaults and {_count(sum(report.variants for report in reports), 'variant')}"
     unchecked = sum(report.unchecked for report in reports)
     return f"{words}, but not with {unchecked:,} more" if unchecked else words
 
 
 def _without_parts(reports: Mapping[str, _Report]) -> dict[str, _Report]:
-    """Leave out files without a name that one with a name is made from: what is wrong with them is told there.
+    """Leave out files without a name that are parts of a checked spec, whose report has their diagnostics.
 
-    One that is not included but used as a module has its missing name told there as well.
+    For a nameless file that is used as a module, that report includes the missing name.
     """
     nameless = {spec for spec, report in reports.items() if _lacks_name(spec, report)}
-    judged = {file for spec, report in reports.items() if spec not in nameless for file in report.files}
-    parts = {spec for spec in nameless if os.path.realpath(spec) in judged}
+    checked = {file for spec, report in reports.items() if spec not in nameless for file in report.files}
+    parts = {spec for spec in nameless if os.path.realpath(spec) in checked}
     return {spec: report for spec, report in reports.items() if spec not in parts}
 
 
@@ -182,5 +180,5 @@ def _lacks_name(spec: str, report: _Report) -> bool:
     return any(span is not None and span.file.path == Path(spec) for span in spans)
 
 
-def _counted(count: int, noun: str) -> str:
+def _count(count: int, noun: str) -> str:
     return f"{count or 'no'} {noun}{'' if count == 1 else 's'}"

@@ -1,16 +1,16 @@
-"""`linkforge compile`: a spec to URDF and SRDF, on standard output or into files."""
+"""`linkforge compile`: compiles a spec to standard output or to files."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.build import Order, compile_order, deliver
+from linkforge_compile.cli.build import BuildRequest, compile_request, write_outputs
 from linkforge_compile.cli.exits import UsageError
-from linkforge_compile.cli.one_spec import one_spec
+from linkforge_compile.cli.inputs import require_one_spec
 from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, packages_of, split_assignments
+from linkforge_compile.cli.reports import add_report_options
 from linkforge_compile.cli.targets import Targets, add_target_options, targets_of, targets_of_documents
-from linkforge_compile.cli.telling import add_telling_options
 
 if TYPE_CHECKING:
     import argparse
@@ -23,17 +23,17 @@ examples:
   linkforge compile arm.robot.yaml -o build/            build/arm.urdf, and build/arm.srdf if it has `semantic`
   linkforge compile arm.robot.yaml -o arm.urdf          one file
   linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
-  linkforge compile arm.robot.yaml --gazebo classic     with sensors as Gazebo Classic reads them
+  linkforge compile arm.robot.yaml --gazebo classic     with sensors for Gazebo Classic
   linkforge compile arm.robot.yaml --variant sim        with the values of one of its variants
-  linkforge compile arm.robot.yaml -o build/ --source-map   and what wrote each line, in build/arm.urdf.map.json
-  linkforge compile arm.robot.yaml -o urdf/ --check     write nothing; fail where urdf/arm.urdf is not up to date
-  linkforge compile arm.robot.yaml -o arm.urdf --depfile arm.urdf.d     and what it was made from, for Make and Ninja
+  linkforge compile arm.robot.yaml -o build/ --source-map   and the source of each line, in build/arm.urdf.map.json
+  linkforge compile arm.robot.yaml -o urdf/ --check     write nothing; fail if urdf/arm.urdf is out of date
+  linkforge compile arm.robot.yaml -o arm.urdf --depfile arm.urdf.d     and its dependencies, for Make and Ninja
   linkforge compile - < arm.robot.yaml                  from standard input
   linkforge compile arm.robot.yaml --template docs/templates -o docs/     docs/joints.md, of docs/templates/joints.md.j2
 
---template FOLDER writes NAME for each Jinja2 template NAME.j2 at the top of FOLDER, in place of URDF and SRDF. These
-are written where --format or -o FILE asks for them, or FOLDER has no such template; templates in FOLDER/urdf/ and
-FOLDER/srdf/ then replace linkforge's own. docs/templates.md describes what a template is given.
+--template FOLDER writes NAME for each Jinja2 template NAME.j2 at the top of FOLDER, instead of URDF and SRDF. With
+--format or -o FILE for one of these, or if FOLDER has no such template, URDF and SRDF are written, and templates in
+FOLDER/urdf/ and FOLDER/srdf/ replace linkforge's own. docs/templates.md describes the data of a template.
 """
 
 
@@ -42,47 +42,47 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     add_build_arguments(parser)
     parser.add_argument(
-        "--check", action="store_true", help="write nothing, and fail where a file is not what the spec compiles to"
+        "--check", action="store_true", help="write nothing, and fail if a file differs from what the spec compiles to"
     )
 
 
 def add_build_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add what is said of each compile, be it the only one or one of many."""
+    """Add the arguments that `compile` and `watch` share."""
     add_spec_and_values(parser)
     add_target_options(parser)
     parser.add_argument(
         "--source-map",
         action="store_true",
-        help="write FILE.map.json beside each file, for `linkforge where FILE:LINE` to tell what wrote the line",
+        help="write FILE.map.json beside each file, with which `linkforge where FILE:LINE` finds what wrote a line",
     )
     parser.add_argument(
         "--template",
         metavar="FOLDER",
-        help="write what the Jinja2 templates NAME.j2 in FOLDER make of the robot, in place of URDF and SRDF",
+        help="render the Jinja2 templates NAME.j2 in FOLDER, instead of URDF and SRDF",
     )
     parser.add_argument(
         "--depfile",
         metavar="FILE",
-        help="write what the output was made from, as a rule of Make, for a build to read; - for standard output",
+        help="write the dependencies of the output as a rule of Make, for a build to read; - for standard output",
     )
     parser.add_argument(
         "--installed-in",
         metavar="FOLDER",
-        help="where the URDF will lie beside what it names, that of -o unless said: meshes are looked for from there",
+        help="the final folder of the output, from which relative paths of meshes start (default: that of -o)",
     )
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    ordered = order(arguments)
-    return deliver(ordered, compile_order(ordered, arguments), arguments)
+    request = parse_request(arguments)
+    return write_outputs(request, compile_request(request, arguments), arguments)
 
 
-def order(arguments: argparse.Namespace) -> Order:
-    """Return what the words and options ask for; UsageError for what cannot be meant."""
+def parse_request(arguments: argparse.Namespace) -> BuildRequest:
+    """Return what to build; UsageError for options that contradict each other."""
     specs, assignments = split_assignments(arguments.words)
-    spec = one_spec(specs)
+    spec = require_one_spec(specs)
     templates = None if arguments.template is None else _template_folder(arguments)
     targets = _targets(spec, templates, arguments)
     if arguments.source_map:
@@ -95,7 +95,7 @@ def order(arguments: argparse.Namespace) -> Order:
         targets.require_files("--depfile", "tells what files are made from")
         if arguments.check:
             raise UsageError("--check writes nothing, so there is no --depfile with it")
-    return Order(spec, assignments, targets, templates)
+    return BuildRequest(spec, assignments, targets, templates)
 
 
 def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:

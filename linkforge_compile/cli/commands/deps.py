@@ -1,4 +1,4 @@
-"""`linkforge deps`: every file that a compiled robot is made from, for build systems."""
+"""`linkforge deps`: the files from which a robot is compiled, for build systems."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
-from linkforge_compile.cli.one_spec import compile_spec, one_spec
+from linkforge_compile.cli.inputs import compile_spec, require_one_spec
 from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
-from linkforge_compile.cli.targets import add_output_option, name_of, targets_of
-from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.cli.reports import add_report_options, report
+from linkforge_compile.cli.targets import add_output_option, default_format, name_of, targets_of
 
 if TYPE_CHECKING:
     import argparse
@@ -19,16 +19,17 @@ if TYPE_CHECKING:
 FORMATS = ("make", "json")
 
 _EXAMPLES = """\
-It names the spec, what it includes and uses, files of values, xacro files, and meshes that give an inertia; and of
-linkforge itself the templates and the version. A rule of Make is for the URDF, unless -o names other files.
+It lists the spec, the files that it includes and uses, files of values, xacro files, and meshes from which an inertia
+is computed; and the templates and the version of linkforge itself. A rule of Make is for the URDF, unless -o names
+other files.
 
 examples:
   linkforge deps arm.robot.yaml                       arm.urdf: arm.robot.yaml ...
   linkforge deps arm.robot.yaml -o build/arm.urdf     build/arm.urdf: arm.robot.yaml ...
   linkforge deps arm.robot.yaml --format json         for other tools, also of a spec with errors
 
-In JSON, "files" are those of the robot, "unread" those that were asked for and could not be read, and "linkforge" its
-own. A spec with errors has no rule of Make, for there is nothing made from it.
+In JSON, "files" are those of the robot, "unread" those that could not be read, and "linkforge" its own. For a spec with
+errors, which has no output, no rule of Make is printed.
 """
 
 
@@ -37,18 +38,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     add_spec_and_values(parser)
     add_output_option(parser)
-    parser.add_argument("--format", choices=FORMATS, default="make", help="a rule of Make (unless said), or JSON")
+    parser.add_argument("--format", choices=FORMATS, default="make", help="a rule of Make (default), or JSON")
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
 
     specs, assignments = split_assignments(arguments.words)
-    spec = one_spec(specs)
+    spec = require_one_spec(specs)
     compilation = compile_spec(spec, assignments, arguments)
-    is_faulty = tell(compilation.diagnostics, arguments)
+    is_faulty = report(compilation.diagnostics, arguments)
     if arguments.format == "json":
         write_to_stdout(_json_text(compilation))
     elif not is_faulty:
@@ -59,14 +60,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _outputs(spec: str, outputs: list[str], compilation: Compilation) -> tuple[Path, ...]:
-    """Return the files that `linkforge compile` would write for these outputs, the URDF where there are none."""
-    from linkforge_compile.cli.build import targets_for
+    """Return the files that `linkforge compile` would write for these outputs, that of one format if there are none."""
+    from linkforge_compile.cli.build import paths_for, targets_for
 
-    targets = targets_of(spec, outputs or [f"{name_of(spec)}.urdf"], None)
+    targets = targets_of(spec, outputs or [f"{name_of(spec)}{default_format().suffix}"], None)
     targets.require_files("a rule of Make", "says what files are made from")
-    if compilation.robot is not None:
-        targets = targets_for(compilation.robot, targets) or targets
-    return tuple(path for path in targets.paths.values() if path is not None)
+    assert compilation.robot is not None, "a spec without errors has a robot"
+    needed, faults = targets_for(compilation.robot, targets)
+    return paths_for(compilation.robot, targets if faults else needed)
 
 
 def _json_text(compilation: Compilation) -> str:
@@ -74,10 +75,10 @@ def _json_text(compilation: Compilation) -> str:
 
     from linkforge_compile.resources import compiler_files
 
-    whole = {
+    document = {
         "version": 1,
         "files": list(map(str, compilation.files)),
         "unread": list(map(str, compilation.unread)),
         "linkforge": list(map(str, compiler_files())),
     }
-    return json.dumps(whole, ensure_ascii=False, indent=2) + "\n"
+    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"

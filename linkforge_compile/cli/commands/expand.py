@@ -1,4 +1,4 @@
-"""`linkforge expand`: a spec with all its modules as one flat spec, each part with where it came from."""
+"""`linkforge expand`: a spec with all its modules as one flat spec, with a comment on where each part was written."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
-from linkforge_compile.cli.one_spec import compile_spec, one_spec
+from linkforge_compile.cli.inputs import compile_spec, require_one_spec
 from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
+from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.cli.targets import file_to_write
-from linkforge_compile.cli.telling import add_telling_options, say, tell
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
 
 _EXAMPLES = """\
-What it prints has no modules, parameters, expressions, loops or defaults left, and compiles to the same URDF and
-SRDF. A comment on each part says where it was written. Relative paths of meshes are those of the compiled robot, so
-keep the file beside the spec.
+The result has no modules, parameters, expressions, loops or defaults, and compiles to the same URDF and SRDF. A comment
+on each part says where it was written. Relative paths of meshes are those of the compiled robot, so keep the file
+beside the spec.
 
 examples:
   linkforge expand cell.robot.yaml
@@ -32,27 +32,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_spec_and_values(parser)
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     specs, assignments = split_assignments(arguments.words)
-    spec = one_spec(specs)
+    spec = require_one_spec(specs)
     compilation = compile_spec(spec, assignments, arguments)
-    if tell(compilation.diagnostics, arguments) or compilation.robot is None:
+    if report(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
-    from linkforge_compile.cli.output import refuse_to_replace, write_if_changed, write_to_stdout
+    from linkforge_compile.cli.output import refuse_to_replace, write_document
     from linkforge_compile.export_spec import write_spec
 
     output = file_to_write(arguments.output)
     refuse_to_replace(compilation.files, [output])
     name = on_one_line(Path(spec).name)
     banner = None if spec == "-" else f"Expanded by linkforge from {name}; edit that file, not this one."
-    text = write_spec(compilation.robot, banner=banner, origins=True)
-    if output is None:
-        write_to_stdout(text)
-    elif write_if_changed(output, text):
-        say(f"wrote {arguments.output}", arguments)
-    else:
-        say(f"{arguments.output} is up to date", arguments)
+    write_document(write_spec(compilation.robot, banner=banner, origins=True), output, arguments)
     return OK

@@ -1,4 +1,4 @@
-"""`linkforge explain`: where a value of the finished robot comes from, and what a diagnostic's code means."""
+"""`linkforge explain`: explains where a value of the robot comes from, or what a diagnostic means."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.one_spec import compile_spec, one_spec
+from linkforge_compile.cli.inputs import compile_spec, require_one_spec
 from linkforge_compile.cli.options import add_spec_options, split_assignments
-from linkforge_compile.cli.places import told
-from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.cli.reports import add_report_options, place_lines, report
 from linkforge_compile.source.provenance import Kind, Provenance
 
 if TYPE_CHECKING:
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
     from linkforge_compile.export_spec import ComputedFrom, Explanation, UnknownPathError
 
 _EXAMPLES = """\
-PATH is that of the value in the finished robot: the language's keys in their long form, and final names.
+PATH is the path of the value in the finished robot, with the language's keys in their long form and final names.
 
 examples:
   linkforge explain cell.robot.yaml joints/left_elbow/limits/effort
@@ -47,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--codes", action="store_true", help="list the code of every diagnostic")
     add_spec_options(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -59,14 +58,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _print_manual(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.colour import is_coloured
     from linkforge_compile.cli.manual import UnknownCodeError, page, register_table
     from linkforge_compile.cli.output import write_to_stdout
+    from linkforge_compile.cli.reports import is_colored
 
     words: list[str] = arguments.words
     if arguments.codes and words:
         raise UsageError(f"--codes lists all codes and takes no words, found '{words[0]}'")
-    is_styled = is_coloured(sys.stdout, arguments.color)
+    is_styled = is_colored(sys.stdout, arguments.color)
     try:
         write_to_stdout(register_table() if arguments.codes else page(words[0], styled=is_styled))
     except UnknownCodeError as error:
@@ -79,10 +78,10 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     if len(words) < 2:
         raise UsageError("takes a spec and a path, such as joints/elbow/limits/effort, or a code, such as LF4102")
     *specs, path = words
-    compilation = compile_spec(one_spec(specs), assignments, arguments)
-    # Whoever asks of one value is not told of the rest of the spec, unless that leaves no robot to ask of.
+    compilation = compile_spec(require_one_spec(specs), assignments, arguments)
+    # Warnings about the rest of the spec are not of interest here.
     arguments.quiet = True
-    if tell(compilation.diagnostics, arguments) or compilation.robot is None:
+    if report(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.export_spec import UnknownPathError, explain
@@ -95,21 +94,21 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     return OK
 
 
-_NOT_OF_A_ROBOT = {
+_ONLY_IN_SPECS = {
     "parameters": "`linkforge params` lists those of a spec",
     "variables": "a value that uses one tells of it",
     "modules": "what a module brings is among the links and joints, with its prefix",
     "mount": "the joint is among the `joints`",
     "defaults": "an entry that took one over tells of it",
 }
-"""Sections of a spec that the finished robot has no more, and where to look instead."""
+"""Sections of a spec that the finished robot does not have, with a hint where to look instead."""
 
 
 def _hint(error: UnknownPathError, robot: Robot, path: str) -> str:
     from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
 
-    if not error.owner and error.name in _NOT_OF_A_ROBOT:
-        return f", which is finished; {_NOT_OF_A_ROBOT[error.name]}"
+    if not error.owner and error.name in _ONLY_IN_SPECS:
+        return f", which is finished; {_ONLY_IN_SPECS[error.name]}"
     if not error.owner and error.name == "frames":
         return f", where a frame is a link and a fixed joint{_frame_hint(robot, path.strip('/').partition('/')[2])}"
     if hint := did_you_mean(error.name, error.names):
@@ -119,7 +118,7 @@ def _hint(error: UnknownPathError, robot: Robot, path: str) -> str:
 
 
 def _frame_hint(robot: Robot, path: str) -> str:
-    """Return where what is asked of a frame stands in the robot: its pose and all else is that of the joint."""
+    """Return a hint to the joint of a frame, which has its pose and other values."""
     found = [joint for joint in robot.joints if f"{path}/".startswith(f"{joint.child}/")]
     if not found:
         return ""
@@ -134,10 +133,10 @@ def _lines(explanation: Explanation) -> Iterator[str]:
         yield "written in no file"
         return
     if explanation.is_written:
-        yield from told(chain.sentence, chain.span)
+        yield from place_lines(chain.sentence, chain.span)
     elif explanation.computed_from is None:
         yield "nothing is written for it"
-        yield from told(f"what it belongs to is {chain.sentence}", chain.span)
+        yield from place_lines(f"what it belongs to is {chain.sentence}", chain.span)
     links = [link for link in chain.outer or () if link.sentence]
     of_value = [link for link in links if link.kind in {Kind.EXPRESSION, Kind.VALUE}]
     for link in of_value:
@@ -151,7 +150,7 @@ def _lines(explanation: Explanation) -> Iterator[str]:
 
 def _link(link: Provenance, names: Sequence[NameOrigin] = ()) -> Iterator[str]:
     if link.kind is not Kind.EXPRESSION:
-        yield from told(link.sentence, link.span)
+        yield from place_lines(link.sentence, link.span)
         return
     yield link.sentence
     for name in names:
@@ -160,7 +159,7 @@ def _link(link: Provenance, names: Sequence[NameOrigin] = ()) -> Iterator[str]:
 
 def _computed(inertial: ComputedFrom) -> Iterator[str]:
     yield f"computed from the {inertial.quantity}, even over the shapes of the link"
-    yield from told(f"the {inertial.quantity} is {inertial.place.sentence}", inertial.place.span)
+    yield from place_lines(f"the {inertial.quantity} is {inertial.place.sentence}", inertial.place.span)
     for shape in inertial.shapes:
         yield f"{shape.path}, a {shape.geometry}" + (f", is written at {shape.place}" if shape.place else "")
 

@@ -1,4 +1,4 @@
-"""`linkforge import`: a URDF, and its SRDF, as a spec that a person would want to keep."""
+"""`linkforge import`: a URDF and its SRDF as a spec."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.one_spec import STDIN, one_spec, require_file, standard_input
+from linkforge_compile.cli.inputs import STDIN, read_stdin, require_file, require_one_spec
 from linkforge_compile.cli.options import (
     add_outside_option,
     add_package_option,
@@ -15,9 +15,8 @@ from linkforge_compile.cli.options import (
     packages_of,
     split_assignments,
 )
+from linkforge_compile.cli.reports import add_report_options, print_failure, progress_after, report
 from linkforge_compile.cli.targets import file_to_write, imported_spec
-from linkforge_compile.cli.telling import add_telling_options, say, say_failure, tell
-from linkforge_compile.cli.waiting import told_when_long
 from linkforge_compile.diagnostics import Diagnostic, Severity
 
 if TYPE_CHECKING:
@@ -26,15 +25,15 @@ if TYPE_CHECKING:
     from linkforge_compile.importing import Import
 
 _EXAMPLES = """\
-The spec compiles to the same robot. What the language has no word for is in its `extra`, as raw XML; what cannot be
-kept at all is told. Relative paths of meshes stay as they are, so keep the spec beside the URDF;
-those that lead nowhere from another folder are told.
+The spec compiles to the same robot. What the language cannot express is kept in `extra`, as raw XML; a diagnostic
+reports what cannot be kept at all. Relative paths of meshes stay as they are, so keep the spec beside the URDF; a
+diagnostic reports those that do not resolve from another folder.
 
 examples:
   linkforge import arm.urdf
   linkforge import arm.urdf -o arm.robot.yaml --strict
   linkforge import arm.urdf --srdf arm.srdf -o arm.robot.yaml
-  linkforge import ur.urdf.xacro --srdf ur.srdf.xacro ur_type:=ur5e -o .    each takes the arguments that it has
+  linkforge import ur.urdf.xacro --srdf ur.srdf.xacro ur_type:=ur5e -o .    each gets the arguments that it has
 """
 
 
@@ -47,22 +46,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         help="the robot; a file .xacro is expanded first; - for a URDF on standard input",
     )
-    parser.add_argument("--srdf", metavar="ROBOT.srdf", help="what planners know of the same robot, or its xacro")
+    parser.add_argument("--srdf", metavar="ROBOT.srdf", help="the SRDF of the same robot, or a xacro of it")
     parser.add_argument(
         "-o", "--output", metavar="PATH", help="a file that ends in .yaml, or a folder for NAME.robot.yaml"
     )
-    parser.add_argument("--force", action="store_true", help="replace a spec that is there and says something else")
-    parser.add_argument("--strict", action="store_true", help="fail, writing nothing, where something cannot be kept")
+    parser.add_argument("--force", action="store_true", help="replace an existing spec with other content")
+    parser.add_argument("--strict", action="store_true", help="if something cannot be kept, write nothing and fail")
     add_parameter_option(parser, "set an argument of the xacros")
     add_package_option(parser)
     add_outside_option(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     files, assignments = split_assignments(arguments.words)
-    _refuse_others(files)
-    urdf = one_spec(files)
+    _refuse_other_kinds(files)
+    urdf = require_one_spec(files)
     from linkforge_compile.cli.output import refuse_to_replace
 
     require_file("--srdf", arguments.srdf)
@@ -71,7 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
     output = imported_spec(urdf, arguments.output)
     from linkforge_compile.importing import import_urdf
 
-    with told_when_long(urdf, arguments):
+    with progress_after(urdf, arguments):
         imported = import_urdf(
             STDIN if urdf == "-" else urdf,
             srdf=arguments.srdf,
@@ -79,16 +78,16 @@ def run(arguments: argparse.Namespace) -> int:
             packages=packages_of(arguments),
             allow_outside=arguments.allow_outside,
             output=output.parent if output else None,
-            text=standard_input() if urdf == "-" else None,
+            text=read_stdin() if urdf == "-" else None,
         )
-    told = _with_losses_as_errors(imported) if arguments.strict else imported.diagnostics
-    is_faulty = tell(told, arguments) or imported.has_errors
+    diagnostics = _with_losses_as_errors(imported) if arguments.strict else imported.diagnostics
+    is_faulty = report(diagnostics, arguments) or imported.has_errors
     if imported.text is None:
         return FAULTY_SPEC
     if arguments.strict and is_faulty:
-        say_failure(f"nothing written: {_why(imported.losses)}", arguments)
+        print_failure(f"nothing written: {_reason(imported.losses)}", arguments)
         return FAULTY_SPEC
-    _put(imported.text, output, arguments)
+    _write(imported.text, output, arguments)
     return FAULTY_SPEC if is_faulty else OK
 
 
@@ -98,7 +97,7 @@ def _with_losses_as_errors(imported: Import) -> list[Diagnostic]:
     return [replace(one, taken_for=Severity.ERROR) if one.code in LOSSES else one for one in imported.diagnostics]
 
 
-def _why(losses: tuple[Diagnostic, ...]) -> str:
+def _reason(losses: tuple[Diagnostic, ...]) -> str:
     if not losses:
         return "there are errors"
     count = sum(1 + loss.untold for loss in losses)
@@ -106,8 +105,8 @@ def _why(losses: tuple[Diagnostic, ...]) -> str:
     return f"{count} {'loss' if count == 1 else 'losses'} ({', '.join(codes)})"
 
 
-def _refuse_others(files: list[str]) -> None:
-    """Refuse what is no URDF and no xacro of one: an SRDF, and what is a spec already."""
+def _refuse_other_kinds(files: list[str]) -> None:
+    """Refuse an SRDF without its URDF, and a spec."""
     srdf = next((file for file in files if file.lower().endswith((".srdf", ".srdf.xacro"))), None)
     if srdf:
         robot = next((file for file in files if file != srdf), "ROBOT.urdf")
@@ -116,13 +115,10 @@ def _refuse_others(files: list[str]) -> None:
         raise UsageError(f"'{files[0]}' is a spec already; import takes a URDF or a xacro of one")
 
 
-def _put(text: str, output: Path | None, arguments: argparse.Namespace) -> None:
-    from linkforge_compile.cli.output import write_if_changed, write_to_stdout
+def _write(text: str, output: Path | None, arguments: argparse.Namespace) -> None:
+    from linkforge_compile.cli.output import write_document
 
-    if output is None:
-        write_to_stdout(text)
-        return
-    if output.is_file() and not arguments.force and output.read_bytes() != text.encode("utf-8"):
-        # A spec is the user's own from the import on, and what he changed there is nowhere else.
+    if output and output.is_file() and not arguments.force and output.read_bytes() != text.encode("utf-8"):
+        # Once imported, a spec belongs to the user: do not lose what was changed in it.
         raise UsageError(f"'{output}' is there and says something else; --force replaces it")
-    say(f"wrote {output}" if write_if_changed(output, text) else f"{output} is up to date", arguments)
+    write_document(text, output, arguments)

@@ -1,4 +1,4 @@
-"""`linkforge init`: a folder to begin a robot in."""
+"""`linkforge init`: a folder for a new robot."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from linkforge_compile.editor.robot_folder import RobotFolder
 
 _EXAMPLES = """\
-Writes NAME.robot.yaml, which compiles, the schema by which editors complete it, settings of VS Code, .gitignore,
-.pre-commit-config.yaml and CMakeLists.txt. What is there already is kept as it is, and what it lacks is told; only the
-schema is renewed. A folder within a package or repository gets no second one of what stands once at its top; what is
-read only at the top of a repository, settings of VS Code and .pre-commit-config.yaml, goes there.
+Writes a first spec NAME.robot.yaml, the schema with which editors complete it, settings of VS Code, .gitignore,
+.pre-commit-config.yaml and CMakeLists.txt. Existing files are kept, and the lines that they lack are printed; only the
+schema is renewed. Files that serve a whole package or repository are not written again in a folder within it; settings
+of VS Code and .pre-commit-config.yaml, which tools read only at the top of a repository, are written there.
 
 examples:
   linkforge init my_arm               in a new folder my_arm
@@ -28,55 +28,55 @@ examples:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("name", metavar="NAME", help="name of the robot: letters, digits, _ and -")
-    parser.add_argument("--dir", metavar="FOLDER", help="where to write; a new folder NAME unless said")
-    parser.add_argument("-q", "--quiet", action="store_true", help="do not tell what was written, nor what to do next")
+    parser.add_argument("--dir", metavar="FOLDER", help="where to write (default: a new folder NAME)")
+    parser.add_argument("-q", "--quiet", action="store_true", help="print errors only")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.telling import line_to_stderr
+    from linkforge_compile.cli.reports import print_line
     from linkforge_compile.editor.robot_folder import NAME, RobotFolder
 
     name = arguments.name
     if not NAME.fullmatch(name):
         raise UsageError(f"NAME is letters, digits, _ and -, a letter first; found '{name}'")
     place = RobotFolder.at(Path(arguments.dir if arguments.dir is not None else name))
-    told = _written(place, name)
+    status = _write_files(place, name)
     if not arguments.quiet:
-        for line in (*told, *_next(place, name)):
-            line_to_stderr(line)
+        for line in (*status, *_next_steps(place, name)):
+            print_line(line)
     return OK
 
 
-def _written(place: RobotFolder, name: str) -> list[str]:
-    """Write what is not there yet and the schema, all or nothing; say what was done."""
+def _write_files(place: RobotFolder, name: str) -> list[str]:
+    """Write the missing files and the schema, all or none; return a line of status for each file."""
+    from linkforge_compile.cli.commands.schema import workspace_schema
     from linkforge_compile.cli.output import (
-        place_of,
         refuse_links_out,
-        without_new_folders,
+        remove_new_folders_on_error,
+        resolve_output,
         write_changed,
         write_if_changed,
     )
-    from linkforge_compile.cli.workspace import schema_of
     from linkforge_compile.editor.robot_folder import SCHEMA
 
     files, schema = place.files(name), place.workspace / SCHEMA
     new = {path: text for path, text in files.items() if not (path.exists() or path.is_symlink())}
     refuse_links_out((*new, schema), place.folders, "--dir")
-    with without_new_folders(map(place_of, (*new, schema))):
+    with remove_new_folders_on_error(map(resolve_output, (*new, schema))):
         written = write_changed(new)
         try:
-            # A first folder is no leave to run what is in the others.
-            is_new = write_if_changed(schema, schema_of(place.workspace, {}, runs_xacro=False))
+            # The user did not ask to run the xacro files of other robots in the workspace.
+            is_new = write_if_changed(schema, workspace_schema(place.workspace, {}, runs_xacro=False))
         except BaseException:
             for path in written:
                 path.unlink()
             raise
-    told = [f"wrote {path}" if path in written else f"kept {path}, which is there already" for path in files]
-    return [*told, f"wrote {schema}" if is_new else f"{schema} is up to date"]
+    status = [f"wrote {path}" if path in written else f"kept {path}, which is there already" for path in files]
+    return [*status, f"wrote {schema}" if is_new else f"{schema} is up to date"]
 
 
-def _next(place: RobotFolder, name: str) -> list[str]:
-    """Return what one would do now, as one would type it."""
+def _next_steps(place: RobotFolder, name: str) -> list[str]:
+    """Return the commands to run next, and the lines to add to files that were kept."""
     enter = [] if place.folder.resolve() == Path.cwd() else [f"  cd {place.folder}"]
     lines = [
         "",
@@ -85,6 +85,6 @@ def _next(place: RobotFolder, name: str) -> list[str]:
         f"  linkforge compile {name}.robot.yaml -o build/",
         "  linkforge schema --workspace         when names have changed, so that editors offer them",
     ]
-    for path, missed in place.missing(name).items():
-        lines += ["", f"put into {path}:", *(f"  {line}" for line in missed)]
+    for path, missing in place.missing(name).items():
+        lines += ["", f"put into {path}:", *(f"  {line}" for line in missing)]
     return lines

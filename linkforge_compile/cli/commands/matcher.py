@@ -1,4 +1,4 @@
-"""`linkforge matcher`: what GitHub Actions needs to show the errors of a build at their lines."""
+"""`linkforge matcher`: the problem matcher with which GitHub Actions shows errors of a build at their lines."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     import argparse
 
 _EXAMPLES = """\
-It reads the text that every command and every build step of linkforge prints. In a step before the build:
+It matches the text that every command and build step of linkforge prints. In a step before the build:
   linkforge matcher -o linkforge-matcher.json
   echo "::add-matcher::linkforge-matcher.json"
 Where `linkforge check` is a step of its own, `--format github` needs no matcher.
@@ -20,12 +20,12 @@ Where `linkforge check` is a step of its own, `--format github` needs no matcher
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
-    parser.add_argument("-q", "--quiet", action="store_true", help="say nothing when all is well")
+    parser.add_argument("-q", "--quiet", action="store_true", help="print errors only")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.output import put_json
+    from linkforge_compile.cli.output import write_json
     from linkforge_compile.resources import matcher_file
 
-    put_json(matcher_file().read_text("utf-8"), arguments.output, quiet=arguments.quiet)
+    write_json(matcher_file().read_text("utf-8"), arguments.output, arguments)
     return OK

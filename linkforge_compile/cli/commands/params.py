@@ -1,4 +1,4 @@
-"""`linkforge params`: what a spec lets its user set, as a table or as JSON."""
+"""`linkforge params`: the parameters and variants of a spec, as a table or as JSON."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK
 from linkforge_compile.cli.options import add_outside_option, add_package_option, packages_of
-from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.cli.reports import add_report_options, report
 
 if TYPE_CHECKING:
     import argparse
@@ -18,17 +18,17 @@ _EXAMPLES = """\
 examples:
   linkforge params arm.robot.yaml           a table: name, type, default, limits, description; then the variants
   linkforge params arm.robot.yaml --json    the same for tools; numbers are in SI units
-  linkforge params arm.urdf.xacro           the arguments of a xacro, and of what it includes
+  linkforge params arm.urdf.xacro           the arguments of a xacro, and of the files that it includes
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
-    parser.add_argument("spec", metavar="SPEC", help="the spec, NAME.robot.yaml, or a xacro, which is not run")
+    parser.add_argument("spec", metavar="SPEC", help="the spec, NAME.robot.yaml, or a xacro, which is read but not run")
     parser.add_argument("--json", action="store_true", help="as JSON, for tools")
     add_package_option(parser)
     add_outside_option(parser)
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -38,13 +38,13 @@ def run(arguments: argparse.Namespace) -> int:
     listing, diagnostics = parameters_of(
         arguments.spec, packages=packages_of(arguments), allow_outside=arguments.allow_outside
     )
-    is_faulty = tell(diagnostics, arguments)
+    is_faulty = report(diagnostics, arguments)
     if listing:
-        write_to_stdout(_json_text(listing) if arguments.json else "".join(f"{line}\n" for line in _table(listing)))
+        write_to_stdout(_json_text(listing) if arguments.json else "".join(f"{line}\n" for line in _lines(listing)))
     return FAULTY_SPEC if is_faulty else OK
 
 
-def _table(listing: Listing) -> Iterator[str]:
+def _lines(listing: Listing) -> Iterator[str]:
     yield f"{listing.name}: {listing.description}" if listing.description else listing.name
     yield ""
     if listing.parameters:
@@ -77,13 +77,13 @@ def _aligned(rows: list[tuple[str, ...]]) -> Iterator[str]:
 def _json_text(listing: Listing) -> str:
     import json
 
-    whole = {
+    document = {
         "name": listing.name,
         "description": listing.description,
         "parameters": [_json_parameter(parameter) for parameter in listing.parameters],
         "variants": [{"name": name, "sets": dict(settings)} for name, settings in listing.variants.items()],
     }
-    return json.dumps(whole, ensure_ascii=False, indent=2) + "\n"
+    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
 
 
 def _json_parameter(parameter: ListedParameter) -> dict[str, Plain]:

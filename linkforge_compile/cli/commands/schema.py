@@ -1,12 +1,14 @@
-"""`linkforge schema`: the one bundled JSON Schema (draft-07), for editors; of the language, or of one repository."""
+"""`linkforge schema`: a JSON Schema (draft-07) for editors, of the language or with the names of a repository."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.exits import OK, UsageError
 from linkforge_compile.cli.options import add_package_option, packages_of
+from linkforge_compile.cli.reports import print_line
 
 if TYPE_CHECKING:
     import argparse
@@ -17,11 +19,11 @@ For VS Code and every editor with yaml-language-server, put this on the first li
 after writing the schema beside it:
   linkforge schema -o robot.schema.json
 
-With --workspace, the names of links, joints, groups, materials and files complete where they are referred to, and the
-parameters of a module under `with`; it goes to FOLDER/.linkforge/robot.schema.json unless -o says otherwise. FOLDER is
-the one at or above this that has a schema, up to the top of the repository, else each below that has, else this one,
-unless said. Run it again when names have changed: what is new since is not offered, and is no fault. It compiles the
-specs, so a xacro that one of them uses is run, unless LINKFORGE_NO_XACRO is set.
+With --workspace, editors also complete the names of links, joints, groups, materials and files, and the parameters of
+a module under `with`. Unless -o is given, the schema is written to FOLDER/.linkforge/robot.schema.json. Without
+FOLDER, that is the folder at or above this one, within the repository, that has such a schema; else each folder below
+that has one; else this folder. Run it again when names have changed; new names are valid before that, but not offered.
+It compiles the specs, and so runs xacro files that they use, unless LINKFORGE_NO_XACRO is set.
   linkforge schema --workspace
 """
 
@@ -29,29 +31,28 @@ specs, so a xacro that one of them uses is run, unless LINKFORGE_NO_XACRO is set
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
-    parser.add_argument("-q", "--quiet", action="store_true", help="say nothing when all is well")
+    parser.add_argument("-q", "--quiet", action="store_true", help="print errors only")
     parser.add_argument(
         "--workspace",
         metavar="FOLDER",
         nargs="?",
         const="",
-        help="with the names of all specs below it; unless said, where there is such a schema, else here",
+        help="add the names of all specs below FOLDER (default: the folder that has such a schema, else this one)",
     )
     add_package_option(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.output import put_json, refuse_links_out
+    from linkforge_compile.cli.output import refuse_links_out, write_json
     from linkforge_compile.schema.bundle import bundle_text
 
     if arguments.workspace is None:
-        put_json(bundle_text(), arguments.output, quiet=arguments.quiet)
+        write_json(bundle_text(), arguments.output, arguments)
         return OK
-    from linkforge_compile.cli.workspace import schema_of, workspaces_at
     from linkforge_compile.editor.robot_folder import SCHEMA
 
     packages = {name: Path(folder) for name, folder in packages_of(arguments).items()}
-    roots = (Path(arguments.workspace),) if arguments.workspace else workspaces_at(Path(), packages)
+    roots = (Path(arguments.workspace),) if arguments.workspace else _workspaces(Path(), packages)
     if not roots[0].is_dir():
         raise UsageError(f"--workspace takes a folder, found '{arguments.workspace}'")
     if arguments.output is not None and len(roots) > 1:
@@ -59,5 +60,59 @@ def run(arguments: argparse.Namespace) -> int:
     for root in roots:
         if arguments.output is None:
             refuse_links_out([root / SCHEMA], [root], "-o")
-        put_json(schema_of(root, packages), arguments.output or str(root / SCHEMA), quiet=arguments.quiet)
+        write_json(workspace_schema(root, packages), arguments.output or str(root / SCHEMA), arguments)
     return OK
+
+
+def workspace_schema(root: Path, packages: Mapping[str, Path], *, runs_xacro: bool = True) -> str:
+    """Return the schema of the specs below a folder, and warn on standard error about names that may be missing.
+
+    UsageError if there is no spec, or more than a repository has.
+    """
+    from linkforge_compile.editor import read_vocabulary, without_parts, workspace_text
+    from linkforge_compile.editor.robot_folder import schemas_below
+
+    specs = _find_specs(root, packages)
+    for folder in schemas_below(root, specs):
+        print_line(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it")
+    vocabularies = without_parts(read_vocabulary(spec, root, packages, runs_xacro=runs_xacro) for spec in specs)
+    remedy = "`linkforge check` tells why" if runs_xacro else "`linkforge schema --workspace` may find them"
+    for vocabulary in vocabularies:
+        if not vocabulary.is_whole:
+            print_line(f"names of {root / vocabulary.files[0]} may be missing; {remedy}")
+    return workspace_text(vocabularies)
+
+
+def _workspaces(here: Path, packages: Mapping[str, Path]) -> tuple[Path, ...]:
+    """Return the folder at or above this one that has a schema, else those below that have one, else this one."""
+    from linkforge_compile.editor.robot_folder import SCHEMA, schemas_below, workspace_of
+
+    root = workspace_of(here)
+    if (root / SCHEMA).is_file():
+        return (root,)
+    # `workspace_schema` warns about files that are skipped.
+    return schemas_below(here, _find_specs(here, packages, warns=False)) or (root,)
+
+
+def _find_specs(root: Path, packages: Mapping[str, Path], *, warns: bool = True) -> tuple[Path, ...]:
+    from linkforge_compile.editor import TooManyFilesError, find_specs
+    from linkforge_compile.roots import Roots
+
+    try:
+        roots = Roots.around(root, packages.values())
+        unread, outside = (_warn_unread, _warn_outside) if warns else (None, None)
+        specs = find_specs(root, roots=roots, unread=unread, outside=outside)
+    except TooManyFilesError as error:
+        raise UsageError(f"there are {error} below '{root}'; name the folder of the robots") from error
+    if not specs:
+        raise UsageError(f"there is no spec, NAME.robot.yaml, below '{root}'; name the folder of the robots")
+    return specs
+
+
+def _warn_unread(error: OSError) -> None:
+    print_line(f"'{error.filename}' cannot be read: {(error.strerror or '').lower()}; names may be missing")
+
+
+def _warn_outside(link: Path) -> None:
+    what = f"the link '{link}' leads out of the folders that may be read, and is not opened"
+    print_line(f"{what}; names may be missing")

@@ -1,4 +1,4 @@
-"""`linkforge watch`: compile a spec, and again whenever something changes that it is made from."""
+"""`linkforge watch`: compiles a spec, and again whenever one of its files changes."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.build import Order, compile_order, deliver
+from linkforge_compile.cli.build import BuildRequest, compile_request, write_outputs
 from linkforge_compile.cli.commands import compile as compile_command
 from linkforge_compile.cli.exits import OK, WRONG_USAGE, UsageError
-from linkforge_compile.cli.telling import line_to_stderr, say, say_failure
+from linkforge_compile.cli.reports import print_failure, print_line, print_status
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.roots import identity
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-_SECONDS = 0.3
-"""Between two looks at the files: less than a person takes from the editor to the other window."""
+_POLL_INTERVAL = 0.3
+"""Time between two polls of the files [s]."""
 
-_SETTLED = 0.05
-"""For how long nothing more must change [s]: an editor may write a file in steps, and several at once."""
+_SETTLE_TIME = 0.05
+"""Time without another change before compiling [s], because an editor may write files in several steps."""
 
 _EXAMPLES = """\
-A spec with errors is told and the old output left; the next change compiles again. It ends with Ctrl-C.
+Errors are reported and leave the old output; the next change compiles again. Press Ctrl-C to end it.
 
 examples:
   linkforge watch arm.robot.yaml -o build/
@@ -37,80 +37,78 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     compile_command.add_build_arguments(parser)
     parser.usage = "linkforge watch [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
-    parser.add_argument(
-        "--then", metavar="COMMAND", help="a command of the shell that is run after each compile without errors"
-    )
+    parser.add_argument("--then", metavar="COMMAND", help="a shell command to run after each compile without errors")
     parser.set_defaults(check=False)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    order = compile_command.order(arguments)
-    if order.spec == "-":
+    request = compile_command.parse_request(arguments)
+    if request.spec == "-":
         raise UsageError("takes a file, not standard input")
     # Path.is_dir raises for a name that is too long.
-    if os.path.isdir(order.spec):  # noqa: PTH112
-        raise UsageError(f"takes a spec, NAME.robot.yaml, found the folder '{order.spec}'")
+    if os.path.isdir(request.spec):  # noqa: PTH112
+        raise UsageError(f"takes a spec, NAME.robot.yaml, found the folder '{request.spec}'")
     if arguments.then is not None and not arguments.then.strip():
         raise UsageError("--then takes a command, found nothing")
-    order.targets.require_files("watch", "renews files")
-    watcher = FileWatcher([Path(order.spec)])
-    exit_code = _build(order, watcher, arguments)
+    request.targets.require_files("watch", "renews files")
+    watcher = FileWatcher([Path(request.spec)])
+    exit_code = _build(request, watcher, arguments)
     while True:
         if exit_code == OK and arguments.then is not None:
             _run_then(arguments)
-        say(f"watching {_listed(watcher.paths)}; Ctrl-C ends", arguments)
-        # What the command of --then takes away is not missed.
-        outputs = [path for path in order.targets.paths.values() if path and path.exists()] if exit_code == OK else []
+        print_status(f"watching {_listed(watcher.paths)}; Ctrl-C ends", arguments)
+        # Outputs that the command of --then removed need not be written again.
+        outputs = [path for path in request.targets.paths.values() if path and path.exists()] if exit_code == OK else []
         changed, gone = _wait(watcher, outputs)
         if changed:
-            say(f"{_listed(changed)} changed", arguments)
+            print_status(f"{_listed(changed)} changed", arguments)
         if gone:
-            say(f"{_listed(gone)} {'is' if len(gone) == 1 else 'are'} gone", arguments)
+            print_status(f"{_listed(gone)} {'is' if len(gone) == 1 else 'are'} gone", arguments)
         exit_code = _build_again(watcher, arguments)
 
 
-def _build(order: Order, watcher: FileWatcher, arguments: argparse.Namespace) -> int:
+def _build(request: BuildRequest, watcher: FileWatcher, arguments: argparse.Namespace) -> int:
     began = time.time_ns()
-    compilation = compile_order(order, arguments)
+    compilation = compile_request(request, arguments)
     files = (*compilation.files, *compilation.unread)
-    # Before anything that may fail or take its time: what changes meanwhile is to be seen.
+    # Start before rendering, so that a file that changes meanwhile is noticed.
     watcher.track(files, began)
     try:
-        return deliver(order, compilation, arguments)
+        return write_outputs(request, compilation, arguments)
     finally:
-        watcher.track((*files, *_templates(order)), began)
+        watcher.track((*files, *_templates(request)), began)
 
 
-def _templates(order: Order) -> tuple[Path, ...]:
-    """Return the templates that were read or looked for, and the folder, to which one may be added."""
-    folder = order.templates
+def _templates(request: BuildRequest) -> tuple[Path, ...]:
+    """Return the templates that were read or not found, and their folder, to which the user may add one."""
+    folder = request.templates
     if folder is None:
         return ()
-    # What is written into the folder itself would change it again and again.
-    outputs = (path for path in order.targets.paths.values() if path is not None)
+    # If outputs are written into the folder itself, each compile changes it.
+    outputs = (path for path in request.targets.paths.values() if path is not None)
     is_written = any(identity(path.parent) == identity(folder.folder) for path in outputs)
     return (*folder.files, *folder.unread, *(() if is_written else (folder.folder,)))
 
 
 def _build_again(watcher: FileWatcher, arguments: argparse.Namespace) -> int:
-    """Build, and tell of what cannot be done where the first build would end: it is mended while we watch."""
+    """Build, and report a usage error instead of ending, because the user may correct its cause."""
     try:
-        return _build(compile_command.order(arguments), watcher, arguments)
+        return _build(compile_command.parse_request(arguments), watcher, arguments)
     except UsageError as error:
-        line_to_stderr(f"linkforge watch: {error}")
+        print_line(f"linkforge watch: {error}")
         return WRONG_USAGE
 
 
 def _wait(watcher: FileWatcher, outputs: Sequence[Path]) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
-    """Wait until something changes, or an output is gone, and nothing more does; return what did, and what is gone."""
+    """Wait for changed files or deleted outputs, then until nothing else changes; return both."""
     changed: tuple[Path, ...] = ()
     gone: tuple[Path, ...] = ()
     while not changed and not gone:
-        time.sleep(_SECONDS)
+        time.sleep(_POLL_INTERVAL)
         changed = watcher.poll()
         gone = tuple(path for path in outputs if not path.exists())
     while True:
-        time.sleep(_SETTLED)
+        time.sleep(_SETTLE_TIME)
         more = watcher.poll()
         if not more:
             return changed, gone
@@ -127,4 +125,4 @@ def _run_then(arguments: argparse.Namespace) -> None:
 
     code = subprocess.run(arguments.then, shell=True, check=False).returncode
     if code:
-        say_failure(f"'{arguments.then}' ended with exit code {code}", arguments)
+        print_failure(f"'{arguments.then}' ended with exit code {code}", arguments)

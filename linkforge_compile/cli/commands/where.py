@@ -1,4 +1,4 @@
-"""`linkforge where`: what in a spec wrote a line of the URDF or SRDF, by the map that lies beside it."""
+"""`linkforge where`: finds what in a spec wrote a line of an output, with the source map beside it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.banner import BANNER
 from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.telling import add_telling_options, tell
+from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.source import SourceFile
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from linkforge_compile.source import Span
 
 _EXAMPLES = """\
-NAME is a link, a joint, a sensor or whatever else has one in the file. The map is FILE.map.json, which
+NAME is the name of a link, a joint, a sensor or another element in the file. The source map is FILE.map.json, which
 `linkforge compile --source-map` writes beside the file.
 
 examples:
@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("file", metavar="FILE[:LINE[:COLUMN]]", help="a line of a URDF or SRDF file")
     parser.add_argument("name", metavar="NAME", nargs="?", help="what has this name in the file, instead of a line")
-    add_telling_options(parser)
+    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -48,16 +48,16 @@ def run(arguments: argparse.Namespace) -> int:
     document = _text_of(path)
     source_map = _map_of(path, document)
     sources = _Sources(path.parent, source_map, _faults_of(path, document, source_map))
-    lines = _named(path, document, arguments.name) if line is None else [_Asked(line, column, "")]
+    lines = _named(path, document, arguments.name) if line is None else [_Query(line, column, "")]
     from linkforge_compile.cli.output import write_to_stdout
 
-    rows = (row for asked in lines for row in _answer(path, document, sources, asked))
+    rows = (row for query in lines for row in _answer(path, document, sources, query))
     write_to_stdout("".join(f"{row}\n" for row in rows))
-    return FAULTY_SPEC if tell(sources.faults, arguments) else OK
+    return FAULTY_SPEC if report(sources.faults, arguments) else OK
 
 
-class _Asked(NamedTuple):
-    """A line of the document; `what` stands on it where it was asked for by its name, empty otherwise."""
+class _Query(NamedTuple):
+    """A line of the document to look up; `what` describes the element if it was given by name, else it is empty."""
 
     line: int
     column: int
@@ -65,7 +65,7 @@ class _Asked(NamedTuple):
 
 
 def _place_in(word: str) -> tuple[Path, int | None, int]:
-    """Part `FILE:LINE:COLUMN`; of a file with colons in its name as well."""
+    """Split `FILE:LINE:COLUMN`; the name of the file may contain colons."""
     found = re.fullmatch(r"(?P<file>.+?)(?::(?P<line>[0-9]{1,9})(?::(?P<column>[0-9]{1,9}))?)?:?", word)
     if found is None or Path(word).is_file():
         return Path(word), None, 1
@@ -87,7 +87,7 @@ def _text_of(path: Path) -> str:
 
 
 def _map_of(path: Path, document: str) -> MapFile:
-    """Read the map of a document; UsageError for none, with how to get one."""
+    """Read the map of a document; UsageError if there is none, with the command that writes it."""
     from linkforge_compile.formats.map_file import ENDING, NoMapError, read_map
 
     beside = path.with_name(path.name + ENDING)
@@ -111,13 +111,13 @@ def _faults_of(path: Path, document: str, source_map: MapFile) -> list[Diagnosti
 
 
 def _changed(file: SourceFile, when: str) -> Diagnostic:
-    from linkforge_compile.diagnostics.codes.backends import CHANGED_SINCE
+    from linkforge_compile.diagnostics.codes.formats import CHANGED_SINCE
 
     return CHANGED_SINCE.at(file.whole, when=when)
 
 
-def _named(path: Path, document: str, name: str) -> list[_Asked]:
-    """Return what has a name in a document: what is declared under it, or else whatever refers to it."""
+def _named(path: Path, document: str, name: str) -> list[_Query]:
+    """Return the elements with a name: those that declare it, or else those that refer to it."""
     elements = list(_elements_of(path, document))
     found = [element for element in elements if element.name == name]
     declared = [element for element in found if element.is_declared]
@@ -126,11 +126,11 @@ def _named(path: Path, document: str, name: str) -> list[_Asked]:
 
         names = [element.name for element in elements]
         raise UsageError(f"there is no '{name}' in {path}{did_you_mean(name, names)}")
-    return [_Asked(element.line, 1, f"{element.tag} '{name}'") for element in declared or found]
+    return [_Query(element.line, 1, f"{element.tag} '{name}'") for element in declared or found]
 
 
 class _Element(NamedTuple):
-    """An element with a name; `is_declared` where it is not one inside another that may only refer to it."""
+    """An element with a name; nested ones may only refer to it, and are not `is_declared`."""
 
     tag: str
     name: str
@@ -158,7 +158,7 @@ def _elements_of(path: Path, document: str) -> Iterator[_Element]:
 
 
 class _Sources:
-    """The files that a map refers to, each read once; `faults` grow by those that are not what was mapped."""
+    """The sources of a map, each read once; `faults` collects diagnostics about missing and changed ones."""
 
     def __init__(self, folder: Path, source_map: MapFile, faults: list[Diagnostic]) -> None:
         self.map = source_map
@@ -173,7 +173,7 @@ class _Sources:
         return whole._replace(line=line, column=column, end_line=line, end_column=end)
 
     def _whole(self, number: int) -> Span:
-        from linkforge_compile.diagnostics.codes.backends import SOURCE_NOT_SHOWN
+        from linkforge_compile.diagnostics.codes.formats import SOURCE_NOT_SHOWN
         from linkforge_compile.formats.map_file import hash_of
 
         source = self.map.sources[number]
@@ -199,24 +199,24 @@ def _from_here(path: Path) -> str:
         return str(path)
 
 
-def _answer(path: Path, document: str, sources: _Sources, asked: _Asked) -> Iterator[str]:
-    from linkforge_compile.cli.places import told
+def _answer(path: Path, document: str, sources: _Sources, query: _Query) -> Iterator[str]:
+    from linkforge_compile.cli.reports import place_lines
 
     lines = document.split("\n")
-    if not 0 < asked.line <= len(lines):
-        raise UsageError(f"'{path}' has {len(lines)} lines, found {asked.line}")
-    line = lines[asked.line - 1].rstrip("\r")
-    if asked.column > max(1, len(line)):
-        raise UsageError(f"line {asked.line} of '{path}' has {len(line)} columns, found {asked.column}")
-    yield f"{path}:{asked.line}: {asked.what or line.strip()}"
-    found = sources.map.at(asked.line, asked.column)
+    if not 0 < query.line <= len(lines):
+        raise UsageError(f"'{path}' has {len(lines)} lines, found {query.line}")
+    line = lines[query.line - 1].rstrip("\r")
+    if query.column > max(1, len(line)):
+        raise UsageError(f"line {query.line} of '{path}' has {len(line)} columns, found {query.column}")
+    yield f"{path}:{query.line}: {query.what or line.strip()}"
+    found = sources.map.at(query.line, query.column)
     if found is None:
         yield "nothing is written for it"
         return
     stretch, trail = found
     place = sources.span(stretch)
-    yield from told("written", place)
+    yield from place_lines("written", place)
     if stretch.length and place.text and "$(" in place.text.replace("$$(", ""):
         yield f"computed: {place.text}"
     for how, step in trail:
-        yield from told(how, sources.span(step))
+        yield from place_lines(how, sources.span(step))

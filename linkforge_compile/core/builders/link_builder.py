@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
 from linkforge_compile.core.builders.joint_draft import JointDraft
 from linkforge_compile.core.builders.shapes import Triple, pose
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Mesh, Transform
 from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
@@ -18,8 +19,6 @@ from linkforge_compile.core.physics import calculate_inertia, inertial_of_shapes
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.core.solid import Solid
-
-_PHYSICS = frozenset(field.name for field in fields(LinkPhysics))
 
 
 @runtime_checkable
@@ -177,15 +176,15 @@ class LinkBuilder(JointDraft):
         return self
 
     def physics(self, **properties: Any) -> Self:  # Any: each field has a type of its own
-        """Set fields of LinkPhysics (self_collide, gravity, mu, mu2, kp, kd); others go to a GazeboElement."""
+        """Set fields of LinkPhysics (self_collide, gravity, mu, mu2, kp, kd); others are set on a GazeboElement."""
         self._check_not_committed()
-        known = {name: value for name, value in properties.items() if name in _PHYSICS}
+        known = {name: properties.pop(name) for name in field_specs(LinkPhysics) if name in properties}
         self._physics = replace(self._physics, **known)
-        self._gazebo.update({name: value for name, value in properties.items() if name not in _PHYSICS})
+        self._gazebo.update(properties)
         return self
 
     def child(self, name: str, joint_name: str | None = None) -> LinkBuilder:
-        """Commit this link and begin one that hangs on it."""
+        """Commit this link and begin a child of it."""
         self._commit()
         return LinkBuilder(self._builder, name, parent=self._link_name, joint_name=joint_name)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Self
+from typing import Any, Self
 
 from linkforge_compile.core import constants as default
 from linkforge_compile.core.builders.shapes import Triple, pose
@@ -45,7 +45,7 @@ class LinkDraft:
     ) -> Self:
         """Add a camera by its horizontal field of view [rad] and size [px]."""
         info = CameraInfo(horizontal_fov=fov, width=width, height=height)
-        return self.sensor(Sensor(name, SensorType.CAMERA, self._link_name, camera_info=info, origin=pose(xyz, rpy)))
+        return self._add_sensor(name, SensorType.CAMERA, xyz, rpy, camera_info=info)
 
     def lidar(  # noqa: PLR0917 the contract's signature
         self,
@@ -58,7 +58,7 @@ class LinkDraft:
     ) -> Self:
         """Add a lidar of one layer by its range [m] and the rays in its sweep, half a turn ahead."""
         info = LidarInfo(range_min=range_min, range_max=range_max, horizontal_samples=samples)
-        return self.sensor(Sensor(name, SensorType.LIDAR, self._link_name, lidar_info=info, origin=pose(xyz, rpy)))
+        return self._add_sensor(name, SensorType.LIDAR, xyz, rpy, lidar_info=info)
 
     def gpu_lidar(  # noqa: PLR0917 the contract's signature
         self,
@@ -69,9 +69,9 @@ class LinkDraft:
         xyz: Triple = (0, 0, 0),
         rpy: Triple = (0, 0, 0),
     ) -> Self:
-        """Add a lidar that the simulator renders, as for `lidar`."""
+        """Add a lidar that the simulator renders, otherwise as `lidar` does."""
         info = LidarInfo(range_min=range_min, range_max=range_max, horizontal_samples=samples)
-        return self.sensor(Sensor(name, SensorType.GPU_LIDAR, self._link_name, lidar_info=info, origin=pose(xyz, rpy)))
+        return self._add_sensor(name, SensorType.GPU_LIDAR, xyz, rpy, lidar_info=info)
 
     def imu(
         self,
@@ -81,10 +81,7 @@ class LinkDraft:
         rpy: Triple = (0, 0, 0),
     ) -> Self:
         """Add an inertial unit."""
-        origin = pose(xyz, rpy)
-        return self.sensor(
-            Sensor(name, SensorType.IMU, self._link_name, update_rate, imu_info=IMUInfo(), origin=origin)
-        )
+        return self._add_sensor(name, SensorType.IMU, xyz, rpy, update_rate=update_rate, imu_info=IMUInfo())
 
     def gps(
         self,
@@ -94,10 +91,7 @@ class LinkDraft:
         rpy: Triple = (0, 0, 0),
     ) -> Self:
         """Add a satellite receiver."""
-        origin = pose(xyz, rpy)
-        return self.sensor(
-            Sensor(name, SensorType.GPS, self._link_name, update_rate, gps_info=GPSInfo(), origin=origin)
-        )
+        return self._add_sensor(name, SensorType.GPS, xyz, rpy, update_rate=update_rate, gps_info=GPSInfo())
 
     def force_torque(
         self,
@@ -108,18 +102,22 @@ class LinkDraft:
     ) -> Self:
         """Add a force and torque sensor."""
         info = ForceTorqueInfo()
-        origin = pose(xyz, rpy)
-        return self.sensor(
-            Sensor(name, SensorType.FORCE_TORQUE, self._link_name, update_rate, force_torque_info=info, origin=origin)
+        return self._add_sensor(
+            name, SensorType.FORCE_TORQUE, xyz, rpy, update_rate=update_rate, force_torque_info=info
         )
 
     def contact(self, name: str, collision: str, update_rate: float = default.DEFAULT_UPDATE_RATE_CONTACT) -> Self:
         """Add a touch sensor that feels with a collision of that name."""
         info = ContactInfo(collision)
-        return self.sensor(Sensor(name, SensorType.CONTACT, self._link_name, update_rate, contact_info=info))
+        return self._add_sensor(name, SensorType.CONTACT, update_rate=update_rate, contact_info=info)
 
     def sensor(self, sensor: Sensor) -> Self:
         """Add a sensor as it is, but on this link."""
         self._check_not_committed()
         self._sensors.append(replace(sensor, link_name=self._link_name))
         return self
+
+    def _add_sensor(
+        self, name: str, kind: SensorType, xyz: Triple | None = None, rpy: Triple | None = None, **values: Any
+    ) -> Self:  # Any: each field of Sensor has a type of its own
+        return self.sensor(Sensor(name, kind, self._link_name, origin=pose(xyz, rpy), **values))

@@ -126,9 +126,9 @@ def _require_insides(corners: Numbers, bodies: Indices) -> None:
         raise MeshError(MeshFault.FLAT, "it encloses no volume")
     if len(inward) * len(corners) > _MAX_HOLLOW_CHECKS:
         raise MeshError(MeshFault.TOO_LARGE, f"it has {len(inward):,} hollows and {len(corners):,} triangles")
-    lost = sum(not _lies_inside(corners[bodies == body][0, 0], corners[bodies != body]) for body in inward)
-    if lost:
-        message = f"{lost} of its {len(volumes)} bodies face inwards without being a hollow of another"
+    outside = sum(not _lies_inside(corners[bodies == body][0, 0], corners[bodies != body]) for body in inward)
+    if outside:
+        message = f"{outside} of its {len(volumes)} bodies face inwards without being a hollow of another"
         raise MeshError(MeshFault.INSIDE_OUT, message)
 
 

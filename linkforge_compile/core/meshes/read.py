@@ -61,8 +61,8 @@ def solid_in(content: bytes, name: str, *, times: int = 1) -> Solid:
     """Return the solid that a mesh bounds, in the units and the frame of its file; `name` ends in .stl, .obj or .dae.
 
     Several bodies are one solid; where they overlap, the common part counts for each. The numbers of a COLLADA file are
-    converted to metres by its unit, and its axes are kept whatever `up_axis` says: so does RViz, for which most meshes
-    of URDFs were made. The mesh may have `times` MAX_TRIANGLES.
+    converted to metres by its unit, and its axes are kept whatever its `up_axis` is: so does RViz, for which most
+    meshes of URDFs were made. The mesh may have `times` MAX_TRIANGLES.
 
     Raises:
         MeshError: The file cannot be read, or does not hold a solid. Nothing is repaired.

@@ -1,32 +1,33 @@
-"""Which links a planner need not hold against each other, and the spheres that stand for a link's shape."""
+"""Collisions in motion planning: pairs of links that are not checked, and spheres in place of a link's shape."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 from linkforge_compile.core.exceptions import FieldPath, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import NOT_NEGATIVE, Children, Number, Reference, Text
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import is_finite, not_finite, require_not_blank
+from linkforge_compile.units import LENGTH
 
 
 @dataclass(frozen=True, slots=True)
 class CollisionPair(Element):
     """Two links whose collision is not checked, or is after all: `<disable_collisions>`, `<enable_collisions>`.
 
-    `reason` is for people and tools (`Adjacent`, `Never`), None if nobody says. (a, b) and (b, a) mean the same but
-    are not equal; `key` is.
+    `reason` is for people and tools (`Adjacent`, `Never`), None if not given. (a, b) and (b, a) are
+    the same pair but not equal; `key` is.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank link, INVALID_VALUE for a link with itself.
 
     """
 
-    PREFIXED = ("link1", "link2")
-
-    link1: str
-    link2: str
-    reason: str | None = None
+    link1: Annotated[str, Reference("link", key="")]
+    link2: Annotated[str, Reference("link", key="")]
+    reason: Annotated[str | None, Text()] = None
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -46,6 +47,9 @@ class CollisionPair(Element):
         return (self.link1, self.link2) if self.link1 < self.link2 else (self.link2, self.link1)
 
 
+_CENTER = Number(LENGTH, key="center", xml="@center", example="[0, 0, 0.1]")
+
+
 @dataclass(frozen=True, slots=True)
 class SrdfSphere(Element):
     """A sphere in the frame of its link: `<sphere center radius>`, all [m].
@@ -56,10 +60,12 @@ class SrdfSphere(Element):
 
     """
 
-    center_x: float
-    center_y: float
-    center_z: float
-    radius: float
+    TAG = "sphere"
+
+    center_x: Annotated[float, _CENTER]
+    center_y: Annotated[float, _CENTER]
+    center_z: Annotated[float, _CENTER]
+    radius: Annotated[float, Number(LENGTH, NOT_NEGATIVE, example="0.1")]
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -83,17 +89,17 @@ class SrdfSphere(Element):
 
 @dataclass(frozen=True, slots=True)
 class LinkSphereApproximation(Element):
-    """Spheres that stand for the shape of a link: `<link_sphere_approximation link>`; none means it has no shape.
+    """Spheres in place of the shape of a link: `<link_sphere_approximation link>`; without spheres it has no shape.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank link.
 
     """
 
-    PREFIXED = ("link",)
+    TAG = "link_sphere_approximation"
 
-    link: str
-    spheres: Sequence[SrdfSphere] = ()
+    link: Annotated[str, Reference("link", key="")]
+    spheres: Annotated[Sequence[SrdfSphere], Children()] = ()
 
     def __post_init__(self) -> None:
         freeze(self, "spheres")

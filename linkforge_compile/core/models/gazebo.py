@@ -1,11 +1,24 @@
-"""Gazebo: what a simulator wants to know about a link, a joint or the robot, and its plugins."""
+"""Gazebo: settings of the simulator for a link, a joint or the robot, and its plugins."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Annotated
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import (
+    NOT_NEGATIVE,
+    ZERO_TO_ONE,
+    Children,
+    Flag,
+    Name,
+    Number,
+    Parameters,
+    Reference,
+    Text,
+    tags_with_text,
+)
 from linkforge_compile.core.frozen_map import FreePart, FrozenMap
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import require_finite, require_not_blank
@@ -24,19 +37,17 @@ class GazeboPlugin(Element):
 
     """
 
-    PREFIXED = ("name",)
-    KEYS_ARE_TAGS = True
+    TAG = "plugin"
 
-    name: str
-    filename: str
-    parameters: Mapping[str, FreePart] = FrozenMap()
+    name: Annotated[str, Name(example="controller")]
+    filename: Annotated[str, Text(example="libcontroller.so")]
+    parameters: Annotated[Mapping[str, FreePart], Parameters(xml="*")] = FrozenMap()
     raw_xml: str | None = field(default=None, compare=False)
 
     def with_prefix(self, prefix: str) -> GazeboPlugin:
         """Return the plugin with the prefix before its name, unless that is a class of Gazebo Sim's.
 
-        Gazebo Classic's plugins are named by their user; Gazebo Sim loads the class that the name says, such as
-        `gz::sim::systems::Imu`, and there is none with a prefix.
+        A plugin of Gazebo Classic has any name; Gazebo Sim loads the class of that name, `gz::sim::systems::Imu`.
         """
         return self if "::" in self.name else Element.with_prefix(self, prefix)
 
@@ -52,17 +63,6 @@ class GazeboPlugin(Element):
             )
 
 
-ELEMENT_TAGS = {
-    "material": "material",
-    "static": "static",
-    "stop_cfm": "stopCfm",
-    "stop_erp": "stopErp",
-    "provide_feedback": "provideFeedback",
-    "implicit_spring_damper": "implicitSpringDamper",
-}
-"""The tag that each field of GazeboElement becomes that is one, in the order in which they are written."""
-
-
 @dataclass(frozen=True, slots=True)
 class GazeboElement(Element):
     """Settings of a simulator: `<gazebo reference>`.
@@ -70,7 +70,7 @@ class GazeboElement(Element):
     `reference` names a link or joint, None the robot as a whole. `properties` are child elements by tag: their
     texts, or what is in them. `material` and `static` belong to links, the rest to joints: `stop_cfm` (constraint
     force mixing at the joint's stops, 0 or above) and `stop_erp` (share of the error that a step corrects, 0 to 1).
-    None for what is not said.
+    None for what is not written.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank reference, INVALID_VALUE for stop_cfm or stop_erp out of range.
@@ -78,18 +78,17 @@ class GazeboElement(Element):
 
     """
 
-    PREFIXED = ("reference", "plugins")
-    KEYS_ARE_TAGS = True
+    TAG = "gazebo"
 
-    reference: str | None = None
-    properties: Mapping[str, FreePart] = FrozenMap()
-    plugins: Sequence[GazeboPlugin] = ()
-    material: str | None = None
-    static: bool | None = None
-    stop_cfm: float | None = None
-    stop_erp: float | None = None
-    provide_feedback: bool | None = None
-    implicit_spring_damper: bool | None = None
+    reference: Annotated[str | None, Reference("part")] = None
+    properties: Annotated[Mapping[str, FreePart], Parameters(xml="*")] = FrozenMap()
+    plugins: Annotated[Sequence[GazeboPlugin], Children()] = ()
+    material: Annotated[str | None, Text(xml="material/text()")] = None
+    static: Annotated[bool | None, Flag(xml="static/text()")] = None
+    stop_cfm: Annotated[float | None, Number(bound=NOT_NEGATIVE, xml="stopCfm/text()")] = None
+    stop_erp: Annotated[float | None, Number(bound=ZERO_TO_ONE, xml="stopErp/text()")] = None
+    provide_feedback: Annotated[bool | None, Flag(xml="provideFeedback/text()")] = None
+    implicit_spring_damper: Annotated[bool | None, Flag(xml="implicitSpringDamper/text()")] = None
 
     def __post_init__(self) -> None:
         freeze(self, "plugins", mappings=("properties",))
@@ -113,6 +112,9 @@ class GazeboElement(Element):
             )
         require_finite(self, "stop_cfm")
 
+
+ELEMENT_TAGS = tags_with_text(GazeboElement)
+"""The tags of the fields of GazeboElement that become tags, in the order in which they are written."""
 
 KEEP_FIXED_JOINT = ("preserveFixedJoint", "disableFixedJointLumping")
 """The tags by which a block about a fixed joint keeps Gazebo from merging the links on its two sides into one."""

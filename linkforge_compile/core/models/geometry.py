@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import isfinite
-from typing import Annotated, TypeAlias
+from typing import Annotated, ClassVar, TypeAlias
 
 from linkforge_compile.core.constants import PI
 from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
-from linkforge_compile.core.fields import ABOVE_ZERO, Number
+from linkforge_compile.core.fields import ABOVE_ZERO, NOT_ZERO, Number, Text, Vector
 from linkforge_compile.core.part import Element, Part, freeze
 from linkforge_compile.core.rules import is_finite, not_finite, require_finite
-from linkforge_compile.units import LENGTH
+from linkforge_compile.units import ANGLE, LENGTH
 
 
 class GeometryType(StrEnum):
@@ -43,7 +43,7 @@ class Vector3(Part):
 
     def __post_init__(self) -> None:
         if self.x.__class__ is self.y.__class__ is self.z.__class__ is float and isfinite(self.x + self.y + self.z):
-            return  # nine of ten
+            return  # most vectors
         for position, (name, value) in enumerate(zip("xyz", self, strict=True)):
             if not is_finite(value):
                 raise not_finite(value, name, f"Vector3.{name}", (position,))
@@ -71,13 +71,15 @@ class Transform(Element):
     is written although it moves nothing; it is no other pose for that.
     """
 
-    xyz: Vector3 = _ZERO
-    rpy: Vector3 = _ZERO
+    TAG: ClassVar[str] = "origin"
+
+    xyz: Annotated[Vector3, Vector(LENGTH)] = _ZERO
+    rpy: Annotated[Vector3, Vector(ANGLE)] = _ZERO
     is_stated: bool = field(default=False, kw_only=True, compare=False, repr=False)
 
     @property
     def is_written(self) -> bool:
-        """Whether it becomes an element: it moves something, or is stated all the same."""
+        """Whether it becomes an element: it moves something, or is stated."""
         return self.is_stated or self != IDENTITY
 
     @classmethod
@@ -93,8 +95,19 @@ IDENTITY = Transform()
 """The pose that moves nothing."""
 
 
+class _Shape(Element):
+    """What shapes have in common: a type, which is their tag inside `<geometry>`."""
+
+    __slots__ = ()
+
+    @property
+    def type(self) -> GeometryType:
+        """The tag of the shape inside `<geometry>`."""
+        return GeometryType(self.TAG)
+
+
 @dataclass(frozen=True, slots=True)
-class Box(Element):
+class Box(_Shape):
     """A cuboid centred on its origin: `<box size>`; `size` is its full extent along x, y, z [m].
 
     Raises:
@@ -102,7 +115,9 @@ class Box(Element):
 
     """
 
-    size: Vector3
+    TAG: ClassVar[str] = "box"
+
+    size: Annotated[Vector3, Vector(LENGTH, ABOVE_ZERO, example="[0.1, 0.1, 0.1]")]
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -116,11 +131,6 @@ class Box(Element):
                     field=(position,),
                 )
 
-    @property
-    def type(self) -> GeometryType:
-        """The tag that the shape becomes inside `<geometry>`."""
-        return GeometryType.BOX
-
     def volume(self) -> float:
         """Return the volume [m³]."""
         return self.size.x * self.size.y * self.size.z
@@ -131,7 +141,7 @@ _LENGTH = Number(LENGTH, ABOVE_ZERO, example="0.5", is_required_in_urdf=True)
 
 
 @dataclass(frozen=True, slots=True)
-class Cylinder(Element):
+class Cylinder(_Shape):
     """A cylinder about its z axis, centred on its origin: `<cylinder radius length>`, both [m].
 
     Raises:
@@ -140,6 +150,8 @@ class Cylinder(Element):
 
     """
 
+    TAG: ClassVar[str] = "cylinder"
+
     radius: Annotated[float, _RADIUS]
     length: Annotated[float, _LENGTH]
 
@@ -147,18 +159,13 @@ class Cylinder(Element):
         freeze(self)
         _require_extents(self, "radius", "length")
 
-    @property
-    def type(self) -> GeometryType:
-        """The tag that the shape becomes inside `<geometry>`."""
-        return GeometryType.CYLINDER
-
     def volume(self) -> float:
         """Return the volume [m³]."""
         return PI * (self.radius * self.radius) * self.length
 
 
 @dataclass(frozen=True, slots=True)
-class Sphere(Element):
+class Sphere(_Shape):
     """A sphere about its origin: `<sphere radius>` [m].
 
     Raises:
@@ -167,16 +174,13 @@ class Sphere(Element):
 
     """
 
+    TAG: ClassVar[str] = "sphere"
+
     radius: Annotated[float, _RADIUS]
 
     def __post_init__(self) -> None:
         freeze(self)
         _require_extents(self, "radius")
-
-    @property
-    def type(self) -> GeometryType:
-        """The tag that the shape becomes inside `<geometry>`."""
-        return GeometryType.SPHERE
 
     def volume(self) -> float:
         """Return the volume [m³]."""
@@ -184,7 +188,7 @@ class Sphere(Element):
 
 
 @dataclass(frozen=True, slots=True)
-class Capsule(Element):
+class Capsule(_Shape):
     """A cylinder about its z axis with a half sphere on either end: `<capsule radius length>`, both [m].
 
     `length` is that of the cylinder alone, so the whole is `length + 2 * radius` long. Centred on its origin.
@@ -195,6 +199,8 @@ class Capsule(Element):
 
     """
 
+    TAG: ClassVar[str] = "capsule"
+
     radius: Annotated[float, _RADIUS]
     length: Annotated[float, _LENGTH]
 
@@ -202,18 +208,13 @@ class Capsule(Element):
         freeze(self)
         _require_extents(self, "radius", "length")
 
-    @property
-    def type(self) -> GeometryType:
-        """The tag that the shape becomes inside `<geometry>`."""
-        return GeometryType.CAPSULE
-
     def volume(self) -> float:
         """Return the volume [m³]."""
         return PI * (self.radius * self.radius) * (self.length + 4 / 3 * self.radius)
 
 
 @dataclass(frozen=True, slots=True)
-class Mesh(Element):
+class Mesh(_Shape):
     """A shape from a file: `<mesh filename scale>`.
 
     `resource` is the file, as a URI or a path, and may be empty; `scale` the factors along x, y, z, where a
@@ -225,13 +226,15 @@ class Mesh(Element):
 
     """
 
-    resource: str
-    scale: Vector3 = _ONE
+    TAG: ClassVar[str] = "mesh"
+
+    resource: Annotated[str, Text(key="file", xml="@filename", example="meshes/part.stl")]
+    scale: Annotated[Vector3, Vector(bound=NOT_ZERO)] = _ONE
     is_scale_stated: bool = field(default=False, kw_only=True, compare=False, repr=False)
 
     @property
     def is_scale_written(self) -> bool:
-        """Whether `scale` becomes an attribute: it is not 1, or is stated all the same."""
+        """Whether `scale` becomes an attribute: it is not 1, or is stated."""
         return self.is_scale_stated or self.scale != _ONE
 
     def __post_init__(self) -> None:
@@ -245,11 +248,6 @@ class Mesh(Element):
                     value=self.scale,
                     field=("scale", position),
                 )
-
-    @property
-    def type(self) -> GeometryType:
-        """The tag that the shape becomes inside `<geometry>`."""
-        return GeometryType.MESH
 
 
 Geometry: TypeAlias = Box | Cylinder | Sphere | Capsule | Mesh

@@ -11,11 +11,11 @@ from linkforge_compile.source import SourceRef
 
 
 class Interface(str):
-    """The name of an interface, `position` say: `<command_interface name>` or `<state_interface name>`.
+    """The name of an interface, such as `position`: `<command_interface name>` or `<state_interface name>`.
 
-    It is that name to whoever compares, sorts, hashes or prints it; two interfaces are equal if their parameters and
-    extras are so, too. `parameters` are texts by name (`min`, `max`, `initial_value`): `<param name>`.
-    `source` says where it was written, None if nowhere.
+    It sorts, hashes and prints as that name, and equals it; two interfaces are equal if their parameters and extras
+    are, too. `parameters` are texts by name (`min`, `max`, `initial_value`): `<param name>`.
+    `source` is where it was written, None if it was not read.
     """
 
     __slots__ = ("extra_attributes", "extra_elements", "extra_inside", "parameters", "source")
@@ -50,7 +50,7 @@ class Interface(str):
 
     @classmethod
     def of(cls, name: str) -> Interface:
-        """Return the interface itself, or the one without parameters that a bare name means."""
+        """Return the interface itself, or one without parameters for a bare name."""
         return name if isinstance(name, Interface) else cls(name)
 
     def __eq__(self, other: object) -> bool:
@@ -59,7 +59,7 @@ class Interface(str):
         return str.__eq__(self, other) if isinstance(other, str) else NotImplemented
 
     def __ne__(self, other: object) -> bool:
-        # str has an unequal of its own, which would not ask `__eq__`.
+        # str defines `__ne__` itself and does not call `__eq__`.
         equal = self.__eq__(other)
         return equal if equal is NotImplemented else not equal
 

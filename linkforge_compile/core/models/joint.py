@@ -17,7 +17,17 @@ from linkforge_compile.core.constants import (
     UNKNOWN,
 )
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.fields import NOT_NEGATIVE, Number, check_numbers
+from linkforge_compile.core.fields import (
+    NOT_NEGATIVE,
+    Axis,
+    Child,
+    Choice,
+    Name,
+    Number,
+    Pose,
+    Reference,
+    check_numbers,
+)
 from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import require_name, require_valid_characters
@@ -36,7 +46,7 @@ class JointType(StrEnum):
 
     @property
     def motion(self) -> Motion:
-        """How the joint moves, as far as the units of its numbers go."""
+        """How the joint moves, which its units depend on."""
         return _MOTIONS.get(self, Motion.OTHER)
 
 
@@ -111,7 +121,7 @@ class JointLimits(Element):
 
 @dataclass(frozen=True, slots=True)
 class JointDynamics(Element):
-    """What a joint resists with: `<dynamics>`.
+    """Damping and friction of a joint: `<dynamics>`.
 
     `damping` [N·m·s/rad] and static `friction` [N·m]; [N·s/m] and [N] for prismatic joints.
 
@@ -131,19 +141,17 @@ class JointDynamics(Element):
 class JointMimic(Element):
     """A joint that follows another: `<mimic>`; its position is `multiplier` times that of `joint`, plus `offset`.
 
-    `offset` is [rad], or [m] for a prismatic joint. `stated` names those of both that are written although they
-    have their default; it is no other mimic for that.
+    `offset` is [rad], or [m] for a prismatic joint. `stated` names those of
+    the two that are written although they have their default; it is not compared.
 
     Raises:
         RobotMathError: INVALID_VALUE for NaN or infinity.
 
     """
 
-    PREFIXED = ("joint",)
-
     TAG: ClassVar[str] = "mimic"
 
-    joint: str
+    joint: Annotated[str, Reference("joint", example="left_finger")]
     multiplier: Annotated[float, Number(stand_in=UNKNOWN)] = 1.0
     offset: Annotated[float, Number(POSITION, stand_in=UNKNOWN)] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, compare=False, repr=False)
@@ -155,7 +163,7 @@ class JointMimic(Element):
 
 @dataclass(frozen=True, slots=True)
 class JointSafetyController(Element):
-    """Where a controller begins to hold a joint back: `<safety_controller>`.
+    """Where a controller begins to limit a joint: `<safety_controller>`.
 
     The soft limits are positions [rad] or [m]; `k_position` bounds the velocity by the distance to them,
     `k_velocity` the effort by the distance to that velocity. None for what is not written.
@@ -175,7 +183,7 @@ class JointSafetyController(Element):
 
 @dataclass(frozen=True, slots=True)
 class JointCalibration(Element):
-    """Positions at which a reference switch goes up or down: `<calibration>`; [rad] or [m], None for no such edge.
+    """Positions at which a reference switch goes up or down: `<calibration>`; [rad] or [m], None for no such position.
 
     Raises:
         RobotMathError: INVALID_VALUE for NaN or infinity.
@@ -205,19 +213,19 @@ class Joint(Element):
 
     """
 
-    PREFIXED = ("name", "parent", "child", "mimic")
+    TAG: ClassVar[str] = "joint"
 
-    name: str
-    type: JointType
-    parent: str
-    child: str
-    origin: Transform = IDENTITY
-    axis: Vector3 | None = None
-    limits: JointLimits | None = None
-    dynamics: JointDynamics | None = None
-    mimic: JointMimic | None = None
-    safety_controller: JointSafetyController | None = None
-    calibration: JointCalibration | None = None
+    name: Annotated[str, Name()]
+    type: Annotated[JointType, Choice(JointType, example="revolute")]
+    parent: Annotated[str, Reference("link", xml="parent/@link", example="base")]
+    child: Annotated[str, Reference("link", xml="child/@link", example="arm")]
+    origin: Annotated[Transform, Pose()] = IDENTITY
+    axis: Annotated[Vector3 | None, Axis(xml="axis/@xyz")] = None
+    limits: Annotated[JointLimits | None, Child()] = None
+    dynamics: Annotated[JointDynamics | None, Child()] = None
+    mimic: Annotated[JointMimic | None, Child()] = None
+    safety_controller: Annotated[JointSafetyController | None, Child()] = None
+    calibration: Annotated[JointCalibration | None, Child()] = None
     axis_as_written: Vector3 | None = field(default=None, kw_only=True, compare=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -260,5 +268,5 @@ class Joint(Element):
 
     @property
     def degrees_of_freedom(self) -> int:
-        """How many numbers say where the child is: 0 fixed, 1 for one axis, 2 planar, 6 floating."""
+        """How many numbers determine the pose of the child: 0 fixed, 1 for one axis, 2 planar, 6 floating."""
         return _DEGREES_OF_FREEDOM[self.type]

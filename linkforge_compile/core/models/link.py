@@ -1,4 +1,4 @@
-"""Links: rigid bodies with their mass, their looks and their shape in contact."""
+"""Links: rigid bodies with their mass, visuals and collisions."""
 
 from __future__ import annotations
 
@@ -18,12 +18,11 @@ from linkforge_compile.core.constants import (
     MIN_REASONABLE_INERTIA,
 )
 from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.fields import Flag, Number, check_numbers
+from linkforge_compile.core.fields import Child, Children, Flag, Name, Number, Pose, Text, check_numbers, tags_with_text
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Transform
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.models.shape_order import COLLISION, KINDS, VISUAL
-from linkforge_compile.core.naming import prefixed
-from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, set_field
+from linkforge_compile.core.part import Element, Part, attribute_pairs, freeze, prefixed_fields, set_field
 from linkforge_compile.core.rules import require_name, require_valid_characters
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import CONTACT_DAMPING, INERTIA, MASS, STIFFNESS
@@ -63,10 +62,10 @@ _STABILITY_FLOOR = InertiaTensor.stability_floor()
 
 @dataclass(frozen=True, slots=True)
 class Inertial(Element):
-    """How a link resists being moved: `<inertial>`.
+    """The mass properties of a link: `<inertial>`.
 
     `mass` [kg], 0 or above. `origin` is the centre of mass with the axes of the tensor, in the link frame.
-    `inertia` is about the centre of mass in those axes; where nobody states it, the stability floor.
+    `inertia` is about the centre of mass in those axes; the stability floor by default.
 
     Raises:
         RobotPhysicsError: OUT_OF_RANGE if the mass is below 0.
@@ -74,9 +73,11 @@ class Inertial(Element):
 
     """
 
-    mass: Annotated[float, Number(MASS)]
-    origin: Transform = IDENTITY
-    inertia: InertiaTensor = _STABILITY_FLOOR
+    TAG = "inertial"
+
+    mass: Annotated[float, Number(MASS, xml="mass/@value")]
+    origin: Annotated[Transform, Pose()] = IDENTITY
+    inertia: Annotated[InertiaTensor, Child()] = _STABILITY_FLOOR
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -104,12 +105,12 @@ class LinkPhysics(Part):
 
     """
 
-    self_collide: Annotated[bool, Flag()] = DEFAULT_SELF_COLLIDE
-    gravity: Annotated[bool, Flag()] = GRAVITY_ENABLED
-    mu: Annotated[float, Number()] = DEFAULT_FRICTION_MU
-    mu2: Annotated[float, Number()] = DEFAULT_FRICTION_MU2
-    kp: Annotated[float, Number(STIFFNESS)] = DEFAULT_CONTACT_KP
-    kd: Annotated[float, Number(CONTACT_DAMPING)] = DEFAULT_CONTACT_KD
+    self_collide: Annotated[bool, Flag(xml="selfCollide/text()")] = DEFAULT_SELF_COLLIDE
+    gravity: Annotated[bool, Flag(xml="gravity/text()")] = GRAVITY_ENABLED
+    mu: Annotated[float, Number(xml="mu1/text()")] = DEFAULT_FRICTION_MU
+    mu2: Annotated[float, Number(xml="mu2/text()")] = DEFAULT_FRICTION_MU2
+    kp: Annotated[float, Number(STIFFNESS, xml="kp/text()")] = DEFAULT_CONTACT_KP
+    kd: Annotated[float, Number(CONTACT_DAMPING, xml="kd/text()")] = DEFAULT_CONTACT_KD
     stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
 
     def __post_init__(self) -> None:
@@ -117,52 +118,45 @@ class LinkPhysics(Part):
         check_numbers(self)
 
     def is_written(self, name: str) -> bool:
-        """Whether a field becomes a tag: it differs from its default, or is stated all the same."""
+        """Whether a field becomes a tag: it differs from its default, or is stated."""
         return name in self.stated or getattr(self, name) != getattr(USUAL_PHYSICS, name)
 
 
 USUAL_PHYSICS = LinkPhysics()
-"""What a simulator does with a link that says nothing, which is nearly every link."""
+"""The defaults of simulators."""
 
-PHYSICS_TAGS = {
-    "self_collide": "selfCollide",
-    "gravity": "gravity",
-    "mu": "mu1",
-    "mu2": "mu2",
-    "kp": "kp",
-    "kd": "kd",
-}
+PHYSICS_TAGS = tags_with_text(LinkPhysics)
 """The tag of Gazebo that each field of LinkPhysics becomes, in the order in which they are written."""
 
 
 @dataclass(frozen=True, slots=True)
 class Visual(Element):
-    """A shape to look at: `<visual>`; `origin` is its pose in the link frame, None a material or name it lacks."""
+    """A visible shape: `<visual>`; `origin` is its pose in the link frame, `material` and `name` may be None."""
 
-    PREFIXED = ("material", "name")
+    TAG = "visual"
 
-    geometry: Geometry
-    origin: Transform = IDENTITY
-    material: Material | None = None
-    name: str | None = None
+    geometry: Annotated[Geometry, Child(key="", xml="geometry/*")]
+    origin: Annotated[Transform, Pose()] = IDENTITY
+    material: Annotated[Material | None, Child()] = None
+    name: Annotated[str | None, Name(key="name")] = None
 
 
 @dataclass(frozen=True, slots=True)
 class Collision(Element):
-    """A shape to touch: `<collision>`; `origin` is its pose in the link frame, None a name it lacks."""
+    """A shape in contact: `<collision>`; `origin` is its pose in the link frame, `name` may be None."""
 
-    PREFIXED = ("name",)
+    TAG = "collision"
 
-    geometry: Geometry
-    origin: Transform = IDENTITY
-    name: str | None = None
+    geometry: Annotated[Geometry, Child(key="", xml="geometry/*")]
+    origin: Annotated[Transform, Pose()] = IDENTITY
+    name: Annotated[str | None, Name(key="name")] = None
 
 
 @dataclass(slots=True, weakref_slot=True)
 class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
     """A rigid body, or a frame if `inertial` is None and it has no shapes: `<link name>`. It may be changed in place.
 
-    `source` says where it was written, None if nowhere; it is not compared. `extra_attributes` and
+    `source` is where it was written, None if it was not read; it is not compared. `extra_attributes` and
     `extra_elements` are as on `Element`. `shape_order` has a 'visual' or 'collision' for each shape in the order in
     which they are written, empty for visuals before collisions: to MuJoCo a collision has the color of the visual
     before it. It is not compared.
@@ -173,16 +167,16 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
 
     """
 
-    PREFIXED: ClassVar[tuple[str, ...]] = ("name", "visuals", "collisions")
+    TAG: ClassVar[str] = "link"
     renamings: ClassVar[int] = 0
     """How often any link was renamed in place: when it changes, look-up by name starts anew."""
 
-    name: str
-    inertial: Inertial | None = None
-    physics: LinkPhysics = USUAL_PHYSICS
-    visuals: Sequence[Visual] = ()
-    collisions: Sequence[Collision] = ()
-    shape_order: Sequence[str] = field(default=(), compare=False, repr=False, kw_only=True)
+    name: Annotated[str, Name()]
+    inertial: Annotated[Inertial | None, Child()] = None
+    physics: Annotated[LinkPhysics, Child(xml="../gazebo")] = USUAL_PHYSICS
+    visuals: Annotated[Sequence[Visual], Children(key="visual")] = ()
+    collisions: Annotated[Sequence[Collision], Children(key="collision")] = ()
+    shape_order: Annotated[Sequence[str], Text(xml="")] = field(default=(), compare=False, repr=False, kw_only=True)
     extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False, kw_only=True)
     extra_elements: Sequence[str] = field(default=(), repr=False, kw_only=True)
     source: SourceRef | None = field(default=None, compare=False, repr=False, kw_only=True)
@@ -202,11 +196,11 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
         object.__setattr__(self, field, value)
 
     def add_visual(self, visual: Visual) -> None:
-        """Put a visual behind those that are there."""
+        """Append a visual."""
         self.visuals = (*self.visuals, visual)
 
     def add_collision(self, collision: Collision) -> None:
-        """Put a collision behind those that are there."""
+        """Append a collision."""
         self.collisions = (*self.collisions, collision)
 
     @property
@@ -243,12 +237,11 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
             RobotValidationError: INVALID_NAME, where the prefix makes a name that no link may have.
 
         """
-        name = prefixed(prefix, self.name)
-        require_valid_characters(name, "link name", "LinkName")
+        require_valid_characters(prefix + self.name if self.name else "", "link name", "LinkName")
         link = copy(self)
-        object.__setattr__(link, "name", name)  # no index holds the copy yet, so that none has to look again
-        link.visuals = tuple(visual.with_prefix(prefix) for visual in self.visuals)
-        link.collisions = tuple(collision.with_prefix(prefix) for collision in self.collisions)
+        shapes = {"visuals": tuple(self.visuals), "collisions": tuple(self.collisions)}
+        for field_name, value in {**shapes, **prefixed_fields(self, prefix)}.items():
+            object.__setattr__(link, field_name, value)  # no table has the copy yet, so that this is no renaming
         return link
 
     if TYPE_CHECKING:
@@ -261,7 +254,7 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
     def __setstate__(self, state: tuple[Mapping[str, object] | None, Mapping[str, object]]) -> None:
         attributes, slots = state
         for name, value in slots.items():
-            object.__setattr__(self, name, value)  # somebody else's class may refuse changes
+            object.__setattr__(self, name, value)  # a derived class may refuse changes
         if attributes:
             vars(self).update(attributes)
 

@@ -1,11 +1,13 @@
-"""Materials: how a visual looks."""
+"""Materials: colors and textures of visuals."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Annotated
 
 from linkforge_compile.core.constants import DEFAULT_MATERIAL_RGBA
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import Colour, Flag, Name, Text
 from linkforge_compile.core.part import Element, freeze
 
 
@@ -17,6 +19,8 @@ class Color(Element):
         RobotValidationError: OUT_OF_RANGE for a component outside of [0, 1]; the field is its position, 0 to 3.
 
     """
+
+    TAG = "color"
 
     r: float
     g: float
@@ -47,7 +51,7 @@ class Color(Element):
 
     @classmethod
     def grey(cls) -> Color:
-        """Return the grey of a shape that nobody coloured: 0.7, opaque."""
+        """Return the grey of a shape without a color: 0.7, opaque."""
         return cls(*DEFAULT_MATERIAL_RGBA)
 
     def to_tuple(self) -> tuple[float, float, float, float]:
@@ -62,21 +66,21 @@ class Color(Element):
 class Material(Element):
     """A color, a texture or both, under a name that may be empty: `<material name>`.
 
-    `texture` is the file of the image, as a URI or a path: `<texture filename>`; None for none. `after_links` says that
-    the robot's document has it behind the links: of two colors of one name, MuJoCo takes the first in the document for
-    all who only name it. It is not compared: of equal ones that share a name it holds if all say it.
+    `texture` is the file of the image, as a URI or a path: `<texture filename>`; None for none. With
+    `after_links` it is written after the links: of two colors of one name, MuJoCo uses the first in the document
+    wherever only the name is given. It is not compared; for equal materials of one name it holds if all have it.
 
     Raises:
         RobotValidationError: VALUE_EMPTY if it has neither color nor texture.
 
     """
 
-    PREFIXED = ("name",)
+    TAG = "material"
 
-    name: str
-    color: Color | None = None
-    texture: str | None = None
-    after_links: bool = field(default=False, compare=False, repr=False, kw_only=True)
+    name: Annotated[str, Name()]
+    color: Annotated[Color | None, Colour()] = None
+    texture: Annotated[str | None, Text(xml="texture/@filename")] = None
+    after_links: Annotated[bool, Flag(xml="")] = field(default=False, compare=False, repr=False, kw_only=True)
 
     def __post_init__(self) -> None:
         freeze(self)

@@ -1,4 +1,4 @@
-"""What merging one robot into another needs: parts under a prefix, materials without clashes, the joint between."""
+"""Steps of merging one robot into another: prefixes, materials without clashes, the connecting joint."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def prefixed_materials(robot: RobotParts, prefix: str) -> dict[str, Material]:
 def select_new_materials(added: Mapping[str, Material], own: Mapping[str, Material]) -> dict[str, Material]:
     """Return those of the added materials that are not among a robot's own, and those of its own that move.
 
-    A material that both have stands after the links only if both are to: else it would depend on which comes first.
+    A material that both have is written after the links only if it is in both, so that their order does not matter.
 
     Raises:
         RobotValidationError: DUPLICATE_NAME for two different materials of one name.

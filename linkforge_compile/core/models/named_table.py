@@ -1,11 +1,11 @@
-"""The parts of a robot by kind: the list that grows, and the tuple with look-up by name that its readers get."""
+"""Collections of parts of one kind: tuples that find a part by its name, and how parts are added to them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from enum import Enum, auto
 from operator import attrgetter
-from typing import Any, Final, Generic, NamedTuple, SupportsIndex, TypeAlias, TypeVar, overload
+from typing import Any, Final, Generic, NamedTuple, SupportsIndex, TypeVar, overload
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.link import Link
@@ -29,7 +29,7 @@ class OnDuplicate(Enum):
 
 
 class KeySpec(NamedTuple):
-    """How items of a kind are told apart; `kind` names one of them in messages ("link")."""
+    """The key of items of a kind; `kind` names one of them in messages ("link")."""
 
     kind: str
     key: Callable[[Any], Any] = NAME  # Any: each kind has items of its own class, and a name or names as keys
@@ -51,108 +51,54 @@ class KeySpec(NamedTuple):
         return RobotValidationError(ValidationErrorCode.NOT_FOUND, message, self._target, name)
 
 
-class PartList(Generic[T]):
-    """A list of parts that only grows, so that the tables that were made of it stay right."""
+class _Positions:
+    """Where the first item of each key is, among the items of the longest of the tables that share this."""
 
-    def __init__(self, spec: KeySpec, parts: Iterable[T] = ()) -> None:
-        self.spec = spec
-        self.items = list(parts)
-        self._positions: dict[Hashable, int] | None = None
-        self._renamings = Link.renamings
-
-    def position(self, key: Hashable) -> int:
-        """Return where the first part of that key is; the length of the list if there is none."""
-        if self._positions is None or self._renamings != Link.renamings:
-            self._renamings = Link.renamings
-            keys = map(self.spec.key, reversed(self.items))
-            self._positions = dict(zip(keys, range(len(self.items) - 1, -1, -1), strict=True))
-        return self._positions.get(key, len(self.items))
-
-    def get(self, key: Hashable) -> T | None:
-        """Return the first part of that key, None if there is none."""
-        position = self.position(key)
-        return self.items[position] if position < len(self.items) else None
-
-    def require(self, name: str) -> T:
-        """Return the first part of that name; raise NOT_FOUND if there is none."""
-        part = self.get(name)
-        if part is None:
-            raise self.spec.missing_error(name)
-        return part
-
-    def select_new(self, parts: Iterable[T]) -> Sequence[T]:
-        """Return those of the parts that are to be added.
-
-        Raises:
-            RobotValidationError: DUPLICATE_NAME for a key that is taken, where the spec refuses that.
-
-        """
-        if self.spec.on_duplicate is OnDuplicate.KEEP:
-            return tuple(parts)
-        new: dict[Hashable, T] = {}
-        for part in parts:
-            key = self.spec.key(part)
-            if key not in new and self.position(key) == len(self.items):
-                new[key] = part
-            elif self.spec.on_duplicate is OnDuplicate.REFUSE:
-                raise self.spec.duplicate_error(key)
-        return tuple(new.values())
-
-    def extend(self, parts: Sequence[T]) -> None:
-        """Append parts without a check of their keys."""
-        if self._positions is not None:
-            for position, part in enumerate(parts, len(self.items)):
-                self._positions.setdefault(self.spec.key(part), position)
-        self.items += parts
-
-    def copy(self) -> PartList[T]:
-        """Return a list of its own with the same parts."""
-        return PartList(self.spec, self.items)
-
-
-Additions: TypeAlias = list[tuple[PartList[Any], Iterable[object]]]
-"""Lists, each with what is to be added to it."""
-
-
-def extend_all(additions: Additions) -> None:
-    """Add parts to several lists, or to none of them.
-
-    Raises:
-        RobotValidationError: DUPLICATE_NAME for a key that is taken, where the list's spec refuses that.
-
-    """
-    selected = [(parts, parts.select_new(added)) for parts, added in additions]
-    for parts, new in selected:
-        parts.extend(new)
+    def __init__(self, spec: KeySpec, items: Sequence[object]) -> None:
+        self.renamings = Link.renamings
+        self.count = len(items)
+        self.first: dict[Hashable, int] = {}
+        for position, item in enumerate(items):
+            self.first.setdefault(spec.key(item), position)
 
 
 class NamedTable(tuple[T, ...]):
-    """The tuple of a robot's parts of one kind, which answers to names as well.
+    """A tuple of parts of one kind that answers to names as well.
 
-    It never changes: it has the parts that the robot had when the table was read. Where a name occurs twice, the
-    first part of that name is found. A link that is renamed in place is found by its new name.
+    Where a name occurs twice, the first part of that name is found. A link that is renamed in place is found by its
+    new name.
     """
 
-    _parts: PartList[T]
+    _spec: KeySpec
+    _positions: _Positions | None
 
-    def __new__(cls, parts: PartList[T]) -> NamedTable[T]:
-        table = super().__new__(cls, parts.items)
-        table._parts = parts
+    def __new__(cls, spec: KeySpec, parts: Iterable[T] = ()) -> NamedTable[T]:
+        table = super().__new__(cls, parts)
+        table._spec = spec
+        table._positions = None
         return table
-
-    def is_all_of(self, parts: PartList[T]) -> bool:
-        """Tell whether these are the parts that the list has now."""
-        return self._parts is parts and len(self) == len(parts.items)
 
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the parts in their order, or what serves as such."""
-        return tuple(map(str, map(self._parts.spec.key, self)))
+        return tuple(map(str, map(self._spec.key, self)))
+
+    def _index(self) -> _Positions:
+        if self._positions is None or self._positions.renamings != Link.renamings:
+            self._positions = _Positions(self._spec, self)
+        return self._positions
 
     def get(self, name: Hashable) -> T | None:
         """Return the part of that name, None if there is none."""
-        position = self._parts.position(name)
+        position = self._index().first.get(name, len(self))
         return super().__getitem__(position) if position < len(self) else None
+
+    def require(self, name: str) -> T:
+        """Return the part of that name; raise NOT_FOUND if there is none."""
+        part = self.get(name)
+        if part is None:
+            raise self._spec.missing_error(name)
+        return part
 
     @overload
     def __getitem__(self, place: SupportsIndex | str) -> T: ...
@@ -165,20 +111,82 @@ class NamedTable(tuple[T, ...]):
             RobotValidationError: NOT_FOUND for a name that no part has.
 
         """
-        if not isinstance(place, str):
-            return super().__getitem__(place)
-        part = self.get(place)
-        if part is None:
-            raise self._parts.spec.missing_error(place)
-        return part
+        return self.require(place) if isinstance(place, str) else super().__getitem__(place)
 
     def __contains__(self, sought: object) -> bool:
         """Tell whether a name, or an equal part, is here."""
         return self.get(sought) is not None if isinstance(sought, str) else super().__contains__(sought)
 
-    def __reduce__(self) -> tuple[type[NamedTable[T]], tuple[PartList[T]]]:
-        return NamedTable, (PartList(self._parts.spec, self),)
+    def select_new(self, parts: Iterable[T]) -> Sequence[T]:
+        """Return those of the parts that are to be added.
+
+        Raises:
+            RobotValidationError: DUPLICATE_NAME for a name that is taken, where the spec refuses that.
+
+        """
+        if self._spec.on_duplicate is OnDuplicate.KEEP:
+            return tuple(parts)
+        new: dict[Hashable, T] = {}
+        for part in parts:
+            key = self._spec.key(part)
+            if key not in new and self.get(key) is None:
+                new[key] = part
+            elif self._spec.on_duplicate is OnDuplicate.REFUSE:
+                raise self._spec.duplicate_error(key)
+        return tuple(new.values())
+
+    def extended(self, parts: Iterable[T]) -> NamedTable[T]:
+        """Return a table of these parts and then the others, without those that the spec skips.
+
+        The positions of the parts are shared with the new table, so that adding one by one computes each key once.
+
+        Raises:
+            RobotValidationError: DUPLICATE_NAME for a name that is taken, where the spec refuses that.
+
+        """
+        added = self.select_new(parts)
+        if not added:
+            return self
+        table = NamedTable(self._spec, self + tuple(added))
+        positions = self._positions
+        if positions and positions.count == len(self) and positions.renamings == Link.renamings:
+            for position, part in enumerate(added, len(self)):
+                positions.first.setdefault(self._spec.key(part), position)
+            positions.count = len(table)
+            table._positions = positions
+        return table
+
+    def __reduce__(self) -> tuple[type[NamedTable[T]], tuple[KeySpec, tuple[T, ...]]]:
+        return NamedTable, (self._spec, tuple(self))
 
 
 Index = NamedTable
 """The name under which `linkforge_compile.core` exports the class."""
+
+
+class TableField(Generic[T]):
+    """A field that accepts any iterable of parts and holds them as a NamedTable.
+
+    With `distinct`, assigning two parts of one name raises DUPLICATE_NAME and leaves the field as it was.
+    """
+
+    def __init__(self, spec: KeySpec, *, distinct: bool = False) -> None:
+        self._spec = spec
+        self._distinct = distinct
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    @overload
+    def __get__(self, robot: None, owner: type) -> tuple[()]: ...
+    @overload
+    def __get__(self, robot: object, owner: type) -> NamedTable[T]: ...
+    def __get__(self, robot: object | None, owner: type) -> NamedTable[T] | tuple[()]:
+        if robot is None:
+            return ()  # the field's default, to dataclasses
+        table: NamedTable[T] = vars(robot)[self._name]
+        return table
+
+    def __set__(self, robot: object, parts: Iterable[T]) -> None:
+        empty: NamedTable[T] = NamedTable(self._spec)
+        vars(robot)[self._name] = empty.extended(parts) if self._distinct else NamedTable(self._spec, parts)

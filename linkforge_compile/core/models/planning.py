@@ -1,24 +1,32 @@
-"""What motion planning knows about a robot: groups of joints, their named poses, end effectors, passive joints."""
+"""Motion planning: groups of joints, their named poses, end effectors, virtual and passive joints."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 from numbers import Real
-from typing import Any
+from typing import Annotated, Any
 
 from linkforge_compile.core.constants import SRDF_VJOIN_FIXED, SRDF_VJOIN_FLOATING, SRDF_VJOIN_PLANAR
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import Children, Choice, Name, Reference, Text
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.part import Element, freeze, set_field
-from linkforge_compile.core.rules import is_finite, not_finite, require_not_blank
+from linkforge_compile.core.rules import is_finite, not_finite, require_choice, require_not_blank
 
-_VIRTUAL_JOINT_TYPES = (SRDF_VJOIN_FIXED, SRDF_VJOIN_PLANAR, SRDF_VJOIN_FLOATING)
+
+class VirtualJointType(StrEnum):
+    """How the robot may move in the world."""
+
+    FIXED = SRDF_VJOIN_FIXED
+    PLANAR = SRDF_VJOIN_PLANAR
+    FLOATING = SRDF_VJOIN_FLOATING
 
 
 @dataclass(frozen=True, slots=True)
 class VirtualJoint(Element):
-    """How the robot stands in the world: `<virtual_joint name type parent_frame child_link>`.
+    """The joint between the world and the robot: `<virtual_joint name type parent_frame child_link>`.
 
     `type` is `fixed`, `planar` or `floating`; `parent_frame` belongs to the world and takes no prefix.
 
@@ -27,24 +35,17 @@ class VirtualJoint(Element):
 
     """
 
-    PREFIXED = ("name", "child_link")
+    TAG = "virtual_joint"
 
-    name: str
-    type: str
-    parent_frame: str
-    child_link: str
+    name: Annotated[str, Name()]
+    type: Annotated[str, Choice(VirtualJointType, example="fixed")]
+    parent_frame: Annotated[str, Text(example="world")]
+    child_link: Annotated[str, Reference("link", example="base")]
 
     def __post_init__(self) -> None:
         freeze(self)
         require_not_blank(self.name, "virtual joint name", "VirtualJointName")
-        if self.type not in _VIRTUAL_JOINT_TYPES:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
-                f"virtual joint type must be one of {', '.join(_VIRTUAL_JOINT_TYPES)}, found '{self.type}'",
-                target="VirtualJointType",
-                value=self.type,
-                field=("type",),
-            )
+        require_choice(self.type, VirtualJointType, "virtual joint type", "VirtualJointType", "type")
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,10 +57,10 @@ class Chain(Element):
 
     """
 
-    PREFIXED = ("base_link", "tip_link")
+    TAG = "chain"
 
-    base_link: str
-    tip_link: str
+    base_link: Annotated[str, Reference("link", example="base")]
+    tip_link: Annotated[str, Reference("link", example="tool0")]
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -69,20 +70,21 @@ class Chain(Element):
 
 @dataclass(frozen=True, slots=True)
 class PlanningGroup(Element):
-    """Joints that are planned together: `<group name>`; said by links, joints, chains or other groups.
+    """Joints that are planned together: `<group name>`; given by links, joints, chains or other groups.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank name, VALUE_EMPTY for a group of nothing.
 
     """
 
-    PREFIXED = ("name", "links", "joints", "chains", "subgroups", "extra_inside")
+    TAG = "group"
+    NAMES_INSIDE_TAKE_PREFIX = True
 
-    name: str
-    links: Sequence[str] = ()
-    joints: Sequence[str] = ()
-    chains: Sequence[Chain] = ()
-    subgroups: Sequence[str] = ()
+    name: Annotated[str, Name()]
+    links: Annotated[Sequence[str], Reference("link", xml="link/@name")] = ()
+    joints: Annotated[Sequence[str], Reference("joint", xml="joint/@name")] = ()
+    chains: Annotated[Sequence[Chain], Children()] = ()
+    subgroups: Annotated[Sequence[str], Reference("group", xml="group/@name")] = ()
 
     def __post_init__(self) -> None:
         freeze(self, "links", "joints", "chains", "subgroups")
@@ -128,11 +130,13 @@ class GroupState(Element):
 
     """
 
-    PREFIXED = ("name", "group", "joint_values", "extra_inside")
+    TAG = "group_state"
+    NAMES_INSIDE_TAKE_PREFIX = True
 
-    name: str
-    group: str
-    joint_values: Mapping[str, Any] = FrozenMap()  # Any: a number may go in, a tuple comes out
+    name: Annotated[str, Name()]
+    group: Annotated[str, Reference("group", key="")]
+    # Any: numbers are accepted, and made tuples
+    joint_values: Annotated[Mapping[str, Any], Reference("joint", key="", xml="joint/@name")] = FrozenMap()
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -154,21 +158,21 @@ def _position_tuple(given: object) -> tuple[object, ...]:
 
 @dataclass(frozen=True, slots=True)
 class EndEffector(Element):
-    """A group that works as a hand: `<end_effector name group parent_link parent_group>`.
+    """A group that is a tool at the end of an arm: `<end_effector name group parent_link parent_group>`.
 
-    `parent_link` is the link of the arm that carries it, `parent_group` the group of the arm, None if not said.
+    `parent_link` is the link of the arm that carries it, `parent_group` the group of the arm, None if not given.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank name or group.
 
     """
 
-    PREFIXED = ("name", "group", "parent_link", "parent_group")
+    TAG = "end_effector"
 
-    name: str
-    group: str
-    parent_link: str
-    parent_group: str | None = None
+    name: Annotated[str, Name()]
+    group: Annotated[str, Reference("group", example="gripper")]
+    parent_link: Annotated[str, Reference("link", example="tool0")]
+    parent_group: Annotated[str | None, Reference("group")] = None
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -185,9 +189,9 @@ class PassiveJoint(Element):
 
     """
 
-    PREFIXED = ("name",)
+    TAG = "passive_joint"
 
-    name: str
+    name: Annotated[str, Reference("joint", key="")]
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -203,11 +207,11 @@ class JointProperty(Element):
 
     """
 
-    PREFIXED = ("joint_name",)
+    TAG = "joint_property"
 
-    joint_name: str
-    property_name: str
-    value: str
+    joint_name: Annotated[str, Reference("joint", key="")]
+    property_name: Annotated[str, Text(key="")]
+    value: Annotated[str, Text(example="true")]
 
     def __post_init__(self) -> None:
         freeze(self)

@@ -18,7 +18,7 @@ from linkforge_compile.core.models.merging import (
     prefixed_parts,
     select_new_materials,
 )
-from linkforge_compile.core.models.named_table import NAME, PartList, extend_all
+from linkforge_compile.core.models.named_table import NAME, NamedTable
 from linkforge_compile.core.models.robot_parts import RobotParts, require_robot_name
 
 if TYPE_CHECKING:
@@ -27,10 +27,9 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import JointLimits
     from linkforge_compile.core.models.link import Link
     from linkforge_compile.core.models.material import Material
-    from linkforge_compile.core.models.named_table import Additions
     from linkforge_compile.core.models.ros2_control import Ros2Control
     from linkforge_compile.core.models.sensor import Sensor
-    from linkforge_compile.core.models.srdf import Chain, SemanticParts, SemanticRobotDescription, SrdfSphere
+    from linkforge_compile.core.models.srdf import Chain, SemanticRobotDescription, SrdfSphere
     from linkforge_compile.core.models.transmission import Transmission
 
 # srdf.py is imported inside the functions that use it: most robots have no semantic part.
@@ -39,13 +38,13 @@ if TYPE_CHECKING:
 class Robot(RobotParts):
     """A robot: `<robot name>` of URDF, and `semantic` for that of SRDF.
 
-    It changes, its parts do not (a Link alone may). Every method that adds something either does so as a whole, or
-    leaves the robot as it was and raises RobotValidationError: DUPLICATE_NAME for a name that is taken, NOT_FOUND for
+    It is mutable; of its parts, only links are. Every method that adds something either adds all of it, or leaves
+    the robot as it was and raises RobotValidationError: DUPLICATE_NAME for a name that is taken, NOT_FOUND for
     a link, joint or group that the addition refers to and the robot lacks.
     """
 
     def add_link(self, link: Link, overwrite: bool = False) -> None:
-        """Add a link; with `overwrite` it takes the place of one of the same name."""
+        """Add a link; with `overwrite` it replaces one of the same name."""
         if overwrite and self.has_link(link.name):
             self.links = [link if other.name == link.name else other for other in self.links]
         else:
@@ -53,35 +52,35 @@ class Robot(RobotParts):
 
     def add_joint(self, joint: Joint) -> None:
         """Add a joint between two links of the robot."""
-        self._joints.select_new([joint])
+        self.joints.select_new([joint])
         self.require_parent(joint)
-        _require(self._links, joint.child, f"Child link '{joint.child}'", "ChildLink", "child")
+        _require(self.links, joint.child, f"Child link '{joint.child}'", "ChildLink", "child")
         self.add_parts(joints=[joint])
 
     def require_parent(self, joint: Joint) -> None:
         """Refuse a joint whose parent is no link of the robot: NOT_FOUND."""
-        _require(self._links, joint.parent, f"Parent link '{joint.parent}'", "ParentLink", "parent")
+        _require(self.links, joint.parent, f"Parent link '{joint.parent}'", "ParentLink", "parent")
 
     def add_sensor(self, sensor: Sensor) -> None:
         """Add a sensor to a link of the robot."""
-        self._sensors.select_new([sensor])
-        _require(self._links, sensor.link_name, f"Link '{sensor.link_name}'", "LinkName", "link")
+        self.sensors.select_new([sensor])
+        _require(self.links, sensor.link_name, f"Link '{sensor.link_name}'", "LinkName", "link")
         self.add_parts(sensors=[sensor])
 
     def add_transmission(self, transmission: Transmission) -> None:
         """Add a transmission for joints of the robot; actuators are names of its own."""
-        self._transmissions.select_new([transmission])
+        self.transmissions.select_new([transmission])
         self._require_joints(joint.name for joint in transmission.joints)
         self.add_parts(transmissions=[transmission])
 
     def add_ros2_control(self, ros2_control: Ros2Control) -> None:
         """Add a hardware component for joints of the robot."""
-        self._ros2_controls.select_new([ros2_control])
+        self.ros2_controls.select_new([ros2_control])
         self._require_joints(joint.name for joint in ros2_control.joints)
         self.add_parts(ros2_controls=[ros2_control])
 
     def update_ros2_control(self, ros2_control: Ros2Control) -> None:
-        """Put a hardware component in the place of the one of its name, without checks; add it if there is none."""
+        """Replace the hardware component of the same name, without checks; add it if there is none."""
         if self.has_ros2_control(ros2_control.name):
             self.ros2_controls = [
                 ros2_control if other.name == ros2_control.name else other for other in self.ros2_controls
@@ -93,32 +92,23 @@ class Robot(RobotParts):
         """Add settings of a simulator for a link or joint of the robot, or for the robot."""
         reference = element.reference
         if reference is not None and not self.has_link(reference):
-            _require(self._joints, reference, f"Gazebo reference '{reference}'", "GazeboReference", "reference")
+            _require(self.joints, reference, f"Gazebo reference '{reference}'", "GazeboReference", "reference")
         self.add_parts(gazebo_elements=[element])
 
     def _require_joints(self, names: Iterable[str]) -> None:
         for name in names:
-            _require(self._joints, name, f"Joint '{name}'", "JointName", "joints", name)
+            _require(self.joints, name, f"Joint '{name}'", "JointName", "joints", name)
 
     def add_semantic(self, description: SemanticRobotDescription) -> Self:
         """Add the entries of a description; the parts that they name need not exist.
 
         A collision pair that exists, whatever the order of its links, and a link without default collisions are not
-        added again. Group states are told apart by group and name, sphere approximations by link, joint properties by
+        added again. Group states are identified by group and name, sphere approximations by link, joint properties by
         joint and property.
         """
-        semantic, additions = self._semantic_additions(description)
-        extend_all(additions)
-        self._semantic = semantic
+        if not description.is_empty:
+            self.semantic = self.semantic.merge_with(description)
         return self
-
-    def _semantic_additions(self, description: SemanticRobotDescription) -> tuple[SemanticParts | None, Additions]:
-        """Return the semantic part that the robot has with a description, and what is to be added to its lists."""
-        from linkforge_compile.core.models.srdf import SemanticParts, SemanticRobotDescription
-
-        semantic = self._semantic or SemanticParts(SemanticRobotDescription(self.name))
-        additions = semantic.additions(description)
-        return semantic if additions else self._semantic, additions
 
     def _add_entries(self, **entries: Any) -> Self:  # Any: each collection has entries of its own class
         from linkforge_compile.core.models.srdf import SemanticRobotDescription
@@ -151,7 +141,7 @@ class Robot(RobotParts):
         for joint in group.joints:
             self.joint(joint)
         for subgroup in group.subgroups:
-            if self._semantic is None or self._semantic.list_members("groups").get(subgroup) is None:
+            if subgroup not in self.semantic.groups:
                 message = f"Subgroup '{subgroup}' not found"
                 raise RobotValidationError(
                     ValidationErrorCode.NOT_FOUND, message, target="Subgroup", value=subgroup, field=("subgroups",)
@@ -175,7 +165,7 @@ class Robot(RobotParts):
         return self._add_entries(disabled_collisions=disabled)
 
     def enable_collisions(self, link1: str, link2: str, reason: str | None = None) -> Self:
-        """Let planning look for collisions between two links in spite of their defaults; a pair counts once."""
+        """Let planning look for collisions between two links although it is disabled by default; a pair counts once."""
         from linkforge_compile.core.models.collision_rules import CollisionPair
 
         pair = CollisionPair(self.link(link1).name, self.link(link2).name, reason)
@@ -192,7 +182,7 @@ class Robot(RobotParts):
         return self._add_entries(joint_properties=[JointProperty(self.joint(joint_name).name, property_name, value)])
 
     def approximate_link_collision(self, link: str, spheres: list[SrdfSphere]) -> Self:
-        """Give the spheres that stand for a link's shape in collisions."""
+        """Approximate a link's shape in collisions by spheres."""
         from linkforge_compile.core.models.collision_rules import LinkSphereApproximation
 
         return self._add_entries(link_sphere_approximations=[LinkSphereApproximation(self.link(link).name, spheres)])
@@ -212,8 +202,8 @@ class Robot(RobotParts):
     ) -> Robot:
         """Add all parts of another robot under a prefix, and the joint from `at_link` to its root link.
 
-        The joint's own name takes no prefix; `origin` is identity where it is None. From `joint` it takes what
-        has no argument here: dynamics, mimic, safety controller, calibration, source, the axis as written, extras.
+        The joint's own name takes no prefix; `origin` is identity where it is None. From `joint` come the fields
+        without an argument here: dynamics, mimic, safety controller, calibration, source, axis as written, extras.
         Without `at_link` nothing connects the two, and the arguments about the joint are not read.
         The component stays as it is. Its name, version, metadata and resolver are not taken over.
 
@@ -224,11 +214,11 @@ class Robot(RobotParts):
 
         """
         if at_link is not None:
-            _require(self._links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
+            _require(self.links, at_link, f"Attachment link '{at_link}'", "Attach", "parent")
         materials = prefixed_materials(component, prefix)
         parts = prefixed_parts(component, prefix)
         # Links of one name are reported as such, and not as the cycle that they make.
-        self._links.select_new(parts["links"])
+        self.links.select_new(parts["links"])
         if at_link is None:
             refuse_cycles(parts["links"], parts["joints"])
         else:
@@ -237,26 +227,23 @@ class Robot(RobotParts):
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
             parts["joints"].append(complete_joint(connecting, joint) if joint else connecting)
         parts["extra_elements"] = list(component.extra_elements)
-        self._take_in(component, prefix, parts, materials)
+        self._add_component(component, prefix, parts, materials)
         return self
 
-    def _take_in(
+    def _add_component(
         self, component: Robot, prefix: str, parts: dict[str, list[Any]], materials: dict[str, Material]
     ) -> None:
-        """Add the parts and materials of a component, and what it says of itself, all or nothing."""
+        """Add parts, materials, raw XML and semantic entries of a component, all of them or none."""
         new_materials = select_new_materials(materials, self.materials)
-        additions = self._additions(parts)
-        semantic = self._semantic
-        if component.says_semantic:
-            semantic, entries = self._semantic_additions(component.semantic.with_prefix(prefix))
-            additions += entries
+        tables = {kind: getattr(self, kind).extended(added) for kind, added in parts.items()}
         own_attributes = dict(self.extra_attributes)
         extra_attributes = {**own_attributes, **dict(component.extra_attributes), **own_attributes}
         update_materials = self.materials.update
-        extend_all(additions)  # the last that can be refused
+        if component.has_semantic:
+            self.add_semantic(component.semantic.with_prefix(prefix))  # the last that can be refused
+        vars(self).update(tables)
         update_materials(new_materials)
         self.extra_attributes = tuple(extra_attributes.items())
-        self._semantic = semantic
 
     def prefix_all(self, prefix: str) -> None:
         """Put a prefix before the robot's name, the names of all its parts, and wherever they refer to one another.
@@ -272,7 +259,7 @@ class Robot(RobotParts):
         require_robot_name(prefix + self.name)
         materials = prefixed_materials(self, prefix)
         parts = prefixed_parts(self, prefix)
-        semantic = self.semantic.with_prefix(prefix) if self.says_semantic else None
+        semantic = self.semantic.with_prefix(prefix) if self.has_semantic else None
         for kind, prefixed in parts.items():  # links first: they are refused if two were renamed to one name
             setattr(self, kind, prefixed)
         self.materials = materials
@@ -298,7 +285,7 @@ class Robot(RobotParts):
         robot.transmissions = sorted((part.normalized() for part in robot.transmissions), key=NAME)
         robot.ros2_controls = sorted((part.normalized() for part in robot.ros2_controls), key=NAME)
         robot.gazebo_elements = sorted(robot.gazebo_elements, key=content_key)
-        if robot.says_semantic:
+        if robot.has_semantic:
             robot.semantic = robot.semantic.normalized()
         return robot
 
@@ -309,7 +296,7 @@ class Robot(RobotParts):
             RobotGeneratorError: With `validate`, the errors that were found, a line each.
 
         """
-        # The contract makes exporting a method: here alone the core reaches up to the rooms that use it.
+        # LinkForge has exporting as a method, so this one module of core imports packages above it.
         from linkforge_compile.formats import render_urdf
 
         if validate:
@@ -317,7 +304,7 @@ class Robot(RobotParts):
         return render_urdf(self, pretty=pretty_print)
 
     def export_srdf(self, validate: bool = True, pretty_print: bool = True) -> str:
-        """Return what the robot says semantically as SRDF; with `validate`, only if no check finds an error.
+        """Return the semantic description as SRDF; with `validate`, only if no check finds an error.
 
         Raises:
             RobotGeneratorError: With `validate`, the errors that were found, a line each.
@@ -338,6 +325,6 @@ class Robot(RobotParts):
             raise RobotGeneratorError("\n".join(errors))
 
 
-def _require(parts: PartList[Any], name: str, what: str, target: str, *field: str) -> None:
+def _require(parts: NamedTable[Any], name: str, what: str, target: str, *field: str) -> None:
     if parts.get(name) is None:
         raise RobotValidationError(ValidationErrorCode.NOT_FOUND, f"{what} not found", target, name, field=field)

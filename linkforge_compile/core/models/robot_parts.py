@@ -1,28 +1,19 @@
-"""What a robot holds: its parts by kind, look-up by name and neighbourhood, and what its tree is."""
+"""The parts of a robot by kind, and look-up by name and in its tree."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.exceptions import RobotModelError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.graph import KinematicGraph, child_joints, parent_joints, single_root
 from linkforge_compile.core.models.link import Link
-from linkforge_compile.core.models.named_table import (
-    Additions,
-    KeySpec,
-    NamedTable,
-    OnDuplicate,
-    PartList,
-    extend_all,
-    itself,
-)
-from linkforge_compile.core.models.robot_fields import PartsField, SemanticField, VersionStatedField
+from linkforge_compile.core.models.named_table import KeySpec, NamedTable, OnDuplicate, TableField, itself
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
@@ -33,13 +24,13 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.material import Material
     from linkforge_compile.core.models.ros2_control import Ros2Control
     from linkforge_compile.core.models.sensor import Sensor
-    from linkforge_compile.core.models.srdf import SemanticParts
+    from linkforge_compile.core.models.srdf import SemanticRobotDescription
     from linkforge_compile.core.models.transmission import Transmission
     from linkforge_compile.source import SourceRef
 
 
 class _Tree:
-    """What is computed from the links and joints of a robot when it is needed."""
+    """The graph of some links and joints, computed when it is needed."""
 
     def __init__(self, links: NamedTable[Link], joints: NamedTable[Joint]) -> None:
         self._links, self._joints, self._renamings = links, joints, Link.renamings
@@ -77,6 +68,43 @@ def require_robot_name(name: str) -> None:
         )
 
 
+class SemanticField:
+    """The field `semantic`: the description under the robot's name, an empty one where None was assigned."""
+
+    @overload
+    def __get__(self, robot: None, owner: type) -> None: ...
+    @overload
+    def __get__(self, robot: RobotParts, owner: type) -> SemanticRobotDescription: ...
+    def __get__(self, robot: RobotParts | None, owner: type) -> SemanticRobotDescription | None:
+        if robot is None:
+            return None  # the field's default, to dataclasses
+        from linkforge_compile.core.models.srdf import SemanticRobotDescription
+
+        description: SemanticRobotDescription | None = vars(robot)["semantic"]
+        if description is None:
+            return SemanticRobotDescription(robot.name)
+        if description.robot_name != robot.name:
+            description = vars(robot)["semantic"] = replace(description, robot_name=robot.name)
+        return description
+
+    def __set__(self, robot: RobotParts, description: SemanticRobotDescription | None) -> None:
+        vars(robot)["semantic"] = description
+
+
+class VersionStatedField:
+    """The field `version_stated`: True if it was set, or if the version is not the default."""
+
+    @overload
+    def __get__(self, robot: None, owner: type) -> Literal[False]: ...
+    @overload
+    def __get__(self, robot: RobotParts, owner: type) -> bool: ...
+    def __get__(self, robot: RobotParts | None, owner: type) -> bool:
+        return robot is not None and (vars(robot)["version_stated"] or robot.version != IR_VERSION)
+
+    def __set__(self, robot: RobotParts, stated: bool) -> None:
+        vars(robot)["version_stated"] = stated
+
+
 @dataclass
 class RobotParts:
     """The parts of a robot, each kind in the order in which they were added.
@@ -91,27 +119,20 @@ class RobotParts:
     materials: dict[str, Material] = field(default_factory=dict)
     metadata: dict[str, object] = field(default_factory=dict)
     resource_resolver: IResourceResolver = field(default_factory=FileSystemResolver, compare=False)
-    links: PartsField[Link] = PartsField(KeySpec("link"), distinct=True)
-    joints: PartsField[Joint] = PartsField(KeySpec("joint"), distinct=True)
-    sensors: PartsField[Sensor] = PartsField(KeySpec("sensor"))
-    transmissions: PartsField[Transmission] = PartsField(KeySpec("transmission"))
-    ros2_controls: PartsField[Ros2Control] = PartsField(KeySpec("ros2_control"))
-    gazebo_elements: PartsField[GazeboElement] = PartsField(
+    links: TableField[Link] = TableField(KeySpec("link"), distinct=True)
+    joints: TableField[Joint] = TableField(KeySpec("joint"), distinct=True)
+    sensors: TableField[Sensor] = TableField(KeySpec("sensor"))
+    transmissions: TableField[Transmission] = TableField(KeySpec("transmission"))
+    ros2_controls: TableField[Ros2Control] = TableField(KeySpec("ros2_control"))
+    gazebo_elements: TableField[GazeboElement] = TableField(
         KeySpec("gazebo element", attrgetter("reference"), OnDuplicate.KEEP)
     )
     semantic: SemanticField = SemanticField()
-    extra_elements: PartsField[str] = PartsField(KeySpec("extra element", itself, OnDuplicate.KEEP))
+    extra_elements: TableField[str] = TableField(KeySpec("extra element", itself, OnDuplicate.KEEP))
     _: KW_ONLY
     extra_attributes: Sequence[tuple[str, str]] | Mapping[str, str] = ()
     version_stated: VersionStatedField = VersionStatedField()
     source: SourceRef | None = field(default=None, compare=False, repr=False)
-    _version_stated: bool = field(init=False, repr=False, compare=False)
-    _links: PartList[Link] = field(init=False, repr=False, compare=False)
-    _joints: PartList[Joint] = field(init=False, repr=False, compare=False)
-    _sensors: PartList[Sensor] = field(init=False, repr=False, compare=False)
-    _transmissions: PartList[Transmission] = field(init=False, repr=False, compare=False)
-    _ros2_controls: PartList[Ros2Control] = field(init=False, repr=False, compare=False)
-    _semantic: SemanticParts | None = field(init=False, repr=False, compare=False)
     _last_tree: _Tree | None = field(default=None, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -119,79 +140,77 @@ class RobotParts:
         self.extra_attributes = attribute_pairs(self.extra_attributes)
 
     def __getstate__(self) -> dict[str, object]:
-        """Return the state for copies and pickles, with lists of their own and nothing that can be computed."""
-        state = {name: value for name, value in vars(self).items() if not isinstance(value, NamedTable)}
-        lists = {name: value.copy() for name, value in state.items() if isinstance(value, PartList)}
-        return {**state, **lists, "_semantic": self._semantic and self._semantic.copy(), "_last_tree": None}
+        """Return the state for copies and pickles, without what can be computed."""
+        return {**vars(self), "_last_tree": None}
 
     def get_link(self, name: str) -> Link | None:
         """Return the link of that name, None if there is none."""
-        return self._links.get(name)
+        return self.links.get(name)
 
     def link(self, name: str) -> Link:
         """Return the link of that name; raise NOT_FOUND if there is none."""
-        return self._links.require(name)
+        return self.links.require(name)
 
     def has_link(self, name: str) -> bool:
         """Tell whether there is a link of that name."""
-        return self._links.get(name) is not None
+        return self.links.get(name) is not None
 
     def get_joint(self, name: str) -> Joint | None:
         """Return the joint of that name, None if there is none."""
-        return self._joints.get(name)
+        return self.joints.get(name)
 
     def joint(self, name: str) -> Joint:
         """Return the joint of that name; raise NOT_FOUND if there is none."""
-        return self._joints.require(name)
+        return self.joints.require(name)
 
     def has_joint(self, name: str) -> bool:
         """Tell whether there is a joint of that name."""
-        return self._joints.get(name) is not None
+        return self.joints.get(name) is not None
 
     def get_sensor(self, name: str) -> Sensor | None:
         """Return the sensor of that name, None if there is none."""
-        return self._sensors.get(name)
+        return self.sensors.get(name)
 
     def sensor(self, name: str) -> Sensor:
         """Return the sensor of that name; raise NOT_FOUND if there is none."""
-        return self._sensors.require(name)
+        return self.sensors.require(name)
 
     def has_sensor(self, name: str) -> bool:
         """Tell whether there is a sensor of that name."""
-        return self._sensors.get(name) is not None
+        return self.sensors.get(name) is not None
 
     def get_transmission(self, name: str) -> Transmission | None:
         """Return the transmission of that name, None if there is none."""
-        return self._transmissions.get(name)
+        return self.transmissions.get(name)
 
     def transmission(self, name: str) -> Transmission:
         """Return the transmission of that name; raise NOT_FOUND if there is none."""
-        return self._transmissions.require(name)
+        return self.transmissions.require(name)
 
     def has_transmission(self, name: str) -> bool:
         """Tell whether there is a transmission of that name."""
-        return self._transmissions.get(name) is not None
+        return self.transmissions.get(name) is not None
 
     def get_ros2_control(self, name: str) -> Ros2Control | None:
         """Return the hardware component of that name, None if there is none."""
-        return self._ros2_controls.get(name)
+        return self.ros2_controls.get(name)
 
     def ros2_control(self, name: str) -> Ros2Control:
         """Return the hardware component of that name; raise NOT_FOUND if there is none."""
-        return self._ros2_controls.require(name)
+        return self.ros2_controls.require(name)
 
     def has_ros2_control(self, name: str) -> bool:
         """Tell whether there is a hardware component of that name."""
-        return self._ros2_controls.get(name) is not None
+        return self.ros2_controls.get(name) is not None
 
     def get_gazebo_elements(self, reference: str | None = None) -> list[GazeboElement]:
         """Return the Gazebo elements about one link or joint; all of them for None."""
         return [element for element in self.gazebo_elements if reference is None or element.reference == reference]
 
     @property
-    def says_semantic(self) -> bool:
+    def has_semantic(self) -> bool:
         """True once a description was assigned, be it an empty one, or something semantic was added."""
-        return self._semantic is not None
+        return vars(self)["semantic"] is not None
 
     def add_parts(
         self,
@@ -210,19 +229,15 @@ class RobotParts:
                 taken.
 
         """
-        parts = {
-            "links": links,
-            "joints": joints,
-            "sensors": sensors,
-            "transmissions": transmissions,
-            "ros2_controls": ros2_controls,
-            "gazebo_elements": gazebo_elements,
+        tables: dict[str, NamedTable[Any]] = {  # Any: each kind has a class of its own
+            "links": self.links.extended(links),
+            "joints": self.joints.extended(joints),
+            "sensors": self.sensors.extended(sensors),
+            "transmissions": self.transmissions.extended(transmissions),
+            "ros2_controls": self.ros2_controls.extended(ros2_controls),
+            "gazebo_elements": self.gazebo_elements.extended(gazebo_elements),
         }
-        extend_all(self._additions(parts))
-
-    def _additions(self, parts: Mapping[str, Iterable[object]]) -> Additions:
-        """Return what `extend_all` takes to add parts by kind."""
-        return [(vars(self)[f"_{kind}"], added) for kind, added in parts.items()]
+        vars(self).update(tables)
 
     @property
     def _tree(self) -> _Tree:
@@ -304,7 +319,7 @@ class RobotParts:
         )
 
     def summary(self) -> str:
-        """Return a few lines about the robot: valid means one root and no cycle."""
+        """Return a few lines about the robot; it is valid with one root and no cycle."""
         valid = False
         try:
             roots = self.graph.get_root_links()

@@ -1,34 +1,43 @@
-"""ros2_control: which hardware moves the joints, reads the sensors and switches the pins, and by which interfaces."""
+"""ros2_control: hardware with its joints, sensors, gpios and their interfaces."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from operator import attrgetter
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from linkforge_compile.core.constants import CONTROL_TYPE_ACTUATOR, CONTROL_TYPE_SENSOR, CONTROL_TYPE_SYSTEM
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import Children, Choice, Name, Parameters, Reference, Text
 from linkforge_compile.core.frozen_map import FrozenMap
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_name, require_unique_names
+from linkforge_compile.core.rules import require_choice, require_name, require_unique_names
 
 __all__ = ["Interface", "Ros2Control", "Ros2ControlGpio", "Ros2ControlJoint", "Ros2ControlSensor"]
 
-_TYPES = (CONTROL_TYPE_SYSTEM, CONTROL_TYPE_ACTUATOR, CONTROL_TYPE_SENSOR)
+_COMMANDS = Children(kinds=(Interface,), xml="command_interface")
+_STATES = Children(kinds=(Interface,), xml="state_interface")
+
+
+class Ros2ControlType(StrEnum):
+    """What a piece of hardware is: a system of joints and sensors, one actuator, or sensors alone."""
+
+    SYSTEM = CONTROL_TYPE_SYSTEM
+    ACTUATOR = CONTROL_TYPE_ACTUATOR
+    SENSOR = CONTROL_TYPE_SENSOR
 
 
 @dataclass(frozen=True, slots=True)
 class _CommandedComponent(Element):
     """What joints and gpios have in common: they may be commanded as well as read."""
 
-    PREFIXED = ("name",)
-
-    name: str
-    command_interfaces: Sequence[str] = ()
-    state_interfaces: Sequence[str] = ()
-    parameters: Mapping[str, str] = FrozenMap()
+    name: Annotated[str, Name()]
+    command_interfaces: Annotated[Sequence[str], _COMMANDS] = ()
+    state_interfaces: Annotated[Sequence[str], _STATES] = ()
+    parameters: Annotated[Mapping[str, str], Parameters(xml="param")] = FrozenMap()
 
     what: ClassVar[str]
     name_target: ClassVar[str]
@@ -57,6 +66,8 @@ class Ros2ControlJoint(_CommandedComponent):
     """
 
     __slots__ = ()
+    TAG = "joint"
+    name: Annotated[str, Reference("joint", key="")]
     what = "ros2_control joint"
     name_target = "JointName"
 
@@ -80,6 +91,7 @@ class Ros2ControlGpio(_CommandedComponent):
     """
 
     __slots__ = ()
+    TAG = "gpio"
     what = "ros2_control gpio"
     name_target = "GpioName"
 
@@ -93,11 +105,11 @@ class Ros2ControlSensor(Element):
 
     """
 
-    PREFIXED = ("name",)
+    TAG = "sensor"
 
-    name: str
-    state_interfaces: Sequence[str] = ()
-    parameters: Mapping[str, str] = FrozenMap()
+    name: Annotated[str, Name()]
+    state_interfaces: Annotated[Sequence[str], _STATES] = ()
+    parameters: Annotated[Mapping[str, str], Parameters(xml="param")] = FrozenMap()
 
     def __post_init__(self) -> None:
         freeze(self, "state_interfaces", mappings=("parameters",))
@@ -113,7 +125,7 @@ class Ros2Control(Element):
     """One piece of hardware: `<ros2_control name type>`.
 
     `type` is `system`, `actuator` or `sensor`; `hardware_plugin` the class that talks to it, `<plugin>` in
-    `<hardware>`, where `parameters` go as well. `extra_elements` stand in `<ros2_control>` itself.
+    `<hardware>`, with the `parameters`. `extra_elements` are children of `<ros2_control>` itself.
 
     Raises:
         RobotValidationError: NAME_EMPTY for an empty name; INVALID_VALUE for another type, a command interface in a
@@ -122,26 +134,20 @@ class Ros2Control(Element):
 
     """
 
-    PREFIXED = ("name", "joints", "sensors", "gpios")
+    TAG = "ros2_control"
 
-    name: str
-    type: str = CONTROL_TYPE_SYSTEM
-    hardware_plugin: str = ""
-    joints: Sequence[Ros2ControlJoint] = ()
-    sensors: Sequence[Ros2ControlSensor] = ()
-    parameters: Mapping[str, str] = FrozenMap()
-    gpios: Sequence[Ros2ControlGpio] = field(default=(), kw_only=True)
+    name: Annotated[str, Name()]
+    type: Annotated[str, Choice(Ros2ControlType)] = CONTROL_TYPE_SYSTEM
+    hardware_plugin: Annotated[str, Text(xml="hardware/plugin/text()", example="mock_components/GenericSystem")] = ""
+    joints: Annotated[Sequence[Ros2ControlJoint], Children()] = ()
+    sensors: Annotated[Sequence[Ros2ControlSensor], Children()] = ()
+    parameters: Annotated[Mapping[str, str], Parameters(xml="hardware/param")] = FrozenMap()
+    gpios: Annotated[Sequence[Ros2ControlGpio], Children()] = field(default=(), kw_only=True)
 
     def __post_init__(self) -> None:
         freeze(self, "joints", "sensors", "gpios", mappings=("parameters",))
         require_name(self.name, "ros2_control name", "Ros2ControlName")
-        if self.type not in _TYPES:
-            raise _invalid(
-                f"ros2_control type must be one of {', '.join(_TYPES)}, found '{self.type}'",
-                "Ros2ControlType",
-                self.type,
-                "type",
-            )
+        require_choice(self.type, Ros2ControlType, "ros2_control type", "Ros2ControlType", "type")
         if not self.hardware_plugin:
             raise RobotValidationError(
                 ValidationErrorCode.VALUE_EMPTY,

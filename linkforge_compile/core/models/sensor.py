@@ -1,20 +1,32 @@
-"""Sensors: what measures on a link, how well, and under which topic."""
+"""Sensors on links: what they measure, how well, and under which topic."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Annotated
 
 from linkforge_compile.core import constants as default
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.fields import ABOVE_ZERO, UP_TO_HALF_A_TURN, Choice, Noise, Number, Text, check_numbers
+from linkforge_compile.core.fields import (
+    ABOVE_ZERO,
+    UP_TO_HALF_A_TURN,
+    Child,
+    Choice,
+    Flag,
+    Name,
+    Noise,
+    Number,
+    Pose,
+    Reference,
+    Text,
+    check_numbers,
+)
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
-from linkforge_compile.core.naming import prefixed_topic
 from linkforge_compile.core.part import Element, freeze
-from linkforge_compile.core.rules import require_name
+from linkforge_compile.core.rules import require_choice, require_name
 from linkforge_compile.units import ANGLE, FREQUENCY, LENGTH, LOAD, PIXELS, TURN_RATE, VELOCITY
 
 
@@ -55,16 +67,10 @@ class ForceTorqueFrame(StrEnum):
 
 
 class ForceTorqueDirection(StrEnum):
-    """Who acts on whom."""
+    """Whether forces are those of the child on the parent, or of the parent on the child."""
 
     CHILD_TO_PARENT = default.FT_DIR_CHILD_TO_PARENT
     PARENT_TO_CHILD = default.FT_DIR_PARENT_TO_CHILD
-
-
-_EXTENT = Number(LENGTH, ABOVE_ZERO)
-_SIGHT = Number(LENGTH, may_be_far=True)
-_COUNT = Number(bound=ABOVE_ZERO, is_whole=True)
-_PIXELS = Number(PIXELS, ABOVE_ZERO, is_whole=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,19 +78,21 @@ class SensorNoise(Element):
     """Noise on a measured value, in that value's unit: `<noise>`.
 
     `type` is `gaussian`, `gaussian_quantized` or what else the simulator knows. A bias is drawn once from
-    `bias_mean` and `bias_stddev`, the rest for every reading. `stated` names those two where they are 0 and written
-    all the same.
+    `bias_mean` and `bias_stddev`, the rest for every reading. `stated` names those two where they are 0 and
+    written nevertheless.
 
     Raises:
         RobotMathError: INVALID_VALUE for NaN or infinity.
 
     """
 
+    TAG = "noise"
+
     type: Annotated[str, Text()] = default.NOISE_GAUSSIAN
-    mean: Annotated[float, Number()] = 0.0
-    stddev: Annotated[float, Number()] = 0.0
-    bias_mean: Annotated[float, Number()] = 0.0
-    bias_stddev: Annotated[float, Number()] = 0.0
+    mean: Annotated[float, Number(xml="mean/text()")] = 0.0
+    stddev: Annotated[float, Number(xml="stddev/text()")] = 0.0
+    bias_mean: Annotated[float, Number(xml="bias_mean/text()")] = 0.0
+    bias_stddev: Annotated[float, Number(xml="bias_stddev/text()")] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
 
     def __post_init__(self) -> None:
@@ -92,7 +100,7 @@ class SensorNoise(Element):
         check_numbers(self)
 
     def is_written(self, name: str) -> bool:
-        """Whether a bias becomes a tag: it is not 0, or is stated all the same."""
+        """Whether a bias becomes a tag: it is not 0, or is stated."""
         return name in self.stated or getattr(self, name) != 0
 
 
@@ -110,12 +118,20 @@ class CameraInfo(Element):
 
     """
 
-    horizontal_fov: Annotated[float, Number(ANGLE, UP_TO_HALF_A_TURN)] = default.DEFAULT_CAMERA_FOV
-    width: Annotated[int, _PIXELS] = default.DEFAULT_CAMERA_WIDTH
-    height: Annotated[int, _PIXELS] = default.DEFAULT_CAMERA_HEIGHT
-    format: Annotated[str, Text()] = default.DEFAULT_CAMERA_FORMAT
-    near_clip: Annotated[float, _EXTENT] = default.DEFAULT_CAMERA_NEAR
-    far_clip: Annotated[float, _SIGHT] = default.DEFAULT_CAMERA_FAR
+    TAG = "camera"
+
+    horizontal_fov: Annotated[float, Number(ANGLE, UP_TO_HALF_A_TURN, xml="horizontal_fov/text()")] = (
+        default.DEFAULT_CAMERA_FOV
+    )
+    width: Annotated[int, Number(PIXELS, ABOVE_ZERO, is_whole=True, xml="image/width/text()")] = (
+        default.DEFAULT_CAMERA_WIDTH
+    )
+    height: Annotated[int, Number(PIXELS, ABOVE_ZERO, is_whole=True, xml="image/height/text()")] = (
+        default.DEFAULT_CAMERA_HEIGHT
+    )
+    format: Annotated[str, Text(xml="image/format/text()")] = default.DEFAULT_CAMERA_FORMAT
+    near_clip: Annotated[float, Number(LENGTH, ABOVE_ZERO, xml="clip/near/text()")] = default.DEFAULT_CAMERA_NEAR
+    far_clip: Annotated[float, Number(LENGTH, may_be_far=True, xml="clip/far/text()")] = default.DEFAULT_CAMERA_FAR
     noise: Annotated[SensorNoise | None, Noise()] = None
 
     def __post_init__(self) -> None:
@@ -145,17 +161,39 @@ class LidarInfo(Element):
 
     """
 
-    horizontal_samples: Annotated[int, _COUNT] = default.DEFAULT_LIDAR_SAMPLES
-    horizontal_resolution: Annotated[float, Number()] = default.DEFAULT_LIDAR_RESOLUTION
-    horizontal_min_angle: Annotated[float, Number(ANGLE)] = default.DEFAULT_LIDAR_MIN_ANGLE
-    horizontal_max_angle: Annotated[float, Number(ANGLE)] = default.DEFAULT_LIDAR_MAX_ANGLE
-    vertical_samples: Annotated[int, Number(is_whole=True)] = default.DEFAULT_LIDAR_VERTICAL_SAMPLES
-    vertical_resolution: Annotated[float, Number()] = default.DEFAULT_LIDAR_VERTICAL_RESOLUTION
-    vertical_min_angle: Annotated[float, Number(ANGLE)] = default.DEFAULT_LIDAR_VERTICAL_MIN_ANGLE
-    vertical_max_angle: Annotated[float, Number(ANGLE)] = default.DEFAULT_LIDAR_VERTICAL_MAX_ANGLE
-    range_min: Annotated[float, _EXTENT] = default.DEFAULT_LIDAR_RANGE_MIN
-    range_max: Annotated[float, _SIGHT] = default.DEFAULT_LIDAR_RANGE_MAX
-    range_resolution: Annotated[float, _EXTENT] = default.DEFAULT_LIDAR_RANGE_RESOLUTION
+    TAG = "lidar"
+
+    horizontal_samples: Annotated[
+        int, Number(bound=ABOVE_ZERO, is_whole=True, xml="scan/horizontal/samples/text()")
+    ] = default.DEFAULT_LIDAR_SAMPLES
+    horizontal_resolution: Annotated[float, Number(xml="scan/horizontal/resolution/text()")] = (
+        default.DEFAULT_LIDAR_RESOLUTION
+    )
+    horizontal_min_angle: Annotated[float, Number(ANGLE, xml="scan/horizontal/min_angle/text()")] = (
+        default.DEFAULT_LIDAR_MIN_ANGLE
+    )
+    horizontal_max_angle: Annotated[float, Number(ANGLE, xml="scan/horizontal/max_angle/text()")] = (
+        default.DEFAULT_LIDAR_MAX_ANGLE
+    )
+    vertical_samples: Annotated[int, Number(is_whole=True, xml="scan/vertical/samples/text()")] = (
+        default.DEFAULT_LIDAR_VERTICAL_SAMPLES
+    )
+    vertical_resolution: Annotated[float, Number(xml="scan/vertical/resolution/text()")] = (
+        default.DEFAULT_LIDAR_VERTICAL_RESOLUTION
+    )
+    vertical_min_angle: Annotated[float, Number(ANGLE, xml="scan/vertical/min_angle/text()")] = (
+        default.DEFAULT_LIDAR_VERTICAL_MIN_ANGLE
+    )
+    vertical_max_angle: Annotated[float, Number(ANGLE, xml="scan/vertical/max_angle/text()")] = (
+        default.DEFAULT_LIDAR_VERTICAL_MAX_ANGLE
+    )
+    range_min: Annotated[float, Number(LENGTH, ABOVE_ZERO, xml="range/min/text()")] = default.DEFAULT_LIDAR_RANGE_MIN
+    range_max: Annotated[float, Number(LENGTH, may_be_far=True, xml="range/max/text()")] = (
+        default.DEFAULT_LIDAR_RANGE_MAX
+    )
+    range_resolution: Annotated[float, Number(LENGTH, ABOVE_ZERO, xml="range/resolution/text()")] = (
+        default.DEFAULT_LIDAR_RANGE_RESOLUTION
+    )
     noise: Annotated[SensorNoise | None, Noise(LENGTH)] = None
 
     def __post_init__(self) -> None:
@@ -188,27 +226,39 @@ class LidarInfo(Element):
 class IMUInfo(Element):
     """An inertial unit: `<imu>`; noise on each axis of [rad/s] and [m/s²], None for none."""
 
-    angular_velocity_noise: Annotated[SensorNoise | None, Noise(TURN_RATE)] = None
-    linear_acceleration_noise: Annotated[SensorNoise | None, Noise()] = None
+    TAG = "imu"
+
+    angular_velocity_noise: Annotated[SensorNoise | None, Noise(TURN_RATE, xml="angular_velocity/*/noise")] = None
+    linear_acceleration_noise: Annotated[SensorNoise | None, Noise(xml="linear_acceleration/*/noise")] = None
 
 
 @dataclass(frozen=True, slots=True)
 class GPSInfo(Element):
     """A satellite receiver: `<navsat>`, in Gazebo Classic `<gps>`; noise on [m] and [m/s], None for none."""
 
-    position_sensing_horizontal_noise: Annotated[SensorNoise | None, Noise(LENGTH)] = None
-    position_sensing_vertical_noise: Annotated[SensorNoise | None, Noise(LENGTH)] = None
-    velocity_sensing_horizontal_noise: Annotated[SensorNoise | None, Noise(VELOCITY)] = None
-    velocity_sensing_vertical_noise: Annotated[SensorNoise | None, Noise(VELOCITY)] = None
+    TAG = "navsat"
+
+    position_sensing_horizontal_noise: Annotated[
+        SensorNoise | None, Noise(LENGTH, xml="position_sensing/horizontal/noise")
+    ] = None
+    position_sensing_vertical_noise: Annotated[
+        SensorNoise | None, Noise(LENGTH, xml="position_sensing/vertical/noise")
+    ] = None
+    velocity_sensing_horizontal_noise: Annotated[
+        SensorNoise | None, Noise(VELOCITY, xml="velocity_sensing/horizontal/noise")
+    ] = None
+    velocity_sensing_vertical_noise: Annotated[
+        SensorNoise | None, Noise(VELOCITY, xml="velocity_sensing/vertical/noise")
+    ] = None
 
 
 @dataclass(frozen=True, slots=True)
 class ContactInfo(Element):
     """A touch sensor: `<contact>`; `collision` names the collision that feels, `noise` is None for none."""
 
-    PREFIXED = ("collision",)
+    TAG = "contact"
 
-    collision: Annotated[str, Text(example="fingertip_collision")]
+    collision: Annotated[str, Reference("collision", xml="collision/text()", example="fingertip_collision")]
     noise: Annotated[SensorNoise | None, Noise()] = None
 
 
@@ -216,7 +266,7 @@ class ContactInfo(Element):
 class ForceTorqueInfo(Element):
     """A force and torque sensor in a joint: `<force_torque>`.
 
-    `frame` says in whose axes it measures (`child`, `parent`, `sensor`), `measure_direction` who acts on whom
+    `frame` is the frame of its axes (`child`, `parent`, `sensor`), `measure_direction` the direction of the forces
     (`child_to_parent`, `parent_to_child`); `noise` on [N] and [N·m], None for none.
 
     Raises:
@@ -224,25 +274,21 @@ class ForceTorqueInfo(Element):
 
     """
 
-    frame: Annotated[str, Choice(ForceTorqueFrame)] = default.FT_FRAME_CHILD
-    measure_direction: Annotated[str, Choice(ForceTorqueDirection)] = default.FT_DIR_CHILD_TO_PARENT
-    noise: Annotated[SensorNoise | None, Noise(LOAD)] = None
+    TAG = "force_torque"
+
+    frame: Annotated[str, Choice(ForceTorqueFrame, xml="frame/text()")] = default.FT_FRAME_CHILD
+    measure_direction: Annotated[str, Choice(ForceTorqueDirection, xml="measure_direction/text()")] = (
+        default.FT_DIR_CHILD_TO_PARENT
+    )
+    noise: Annotated[SensorNoise | None, Noise(LOAD, xml="*/*/noise")] = None
 
     def __post_init__(self) -> None:
         freeze(self)
-        self._check_word("frame", tuple(ForceTorqueFrame), "ForceTorqueFrame")
-        self._check_word("measure_direction", tuple(ForceTorqueDirection), "ForceTorqueDirection")
-
-    def _check_word(self, name: str, words: tuple[str, ...], target: str) -> None:
-        found: str = getattr(self, name)
-        if found not in words:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
-                f"{name} must be one of {', '.join(words)}, found '{found}'",
-                target=target,
-                value=found,
-                field=(name,),
-            )
+        require_choice(self.frame, ForceTorqueFrame, "frame", "ForceTorqueFrame", "frame")
+        direction = self.measure_direction
+        require_choice(
+            direction, ForceTorqueDirection, "measure_direction", "ForceTorqueDirection", "measure_direction"
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,7 +297,7 @@ class Sensor(Element):
 
     `update_rate` [Hz]. `origin` is its pose in the frame of the link `link_name`. Of the infos, the one that
     belongs to the type is set (a ray or gpu_lidar may do without); the others are None. `topic` is where it
-    publishes, `frame` the frame in its messages (an optical frame, say); None for what the simulator chooses.
+    publishes, `frame` the frame in its messages (such as an optical frame); None to let the simulator choose.
     `plugin` is None for none.
 
     Raises:
@@ -261,24 +307,24 @@ class Sensor(Element):
 
     """
 
-    PREFIXED = ("name", "link_name", "contact_info", "plugin", "frame")
+    TAG = "sensor"
 
-    name: str
-    type: SensorType
-    link_name: str
-    update_rate: Annotated[float, Number(FREQUENCY, ABOVE_ZERO)] = default.DEFAULT_UPDATE_RATE
-    always_on: bool = True
-    visualize: bool = False
-    camera_info: CameraInfo | None = None
-    lidar_info: LidarInfo | None = None
-    imu_info: IMUInfo | None = None
-    gps_info: GPSInfo | None = None
-    contact_info: ContactInfo | None = None
-    force_torque_info: ForceTorqueInfo | None = None
-    origin: Transform = IDENTITY
-    topic: str | None = None
-    plugin: GazeboPlugin | None = None
-    frame: str | None = field(default=None, kw_only=True)
+    name: Annotated[str, Name()]
+    type: Annotated[SensorType, Choice(SensorType, example="camera")]
+    link_name: Annotated[str, Reference("link", key="link", xml="../@reference", example="head")]
+    update_rate: Annotated[float, Number(FREQUENCY, ABOVE_ZERO, xml="update_rate/text()")] = default.DEFAULT_UPDATE_RATE
+    always_on: Annotated[bool, Flag(xml="always_on/text()")] = True
+    visualize: Annotated[bool, Flag(xml="visualize/text()")] = False
+    camera_info: Annotated[CameraInfo | None, Child(key="camera")] = None
+    lidar_info: Annotated[LidarInfo | None, Child(key="lidar")] = None
+    imu_info: Annotated[IMUInfo | None, Child(key="imu")] = None
+    gps_info: Annotated[GPSInfo | None, Child(key="gps")] = None
+    contact_info: Annotated[ContactInfo | None, Child(key="contact")] = None
+    force_torque_info: Annotated[ForceTorqueInfo | None, Child(key="force_torque")] = None
+    origin: Annotated[Transform, Pose(xml="pose")] = IDENTITY
+    topic: Annotated[str | None, Reference("topic", xml="topic/text()")] = None
+    plugin: Annotated[GazeboPlugin | None, Child()] = None
+    frame: Annotated[str | None, Reference("frame", xml="gz_frame_id/text()")] = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -294,11 +340,6 @@ class Sensor(Element):
                 value=self.name,
                 field=(info.removesuffix("_info"),),
             )
-
-    def with_prefix(self, prefix: str) -> Sensor:
-        """Return the sensor with its names and its relative topic prefixed; an absolute topic is kept."""
-        sensor = Element.with_prefix(self, prefix)
-        return replace(sensor, topic=prefixed_topic(prefix, self.topic)) if self.topic else sensor
 
 
 def _out_of_range(message: str, target: str, value: object, at: str) -> RobotValidationError:

@@ -1,14 +1,15 @@
-"""The semantic description of a robot, SRDF: what planning needs to know beside links and joints."""
+"""The semantic description of a robot for motion planning: SRDF."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from operator import attrgetter, itemgetter
-from typing import Any
+from operator import attrgetter
+from typing import Annotated, Any
 
+from linkforge_compile.core.fields import Children, Name, Reference
 from linkforge_compile.core.models.collision_rules import CollisionPair, LinkSphereApproximation, SrdfSphere
-from linkforge_compile.core.models.named_table import Additions, KeySpec, OnDuplicate, PartList, extend_all, itself
+from linkforge_compile.core.models.named_table import KeySpec, NamedTable, OnDuplicate, itself
 from linkforge_compile.core.models.planning import (
     Chain,
     EndEffector,
@@ -18,7 +19,7 @@ from linkforge_compile.core.models.planning import (
     PlanningGroup,
     VirtualJoint,
 )
-from linkforge_compile.core.part import Element, freeze
+from linkforge_compile.core.part import Element, freeze, set_field
 
 __all__ = [
     "Chain",
@@ -46,54 +47,61 @@ _MEMBERS: Mapping[str, KeySpec] = {
     "link_sphere_approximations": KeySpec("link sphere approximation", attrgetter("link")),
     "joint_properties": KeySpec("joint property", attrgetter("joint_name", "property_name")),
 }
-_EXTRAS: Mapping[str, KeySpec] = {
-    "extra_elements": KeySpec("extra element", itself, OnDuplicate.KEEP),
-    "extra_inside": KeySpec("extra inside", itself, OnDuplicate.KEEP),
-    "extra_attributes": KeySpec("extra attribute", itemgetter(0), OnDuplicate.SKIP),
-}
 
 
 @dataclass(frozen=True, slots=True)
 class SemanticRobotDescription(Element):
-    """All that SRDF says about a robot: `<robot name>`, empty where it is not known yet.
+    """The SRDF of a robot: `<robot name>`, with an empty name until the robot is known.
 
-    Collections keep the order in which they were given. `no_default_collision_links` are names of links.
+    Collections keep the order in which they were given, and find their members by name, as those of a robot do.
+    `no_default_collision_links` are names of links.
     """
 
-    PREFIXED = ("robot_name", *_MEMBERS, "extra_inside")
+    TAG = "robot"
+    NAMES_INSIDE_TAKE_PREFIX = True
 
-    robot_name: str = ""
-    virtual_joints: Sequence[VirtualJoint] = ()
-    groups: Sequence[PlanningGroup] = ()
-    group_states: Sequence[GroupState] = ()
-    end_effectors: Sequence[EndEffector] = ()
-    passive_joints: Sequence[PassiveJoint] = ()
-    disabled_collisions: Sequence[CollisionPair] = ()
-    enabled_collisions: Sequence[CollisionPair] = ()
-    no_default_collision_links: Sequence[str] = ()
-    link_sphere_approximations: Sequence[LinkSphereApproximation] = ()
-    joint_properties: Sequence[JointProperty] = ()
+    robot_name: Annotated[str, Name(xml="@name")] = ""
+    virtual_joints: Annotated[Sequence[VirtualJoint], Children()] = ()
+    groups: Annotated[Sequence[PlanningGroup], Children()] = ()
+    group_states: Annotated[Sequence[GroupState], Children()] = ()
+    end_effectors: Annotated[Sequence[EndEffector], Children()] = ()
+    passive_joints: Annotated[Sequence[PassiveJoint], Children()] = ()
+    disabled_collisions: Annotated[Sequence[CollisionPair], Children(xml="disable_collisions")] = ()
+    enabled_collisions: Annotated[Sequence[CollisionPair], Children(xml="enable_collisions")] = ()
+    no_default_collision_links: Annotated[Sequence[str], Reference("link", xml="disable_default_collisions/@link")] = ()
+    link_sphere_approximations: Annotated[Sequence[LinkSphereApproximation], Children()] = ()
+    joint_properties: Annotated[Sequence[JointProperty], Children()] = ()
 
     def __post_init__(self) -> None:
-        freeze(self, *_MEMBERS)
+        freeze(self)
+        for name, spec in _MEMBERS.items():
+            members = getattr(self, name)
+            if not isinstance(members, NamedTable):
+                set_field(self, name, NamedTable(spec, members))
 
     @property
     def is_empty(self) -> bool:
-        """True for a description of nothing, whatever robot it names."""
+        """True for a description without members and raw XML."""
         return self == SemanticRobotDescription(self.robot_name)
 
     def merge_with(self, other: SemanticRobotDescription) -> SemanticRobotDescription:
         """Return this description followed by the members of the other, under the name of this one.
 
-        A collision pair or link without default collisions that both have is there once, as this one says it.
+        A collision pair or link without default collisions that both have is kept once, with the reason given here.
 
         Raises:
             RobotValidationError: DUPLICATE_NAME for anything else that both have, or the other twice.
 
         """
-        parts = SemanticParts(self)
-        extend_all(parts.additions(other))
-        return parts.describe(self.robot_name)
+        members = {name: getattr(self, name).extended(getattr(other, name)) for name in _MEMBERS}
+        attributes = dict(self.extra_attributes)
+        return replace(
+            self,
+            **members,
+            extra_elements=(*self.extra_elements, *other.extra_elements),
+            extra_inside=(*self.extra_inside, *other.extra_inside),
+            extra_attributes=tuple({**attributes, **dict(other.extra_attributes), **attributes}.items()),
+        )
 
     def normalized(self) -> SemanticRobotDescription:
         """Return it with every collection sorted by name; a collision pair counts by its links in order.
@@ -102,36 +110,3 @@ class SemanticRobotDescription(Element):
         """
         members: dict[str, Any] = {name: sorted(getattr(self, name), key=spec.key) for name, spec in _MEMBERS.items()}
         return replace(self, **members)
-
-
-class SemanticParts:
-    """The semantic description of a robot while it grows: a PartList for each collection that does."""
-
-    def __init__(self, description: SemanticRobotDescription) -> None:
-        self._description = description
-        self._lists: dict[str, PartList[Any]] = {}  # Any: each collection has members of its own class
-        self._described = 0
-
-    def list_members(self, collection: str) -> PartList[Any]:
-        """Return the members of a collection, to be looked up and added to."""
-        if collection not in self._lists:
-            spec = _MEMBERS.get(collection) or _EXTRAS[collection]
-            self._lists[collection] = PartList(spec, getattr(self._description, collection))
-        return self._lists[collection]
-
-    def additions(self, other: SemanticRobotDescription) -> Additions:
-        """Return what `extend_all` takes to add the members of another description."""
-        return [(self.list_members(name), added) for name in (*_MEMBERS, *_EXTRAS) if (added := getattr(other, name))]
-
-    def describe(self, robot_name: str) -> SemanticRobotDescription:
-        """Return the whole for a robot of that name."""
-        length = sum(len(members.items) for members in self._lists.values())
-        if length != self._described or self._description.robot_name != robot_name:
-            members: dict[str, Any] = {name: members.items for name, members in self._lists.items()}
-            self._description = replace(self._description, robot_name=robot_name, **members)
-            self._described = length
-        return self._description
-
-    def copy(self) -> SemanticParts:
-        """Return a description of its own that says the same."""
-        return SemanticParts(self.describe(self._description.robot_name))

@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from operator import attrgetter
-from typing import ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from linkforge_compile.core.constants import EPSILON, HW_IF_POSITION
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.fields import BEYOND_EPSILON, Children, Name, Number, Parameters, Reference, Text
 from linkforge_compile.core.frozen_map import FreePart, FrozenMap
 from linkforge_compile.core.part import Element, freeze
 from linkforge_compile.core.rules import (
@@ -18,6 +19,7 @@ from linkforge_compile.core.rules import (
     require_unique_names,
     require_valid_characters,
 )
+from linkforge_compile.units import POSITION
 
 
 class TransmissionType(StrEnum):
@@ -40,14 +42,12 @@ _JOINTS_AND_ACTUATORS: dict[str, int] = {
 class _TransmissionEnd(Element):
     """What a joint and an actuator of a transmission have in common."""
 
-    PREFIXED = ("name",)
-
-    name: str
-    hardware_interfaces: Sequence[str] = (HW_IF_POSITION,)
-    mechanical_reduction: float | None = 1.0
-    offset: float = 0.0
+    name: Annotated[str, Name()]
+    hardware_interfaces: Annotated[Sequence[str], Text(xml="hardwareInterface/text()")] = (HW_IF_POSITION,)
+    mechanical_reduction: Annotated[float | None, Number(bound=BEYOND_EPSILON, xml="mechanicalReduction/text()")] = 1.0
+    offset: Annotated[float, Number(POSITION, xml="offset/text()")] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
-    """The field `offset` where it is 0 and written all the same."""
+    """The field `offset` where it is 0 and written nevertheless."""
     interfaces_stated: bool = field(default=True, kw_only=True, repr=False)
     """Whether the interfaces become tags: many files state none, and ros2_control asks for none."""
 
@@ -75,7 +75,7 @@ class _TransmissionEnd(Element):
         require_finite(self, "mechanical_reduction", "offset")
 
     def is_written(self, name: str) -> bool:
-        """Whether `offset` becomes a tag: it is not 0, or is stated all the same."""
+        """Whether `offset` becomes a tag: it is not 0, or is stated."""
         return name in self.stated or getattr(self, name) != 0
 
     def normalized(self) -> Self:
@@ -97,6 +97,8 @@ class TransmissionJoint(_TransmissionEnd):
     """
 
     __slots__ = ()
+    TAG = "joint"
+    name: Annotated[str, Reference("joint", key="")]
     what = "transmission joint"
     name_target = "JointName"
 
@@ -105,6 +107,7 @@ class TransmissionActuator(_TransmissionEnd):
     """An actuator that drives a transmission: `<actuator name>`; fields and refusals as for TransmissionJoint."""
 
     __slots__ = ()
+    TAG = "actuator"
     what = "transmission actuator"
     name_target = "ActuatorName"
 
@@ -123,14 +126,13 @@ class Transmission(Element):
 
     """
 
-    PREFIXED = ("name", "joints", "actuators")
-    KEYS_ARE_TAGS = True
+    TAG = "transmission"
 
-    name: str
-    type: str
-    joints: Sequence[TransmissionJoint] = ()
-    actuators: Sequence[TransmissionActuator] = ()
-    parameters: Mapping[str, FreePart] = FrozenMap()
+    name: Annotated[str, Name()]
+    type: Annotated[str, Text(xml="type/text()", example="transmission_interface/SimpleTransmission")]
+    joints: Annotated[Sequence[TransmissionJoint], Children()] = ()
+    actuators: Annotated[Sequence[TransmissionActuator], Children()] = ()
+    parameters: Annotated[Mapping[str, FreePart], Parameters(xml="*")] = FrozenMap()
 
     def __post_init__(self) -> None:
         freeze(self, "joints", "actuators", mappings=("parameters",))

@@ -1,14 +1,14 @@
 """The register of every code: one line a code, one file a family, never renumbered, never reused.
 
 Families: LF1 syntax, LF2 schema, LF3 modules and expressions, LF4 names and references, LF5 model,
-LF6 physics and interfaces, LF7 backend limits, LF8 import.
+LF6 physics and interfaces, LF7 output formats, LF8 import.
 """
 
 from linkforge_compile.diagnostics.codes import (
-    backends,
     bounds,
     expressions,
     files,
+    formats,
     ignoring,
     importing,
     model,
@@ -27,7 +27,7 @@ REGISTER: dict[str, Code] = {
     code.id: code
     for family in (
         *(syntax, ignoring, schema, modules, files, repetition, bounds, roots, expressions),
-        *(names, model, physics, backends, templates, importing),
+        *(names, model, physics, formats, templates, importing),
     )
     for code in vars(family).values()
     if isinstance(code, Code)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import fields
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.sensor import Sensor, SensorNoise, SensorType
@@ -19,11 +19,8 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.source import SourceRef
 
-Gazebo: TypeAlias = Literal["gz", "classic"]
-"""Gazebo Sim (Harmonic) or Gazebo Classic (11)."""
-
 # Gazebo Sim has no lidar on the CPU and turns one away with a warning; what is not listed keeps its name.
-_TYPES: Mapping[Gazebo, Mapping[SensorType, str]] = {
+_TYPES: Mapping[str, Mapping[SensorType, str]] = {
     "gz": {SensorType.LIDAR: "gpu_lidar", SensorType.RAY: "gpu_lidar", SensorType.GPS: "navsat"},
     "classic": {
         SensorType.DEPTH_CAMERA: "depth",
@@ -32,7 +29,7 @@ _TYPES: Mapping[Gazebo, Mapping[SensorType, str]] = {
         SensorType.GPU_LIDAR: "gpu_ray",
     },
 }
-_INFO_TAGS: Mapping[Gazebo, Mapping[str, str]] = {
+_INFO_TAGS: Mapping[str, Mapping[str, str]] = {
     "gz": {"gps": "navsat"},
     "classic": {"lidar": "ray"},
 }
@@ -96,7 +93,7 @@ class SensorView(NamedTuple):
     elements: Xml
 
 
-def sensor_views(robot: Robot, gazebo: Gazebo) -> tuple[SensorView, ...]:
+def sensor_views(robot: Robot, gazebo: str) -> tuple[SensorView, ...]:
     return tuple(
         SensorView(
             placed(sensor_reference(sensor, robot), sensor.source, "link"),
@@ -123,7 +120,7 @@ def sensor_reference(sensor: Sensor, robot: Robot) -> str:
     return sensor.link_name
 
 
-def _info(sensor: Sensor, gazebo: Gazebo) -> InfoView | None:
+def _info(sensor: Sensor, gazebo: str) -> InfoView | None:
     kind = INFOS[SensorType(sensor.type)]
     info: Element | None = getattr(sensor, f"{kind}_info")
     if info is None:

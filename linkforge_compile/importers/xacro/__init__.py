@@ -1,4 +1,4 @@
-"""xacro files: expanded by the xacro package in a process of its own, each element led back to where it was written."""
+"""Expand xacro files with the xacro package in a separate process, and trace elements to where they were written."""
 
 from linkforge_compile.importers.xacro.places import moved_back
 from linkforge_compile.importers.xacro.run import Expanded, Failed, Place, run_xacro

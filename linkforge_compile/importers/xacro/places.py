@@ -1,4 +1,4 @@
-"""From the elements of an expanded document back to those that were written."""
+"""Give the elements of an expanded xacro document the places where they were written."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ _MARK = re.compile(rf'\s{MARK}(?:="[0-9:]*"|(?=-->))')
 _FOLLOWS = f" {MARK}"
 
 Find = Callable[[Place], XmlElement | None]
-"""Returns the element at a place as it was written; None where its file cannot be read."""
+"""Returns the element at a place as written; None if its file cannot be read."""
 
 
 def moved_back(document: XmlDocument, find: Find) -> XmlDocument:
-    """Return a document without its marks, whose elements and attributes have the spans of those written."""
+    """Return a document without the marks of `process`, with the spans of the elements and attributes as written."""
     root = _moved(document.root, find, None)
     return XmlDocument(root, tuple(root if item is document.root else item for item in document.content))
 
 
 class _Moved(XmlElement):
-    """An element at another place than that of its text; it has its attributes and raw text already."""
+    """An element with the span of another; its attributes and raw text are given, not parsed."""
 
     _span: Span
     _attributes: Mapping[str, XmlAttribute]

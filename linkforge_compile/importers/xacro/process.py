@@ -1,9 +1,9 @@
-"""A program: expands one xacro file with the xacro package, under limits of memory and of what it may do.
+"""The program that expands one xacro file with the xacro package, with limits on memory and on what it may do.
 
-It reads a request from standard input, a line of JSON, and answers with one. In between it asks where packages are,
+It reads a request from standard input, a line of JSON, and answers with one. In between it asks where a package is,
 `{"find": NAME}`, and reads the folder or null, and whether it may read a file, `{"may_read": PATH}`, and reads true or
-false. Every element is marked with the file that it was written in and its number there, for the expanded text has no
-places, and every comment that stands behind an element on its line, for xacro leaves the space around elements out.
+false. Every element is marked with the index of its file and its index there, because the expanded text has no
+places, and so is every comment that follows an element on the same line, because xacro drops whitespace.
 """
 
 from __future__ import annotations
@@ -25,28 +25,28 @@ if TYPE_CHECKING:
 MARK = "linkforge-place"
 _MEMORY = 2 * 1024**3
 
-_HARMLESS = frozenset(
+_ALLOWED_EVENTS = frozenset(
     ("builtins.id", "compile", "exec", "glob.glob", "glob.glob/2", "import", "marshal.loads", "sys._getframe")
 )
-"""What Python audits and xacro needs."""
+"""The audit events of Python that xacro needs."""
 
-_READS = frozenset(("open", "os.listdir", "os.scandir"))
-_CODE = (".py", ".pyc", ".so", ".pyd")
+_READ_EVENTS = frozenset(("open", "os.listdir", "os.scandir"))
+_CODE_SUFFIXES = (".py", ".pyc", ".so", ".pyd")
 _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 _EXPRESSION = re.compile(r"\s*when evaluating expression '(.*)'", re.DOTALL)
 _Answer = dict[str, object]
 
 
 class _UnknownPackageError(Exception):
-    """The asker does not know where a package is."""
+    """The compiler does not know where a package is."""
 
 
 class _RefusedError(Exception):
-    """The file does what a robot description has no need of."""
+    """The file does something that no robot description needs."""
 
 
 class _Run:
-    """One expansion, and where it stands."""
+    """One expansion, and the element that it has reached."""
 
     def __init__(self, answers: TextIO) -> None:
         self._answers = answers
@@ -58,23 +58,23 @@ class _Run:
         self._kept: list[Node] = []
 
     def find(self, name: str) -> str:
-        folder = self._asked({"find": name})
+        folder = self._ask({"find": name})
         if not isinstance(folder, str):
             raise _UnknownPackageError(name)
         return folder
 
     def guard(self) -> None:
-        """Refuse from now on whatever xacro has no need of, and ask before a file is read.
+        """Refuse from now on whatever xacro does not need, and ask before a file is read.
 
-        xacro lets expressions reach anything in Python by a detour. What they do there is audited by Python: programs,
-        the network, files that are written or removed, and the objects by which one gets at other code.
+        Expressions can reach anything in Python through attributes of objects. An audit hook sees what they do there:
+        start programs, use the network, write or remove files, and get at other code.
         """
         own = tuple(real for folder in sys.path if folder and (real := _real(folder)))
 
         def refuse(event: str, arguments: tuple[object, ...]) -> None:
-            if event in _HARMLESS:
+            if event in _ALLOWED_EVENTS:
                 return
-            if event not in _READS:
+            if event not in _READ_EVENTS:
                 raise _RefusedError(f"no robot description needs {event}")
             path, flags = arguments[0], arguments[-1]
             if event == "open" and (not isinstance(flags, int) or flags & _WRITING):
@@ -85,33 +85,33 @@ class _Run:
         sys.addaudithook(refuse)
 
     def _may_read(self, path: object, own: tuple[Path, ...]) -> bool:
-        """Whether a file or folder may be read: code and folders of Python itself, `own`, and what the asker allows."""
+        """Whether a file or folder may be read: Python's own code and folders (`own`), and what the compiler allows."""
         if not isinstance(path, str | bytes):
             return False
-        # Joined and no more: where `..` leads behind a link is for the asker to find out.
+        # Not normalized: the compiler finds out where `..` leads after a link.
         named = Path.cwd() / os.fsdecode(path)
-        # os.path answers for what may not be looked at as well, where pathlib raises.
-        if named.suffix in _CODE or os.path.isdir(named):  # noqa: PTH112
+        # os.path handles paths without access; pathlib raises.
+        if named.suffix in _CODE_SUFFIXES or os.path.isdir(named):  # noqa: PTH112
             real = _real(named)
             if real and any(real.is_relative_to(folder) for folder in own):
                 return True
-        return self._asked({"may_read": str(named)}) is True
+        return self._ask({"may_read": str(named)}) is True
 
-    def _asked(self, question: _Answer) -> object:
+    def _ask(self, question: _Answer) -> object:
         self._answers.write(json.dumps(question) + "\n")
         self._answers.flush()
         answer: object = json.loads(sys.stdin.readline())
         return answer
 
     def mark(self, document: Document, file: str) -> None:
-        """Mark every element with its place; those of xacro refuse an attribute, and are remembered."""
+        """Mark every element with its place; those of xacro reject attributes, and are recorded."""
         self.files.append(file)
         for number, element in enumerate(document.getElementsByTagName("*")):
             place = f"{len(self.files) - 1}:{number}"
             if not element.tagName.startswith("xacro:"):
                 element.setAttribute(MARK, place)
                 continue
-            # Kept alive, so that nothing else gets its identity.
+            # Kept alive, so that no other object gets its id().
             self._kept.append(element)
             self._places[id(element)] = place
             if element.tagName == "xacro:arg":
@@ -121,7 +121,7 @@ class _Run:
                 comment.data += f" {MARK}"
 
     def at(self, element: Element) -> None:
-        """Note that xacro has come to an element, or to a copy of it."""
+        """Record that xacro has reached an element, or a copy of it."""
         here: Node | None = element
         while isinstance(here, Element):
             if place := self._places.get(id(here)) or here.getAttribute(MARK):
@@ -135,25 +135,25 @@ class _Run:
             from xacro import substitution_args
         except ImportError:
             return {"missing": True}
-        said = io.StringIO()
-        sys.stdout = sys.stderr = said
+        output = io.StringIO()
+        sys.stdout = sys.stderr = output
         substitution_args._eval_find = self.find
-        substitution_args._eval_arg = self._noting_names(substitution_args._eval_arg)
+        substitution_args._eval_arg = self._recording_names(substitution_args._eval_arg)
         self._watch(xacro)
         self.guard()
         try:
             document = xacro.process_file(path, mappings=arguments, verbosity=1)
             answer: _Answer = {"text": document.documentElement.toxml()}
         except _UnknownPackageError:
-            answer = {"error": ""}  # The asker knows.
+            answer = {"error": ""}  # the compiler knows which
         except RecursionError:
             answer = {"error": "it calls itself without an end"}
         except MemoryError:
             answer = {"error": "it takes too much memory"}
-        except Exception as error:  # Whatever the file's expressions raise.
+        except Exception as error:  # expressions may raise anything
             answer = {**_fault(error), "line": getattr(error, "lineno", None)}
             answer["file"] = xacro.filestack[-1] if xacro.filestack else path
-        warnings = [line.removeprefix("warning: ") for line in said.getvalue().splitlines() if line.strip()]
+        warnings = [line.removeprefix("warning: ") for line in output.getvalue().splitlines() if line.strip()]
         read = [file for file in xacro.all_includes if file not in self.files]
         return {
             **answer,
@@ -166,7 +166,7 @@ class _Run:
         }
 
     def _watch(self, xacro: _Xacro) -> None:
-        """Mark what xacro parses, and follow it through the elements."""
+        """Patch xacro so that what it parses is marked, and the element it works on is recorded."""
         parse = xacro.parse
 
         def parse_marked(text: object, filename: str) -> Document:
@@ -184,18 +184,18 @@ class _Run:
                 self._places[id(copied)] = place
             return copied
 
-        # A macro is a copy of what stands in it, and so is every use of one.
+        # Macros, and every call of one, are copies of elements.
         minidom._clone_node = copy_with_place  # type: ignore[attr-defined]  # as above
         xacro.print_location = lambda: None
         for name in ("eval_all", "check_attrs", "handle_macro_call", "grab_property"):
             setattr(xacro, name, self._followed(getattr(xacro, name)))
 
-    def _noting_names(self, value_of: Callable[[str, dict[str, str]], str]) -> Callable[[str, dict[str, str]], str]:
-        def noted(name: str, args: dict[str, str]) -> str:
+    def _recording_names(self, value_of: Callable[[str, dict[str, str]], str]) -> Callable[[str, dict[str, str]], str]:
+        def record(name: str, args: dict[str, str]) -> str:
             self.wanted.add(name)
             return value_of(name, args)
 
-        return noted
+        return record
 
     def _followed(self, step: Callable[..., object]) -> Callable[..., object]:
         def follow(element: Element, *rest: object) -> object:
@@ -206,7 +206,7 @@ class _Run:
 
 
 def _real(path: Path | str) -> Path | None:
-    """Return where links lead, None where one may not be looked at, as `roots.real_path` does: this imports nothing."""
+    """Resolve links like `roots.real_path`, None without access; this program imports nothing of the package."""
     try:
         return Path(os.path.realpath(path))
     except OSError:
@@ -214,7 +214,7 @@ def _real(path: Path | str) -> Path | None:
 
 
 def _fault(error: BaseException) -> _Answer:
-    """Return what went wrong, in whose words, and in which expressions, the outermost first."""
+    """Return the message and class of an exception, and the expressions that led to it, the outermost first."""
     expressions: list[str] = []
     cause = error
     while True:
@@ -239,7 +239,7 @@ def _comments(document: Document) -> Iterator[Comment]:
 
 
 def _follows(comment: Comment) -> bool:
-    """Whether a comment stands behind a tag on the line on which that ends."""
+    """Whether a comment follows a tag on the line on which that ends."""
     before = comment.previousSibling
     if isinstance(before, Text) and not before.data.strip() and "\n" not in before.data:
         before = before.previousSibling
@@ -249,20 +249,20 @@ def _follows(comment: Comment) -> bool:
 if TYPE_CHECKING:
 
     class _Xacro:
-        """What is replaced of the package."""
+        """The attributes of the xacro module that are replaced."""
 
         parse: Callable[..., Document]
         print_location: Callable[[], None]
 
 
 def _limit() -> None:
-    """Bound what a hostile file can take; it needs to write none."""
+    """Limit memory, and forbid writing files."""
     try:
         import resource
-    except ImportError:  # Windows: the asker's limit of time is left.
+    except ImportError:  # Windows, where only the time limit remains
         return
     hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-    most = _MEMORY if hard == resource.RLIM_INFINITY else min(_MEMORY, hard)  # nobody may raise a hard limit
+    most = _MEMORY if hard == resource.RLIM_INFINITY else min(_MEMORY, hard)  # a hard limit cannot be raised
     resource.setrlimit(resource.RLIMIT_AS, (most, most))
     resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
 

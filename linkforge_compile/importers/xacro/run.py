@@ -1,4 +1,4 @@
-"""Runs xacro on a file, in a process of its own that ends after a time whatever the file does."""
+"""Run xacro on a file in a separate process with a time limit."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from pathlib import Path
 from threading import Timer
 from typing import IO, NamedTuple, Protocol, TypedDict
 
-MOST_SECONDS = 60
-_MOST_CHARACTERS = 64 * 1024**2
+MAX_SECONDS = 60
+_MAX_CHARACTERS = 64 * 1024**2
 _PROGRAM = Path(__file__).with_name("process.py")
 
 
-class Asked(Protocol):
-    """What xacro asks on its way."""
+class Answers(Protocol):
+    """Answers the questions of the xacro process."""
 
     def find(self, name: str) -> Path | None:
-        """Return the folder of a package, None where it is nowhere."""
+        """Return the folder of a package, None if it is not found."""
         ...
 
     def may_read(self, path: Path) -> bool:
@@ -29,7 +29,7 @@ class Asked(Protocol):
 
 
 class Place(NamedTuple):
-    """An element: the file, as a position among those that were expanded, and its number there in document order."""
+    """An element: the index of its file among the expanded ones, and its index there in document order."""
 
     file: int
     element: int
@@ -37,10 +37,10 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True)
 class Expanded:
-    """What xacro made of a file: XML in which every element is marked with its place.
+    """The result of expanding a file: XML in which every element is marked with its place.
 
-    `files` are the xacro files that were expanded, the first one first, `read` the others that were read. `arguments`
-    has each `<xacro:arg>`, `wanted` the names in `$(arg NAME)`, and `warnings` what xacro said.
+    `files` are the expanded xacro files, the first one first, `read` the other files that were read. `arguments` has
+    the place of each `<xacro:arg>`, `wanted` the names in `$(arg NAME)`, and `warnings` those of xacro.
     """
 
     text: str
@@ -53,11 +53,11 @@ class Expanded:
 
 @dataclass(frozen=True)
 class Failed:
-    """Why there is no expansion.
+    """The reason why a file was not expanded.
 
-    `reason` is None where xacro is not installed, and `kind` the class of the exception that says it. The last of the
-    `expressions` failed, which each of the others led to; `missing` is a file that is not there. `place` is the element
-    at which xacro stopped, `line` a line of `file` where XML is malformed; None where nobody knows.
+    `reason` is the message of the exception of the class `kind`, None if xacro is not installed. The last of the
+    `expressions` failed while the others, from the outside in, were evaluated. `missing` is a file that does not
+    exist. `place` is the element at which xacro stopped, `line` a line of `file` with malformed XML; None if unknown.
     """
 
     reason: str | None
@@ -92,49 +92,50 @@ class _Answer(TypedDict, total=False):
     place: str | None
 
 
-def run_xacro(path: Path, arguments: Mapping[str, str], asked: Asked) -> Expanded | Failed:
+def run_xacro(path: Path, arguments: Mapping[str, str], answers: Answers) -> Expanded | Failed:
     """Expand a xacro file.
 
-    xacro computes the expressions of the file in Python: whoever runs it trusts the file as he trusts a program.
+    xacro evaluates the expressions of the file as Python code, so running it means trusting the file like a program.
     """
     command = [sys.executable, "-P", "-B", "-X", "utf8", str(_PROGRAM)]
-    pipe, nothing = subprocess.PIPE, subprocess.DEVNULL
-    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=nothing, text=True, encoding="utf-8") as process:
+    pipe, null = subprocess.PIPE, subprocess.DEVNULL
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=null, text=True, encoding="utf-8") as process:
         assert process.stdin, "it is a pipe"
         assert process.stdout, "it is a pipe"
-        timer = Timer(MOST_SECONDS, process.kill)
+        timer = Timer(MAX_SECONDS, process.kill)
         timer.start()
         try:
-            _say(process.stdin, {"path": str(path.absolute()), "arguments": dict(arguments)})
-            answer = _heard(process.stdout)
+            _send(process.stdin, {"path": str(path.absolute()), "arguments": dict(arguments)})
+            answer = _receive(process.stdout)
             while answer is not None and not answer.keys().isdisjoint(("find", "may_read")):
-                _say(process.stdin, _reply(answer, asked))
-                answer = _heard(process.stdout)
+                _send(process.stdin, _reply(answer, answers))
+                answer = _receive(process.stdout)
         except BrokenPipeError:
             answer = None
         finally:
-            is_late = not timer.is_alive()
+            timed_out = not timer.is_alive()
             timer.cancel()
             process.kill()
     if answer is None:
-        return Failed(f"it took more than {MOST_SECONDS} s" if is_late else "it took too much memory, or gave too much")
+        reason = f"it took more than {MAX_SECONDS} s" if timed_out else "it took too much memory, or gave too much"
+        return Failed(reason)
     return _outcome(answer)
 
 
-def _reply(question: _Answer, asked: Asked) -> str | bool | None:
+def _reply(question: _Answer, answers: Answers) -> str | bool | None:
     if "may_read" in question:
-        return asked.may_read(Path(question["may_read"]))
-    folder = asked.find(question["find"])
+        return answers.may_read(Path(question["may_read"]))
+    folder = answers.find(question["find"])
     return None if folder is None else str(folder.absolute())
 
 
-def _say(stream: IO[str], message: object) -> None:
+def _send(stream: IO[str], message: object) -> None:
     stream.write(json.dumps(message) + "\n")
     stream.flush()
 
 
-def _heard(stream: IO[str]) -> _Answer | None:
-    line = stream.readline(_MOST_CHARACTERS)
+def _receive(stream: IO[str]) -> _Answer | None:
+    line = stream.readline(_MAX_CHARACTERS)
     if not line.endswith("\n"):
         return None
     answer: _Answer = json.loads(line)
@@ -166,6 +167,6 @@ def _outcome(answer: _Answer) -> Expanded | Failed:
 
 
 def place_of(mark: str) -> Place:
-    """Read the mark of an element."""
+    """Parse the mark of an element."""
     file, _, element = mark.partition(":")
     return Place(int(file), int(element))

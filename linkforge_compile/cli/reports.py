@@ -1,0 +1,212 @@
+"""Prints diagnostics and status lines as the options of a command choose, by default on standard error."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from linkforge_compile.diagnostics import Diagnostic, Severity
+from linkforge_compile.diagnostics.render import FORMS
+from linkforge_compile.source.characters import on_one_line
+
+if TYPE_CHECKING:
+    import argparse
+
+    from linkforge_compile.diagnostics import Code
+    from linkforge_compile.source import Span
+
+PATIENCE = 3.0
+"""Time until `progress_after` prints its message [s]."""
+
+
+def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = False) -> None:
+    """Add the options about diagnostics, with `--format` as another name if they are all that the command prints."""
+    group = parser.add_argument_group("diagnostics")
+    group.add_argument(
+        "--diagnostics",
+        *(["--format"] if is_product else []),
+        choices=FORMS,
+        default="text",
+        help="the form of diagnostics: text (default), json, github (annotations) or sarif",
+    )
+    group.add_argument(
+        "--select",
+        metavar="CODES",
+        type=_parse_codes,
+        action="extend",
+        default=[],
+        help="only these warnings and notes",
+    )
+    group.add_argument(
+        "--ignore",
+        metavar="CODES",
+        type=_parse_ignorable_codes,
+        action="extend",
+        default=[],
+        help="do not report these warnings and notes; codes or their beginnings, such as LF5,LF6003",
+    )
+    group.add_argument("--werror", action="store_true", help="report warnings as errors")
+    group.add_argument("-q", "--quiet", action="store_true", help="print errors only")
+    group.add_argument(
+        "--color",
+        choices=("auto", "always", "never"),
+        default="auto",
+        help="whether to color text (default: on a terminal)",
+    )
+
+
+def select(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics that the options select, with the severities that the options set."""
+    diagnostics = tuple(diagnostics)
+    if not diagnostics:
+        return ()
+    from linkforge_compile.diagnostics.selection import Selection
+
+    selection = Selection(tuple(arguments.select), tuple(arguments.ignore), arguments.werror, arguments.quiet)
+    return selection.of(diagnostics)
+
+
+def report(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> bool:
+    """Print the diagnostics that the options select, and return whether there is an error among them."""
+    chosen = select(diagnostics, arguments)
+    write_to_stderr(format_diagnostics(chosen, arguments))
+    return has_errors(chosen)
+
+
+def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
+    return any(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)
+
+
+def print_status(line: str, arguments: argparse.Namespace) -> None:
+    """Print a line of status, unless with `--quiet` or if standard error is one document for a program."""
+    if not arguments.quiet:
+        print_failure(line, arguments)
+
+
+def print_failure(line: str, arguments: argparse.Namespace) -> None:
+    """Print a line about a failure, unless standard error is one document for a program."""
+    if getattr(arguments, "diagnostics", "text") in {"text", "github"}:
+        print_line(line)
+
+
+def print_line(line: str) -> None:
+    """Print one line on standard error, with control characters in names of files escaped."""
+    write_to_stderr(f"{on_one_line(line)}\n")
+
+
+def write_to_stderr(text: str) -> None:
+    """Write to standard error, unless it is closed."""
+    if sys.stderr is not None:
+        sys.stderr.write(text)
+
+
+def format_diagnostics(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> str:
+    """Return the diagnostics as text, in the form that the options choose."""
+    # GitHub resolves paths in annotations from the top of the checkout, wherever the build runs.
+    root = Path(os.environ.get("GITHUB_WORKSPACE") or Path.cwd()).absolute()
+    match arguments.diagnostics:
+        case "json":
+            from linkforge_compile.diagnostics.render.json import render_json
+
+            return render_json(diagnostics)
+        case "github":
+            from linkforge_compile.diagnostics.render.github import render_github
+
+            return render_github(diagnostics, root=root)
+        case "sarif":
+            from linkforge_compile._version import __version__
+            from linkforge_compile.diagnostics.render.sarif import render_sarif
+
+            return render_sarif(diagnostics, root=root, version=__version__, manual=_page)
+    return _format_text(diagnostics, arguments.color)
+
+
+def _format_text(diagnostics: tuple[Diagnostic, ...], color: str) -> str:
+    if not diagnostics:
+        return ""
+    from linkforge_compile.diagnostics.render.text import render_first
+
+    text = render_first(diagnostics, colour=is_colored(sys.stderr, color))
+    if sys.stderr is None or not sys.stderr.isatty():
+        return text
+    worst = next((one for one in diagnostics if one.severity is Severity.ERROR), diagnostics[0])
+    return f"{text}{worst.code.help} for more\n"
+
+
+def is_colored(stream: TextIO | None, when: str = "auto") -> bool:
+    """Whether to color output to a stream, None if it is closed.
+
+    In order of precedence: `--color` (`when`), NO_COLOR (no-color.org), FORCE_COLOR and CLICOLOR_FORCE, which builds
+    set if their log shows colors, and whether the stream is a terminal. An empty variable, or a forcing one that is
+    `0`, counts as unset.
+    """
+    if when != "auto":
+        return when == "always"
+    if os.environ.get("NO_COLOR"):
+        return False
+    if any(os.environ.get(name, "0") not in {"", "0"} for name in ("FORCE_COLOR", "CLICOLOR_FORCE")):
+        return True
+    return stream is not None and stream.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def place_lines(what: str, place: Span) -> Iterator[str]:
+    """Yield `WHAT at FILE:LINE:COLUMN`, the source line and a caret under the place."""
+    from linkforge_compile.diagnostics.render.text import snippet
+
+    yield on_one_line(f"{what} at {place}")
+    yield from snippet(place)
+
+
+@contextmanager
+def progress_after(file: str, arguments: argparse.Namespace) -> Iterator[None]:
+    """On a terminal, print which file is being read if the body takes longer than PATIENCE."""
+    if sys.stderr is None or not sys.stderr.isatty():
+        yield
+        return
+    from threading import Timer
+
+    timer = Timer(PATIENCE, print_status, (f"still reading {file}; Ctrl-C ends it", arguments))
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
+
+def _page(code: Code) -> str:
+    from linkforge_compile.cli.manual import page
+
+    return page(code.id, styled=False)
+
+
+def _parse_codes(text: str) -> list[str]:
+    """Parse codes or beginnings of codes, separated by commas or spaces."""
+    import argparse
+
+    from linkforge_compile.diagnostics.codes import REGISTER
+    from linkforge_compile.diagnostics.suggest import did_you_mean
+
+    codes = text.upper().replace(",", " ").split()
+    for code in codes:
+        if not any(known.startswith(code) for known in REGISTER):
+            raise argparse.ArgumentTypeError(f"no diagnostic has the code '{code}'{did_you_mean(code, REGISTER)}")
+    return codes
+
+
+def _parse_ignorable_codes(text: str) -> list[str]:
+    import argparse
+
+    from linkforge_compile.diagnostics.codes import REGISTER
+
+    codes = _parse_codes(text)
+    for code in codes:
+        severities = {one.severity for one in REGISTER.values() if one.id.startswith(code)}
+        if severities == {Severity.ERROR}:
+            kind = "is an error" if code in REGISTER else "stands for errors only"
+            raise argparse.ArgumentTypeError(f"{code} {kind}, which cannot be ignored")
+    return codes

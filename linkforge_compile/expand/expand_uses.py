@@ -1,0 +1,227 @@
+"""Expand each use of each file: compute its tree, apply defaults and overrides, and go on with its modules."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CIRCLE, USE_TOO_DEEP
+from linkforge_compile.expand.annotating_sink import with_use_trace
+from linkforge_compile.expand.arguments import Arguments, Unset
+from linkforge_compile.expand.assembly import Instance, charge_entries, own_name, robot_part
+from linkforge_compile.expand.evaluate import Evaluator, Expressions
+from linkforge_compile.expand.expand_tree import expand_node
+from linkforge_compile.expand.file_builtins import references_left
+from linkforge_compile.expand.file_scope import CompileState, FileScope
+from linkforge_compile.expand.loader import Loader, SpecFile
+from linkforge_compile.expand.modules import ModuleEntry, read_modules
+from linkforge_compile.expand.parameter_values import BoundArguments
+from linkforge_compile.expand.uses import (
+    SPEC_ENDINGS,
+    XACRO,
+    MakeSite,
+    PathSite,
+    locate,
+    mesh_base,
+    mesh_finder,
+    name_from,
+    open_use,
+)
+from linkforge_compile.expand.variants import report_unknown_variant, variants_of
+from linkforge_compile.expressions import FAULT, Fault
+from linkforge_compile.schema.shapes import shapes
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax import YamlMap, YamlScalar
+
+if TYPE_CHECKING:
+    from linkforge_compile.expand.xacro_use import XacroUse
+
+MAX_DEPTH = 50
+
+
+def expand_uses(
+    spec: SpecFile, arguments: Arguments, loader: Loader, sink: Diagnostics, *, unset: Unset, variant: str | None
+) -> Instance:
+    """Compute every expression of a file and of the modules that it uses; see `expand`."""
+    if variant is not None and variant not in variants_of(spec):
+        report_unknown_variant(variant, spec, sink)
+        # It may have set parameters, so missing ones are not reported.
+        arguments = replace(arguments, is_partial=True)
+    state = CompileState(spec, loader, Expressions(loader.budget), unset, variant)
+    return _Expansion(state, sink).expand(_Use(spec, BoundArguments(arguments, sink)))
+
+
+@dataclass(frozen=True)
+class _Use:
+    """One use of a file: by an entry in the file of the `outer` use, or the compiled file itself."""
+
+    spec: SpecFile
+    bound: BoundArguments
+    entry: ModuleEntry | None = None
+    outer: _Use | None = None
+    outer_sites: Mapping[SourceFile, MakeSite] = field(default_factory=dict)
+
+    @property
+    def chain(self) -> tuple[_Use, ...]:
+        """The use itself and those around it, that of the compiled file last."""
+        return (self, *self.outer.chain) if self.outer else (self,)
+
+    @property
+    def prefix(self) -> str | Fault:
+        """The full prefix of the names of the file; FAULT if a part of it is faulty."""
+        if self.entry is None or self.outer is None:
+            return ""
+        outer = self.outer.prefix
+        return outer + self.entry.prefix if self.entry.is_named and not isinstance(outer, Fault) else FAULT
+
+    @property
+    def include_stack(self) -> tuple[Span, ...]:
+        """The `use` of this file and of those around it, the innermost first."""
+        return tuple(use.bound.use for use in self.chain if use.bound.use)
+
+    def sites(self, scope: FileScope) -> dict[SourceFile, MakeSite]:
+        """Return how to read paths that this use's files or those around it wrote."""
+        return {**self.outer_sites, **dict.fromkeys((self.spec.file, *self.spec.included), scope.builtins.site)}
+
+
+class _Expansion:
+    """One compile: its shared state, and the files used so far."""
+
+    def __init__(self, state: CompileState, sink: Diagnostics) -> None:
+        self._state = state
+        self._sink = sink
+        self._used: set[SourceFile] = set()
+
+    def expand(self, use: _Use) -> Instance:
+        """Expand one use of one file, and all that it uses."""
+        if use.spec.file in self._used:
+            self._state.expressions.charge_copy(use.spec.tree, use.bound.use or use.spec.file.whole)
+        self._used.add(use.spec.file)
+        sink, stack = with_use_trace(self._sink, use.include_stack), use.include_stack
+        scope = FileScope(use.spec, use.bound, self._state, sink, prefix=use.prefix, include_stack=stack)
+        scope.check_parameters()
+        tree, defaults = _robot_tree(use.spec, scope.evaluator)
+        entries = tuple(read_modules(use.spec, scope.evaluator, stack))
+        removed, references = scope.evaluator.disabled.deleted, scope.builtins.references
+        if use.entry and use.entry.overrides:
+            from linkforge_compile.expand.module_override import ModuleBody
+
+            body = ModuleBody(tree, entries, removed).with_overrides(use.entry.overrides)
+            references = references_left(references, tree, body.tree) if references else references
+            tree, entries, removed = body.tree, body.entries, body.removed
+        charge_entries(tree, len(use.chain), self._state.loader.budget, use.bound.use)
+        modules = tuple(self._expand_module(entry, use, scope) for entry in entries)
+        scope.check_unused_variables()
+        return Instance(
+            use.entry.name if use.entry else own_name(tree),
+            tree,
+            entry=use.entry.ref if use.entry else None,
+            prefix=use.entry.prefix if use.entry else "",
+            mesh_bases=self._mesh_bases(use),
+            include_stack=stack,
+            modules=modules,
+            references=references,
+            find_mesh=mesh_finder(use.sites(scope), self._state.loader),
+            removed=removed,
+            packages=scope.packages,
+            defaults=defaults,
+        )
+
+    def _mesh_bases(self, use: _Use) -> dict[SourceFile, str]:
+        files = [part for one in reversed(use.chain) for part in (one.spec, *one.spec.included.values())]
+        return {part.file: mesh_base(part, self._state.compiled) for part in files if part.folder is not None}
+
+    def _expand_module(self, entry: ModuleEntry, outer: _Use, scope: FileScope) -> Instance:
+        if entry.use is None:
+            return _unread(entry)
+        sink = scope.evaluator.sink
+        spec, arguments = self._open_robot(entry, scope.builtins.site(entry.use.text, entry.use.span), scope)
+        if spec is None:
+            return _unread(entry)
+        bound = BoundArguments(arguments, sink, entry.evaluator, entry.use.span)
+        use = _Use(spec, bound, entry, outer, outer.sites(scope))
+        instance = self.expand(use) if self._is_bounded(use, sink) else None
+        return instance if instance and entry.is_named else _unread(entry)
+
+    def _open_robot(self, entry: ModuleEntry, site: PathSite, scope: FileScope) -> tuple[SpecFile | None, Arguments]:
+        """Return the file that an entry uses with its SRDF merged, and the arguments that no xacro has used."""
+        loader, sink = self._state.loader, scope.evaluator.sink
+        srdf = entry.ref.node.child("srdf")
+        if not isinstance(srdf, YamlScalar):
+            return self._open(entry, site, frozenset(), sink)
+        if site.text.lower().endswith(SPEC_ENDINGS):
+            sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
+            return None, entry.arguments
+        from linkforge_compile.expand.merge_srdf import open_semantic, with_semantic
+
+        srdf_use = self._xacro_use(scope.builtins.site(srdf.text, srdf.span), entry, sink)
+        semantic = open_semantic(srdf_use, loader, sink) if srdf_use else None
+        # An SRDF that cannot be read may have used any argument.
+        used = semantic.arguments if semantic else None if srdf_use else frozenset[str]()
+        spec, arguments = self._open(entry, site, used, sink)
+        if spec is None or semantic is None or srdf_use is None:
+            return None, arguments
+        return with_semantic(spec, semantic, srdf_use, loader, sink), arguments
+
+    def _open(
+        self, entry: ModuleEntry, site: PathSite, used: frozenset[str] | None, sink: Diagnostics
+    ) -> tuple[SpecFile | None, Arguments]:
+        """Return the file at a site, and the arguments left for it; its SRDF has `used` some, None if unknown."""
+        loader = self._state.loader
+        if not site.text.lower().endswith(XACRO):
+            return open_use(site, loader, sink), entry.arguments.without(used or ())
+        from linkforge_compile.expand.xacro import open_xacro
+
+        xacro = self._xacro_use(site, entry, sink)
+        return open_xacro(replace(xacro, used_elsewhere=used), loader, sink) if xacro else None, Arguments()
+
+    def _xacro_use(self, site: PathSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
+        from linkforge_compile.expand.xacro_use import XacroUse
+
+        target = locate(site, self._state.loader, sink)
+        if target is None:
+            return None
+        return XacroUse(target.path, site.used, entry.arguments, entry.evaluator, site.packages, target.package)
+
+    def _is_bounded(self, use: _Use, sink: Diagnostics) -> bool:
+        """Whether a use is neither circular nor too deep; reports why not."""
+        files = [other.spec.file for other in use.chain]
+        if use.spec.file in files[1:]:
+            sink.report(_circle(use.chain[: files.index(use.spec.file, 1) + 1], self._state.compiled))
+        elif len(files) > MAX_DEPTH:
+            sink.report(USE_TOO_DEEP.at(use.bound.use, limit=MAX_DEPTH))
+        else:
+            return True
+        return False
+
+
+def _robot_tree(spec: SpecFile, evaluator: Evaluator) -> tuple[YamlMap, YamlMap | None]:
+    """Return the computed tree of a file with its defaults merged, and the defaults, None for none."""
+    tree = expand_node(robot_part(spec.tree), evaluator, shapes())
+    assert isinstance(tree, YamlMap), "a map that is computed is a map"
+    if spec.tree.get("defaults") is None:
+        return tree, None
+    from linkforge_compile.expand.defaults import compute_defaults, with_defaults
+
+    defaults = compute_defaults(spec.tree, evaluator)
+    return with_defaults(tree, defaults) if defaults else tree, defaults
+
+
+def _unread(entry: ModuleEntry) -> Instance:
+    """Return the Instance of a module that cannot be read; faults in its arguments are still reported."""
+    if entry.evaluator:
+        for argument in entry.arguments.entries.values():
+            entry.evaluator.value(argument.value)
+    return Instance(entry.name, None, entry.ref, entry.prefix if entry.is_named else "")
+
+
+def _circle(chain: tuple[_Use, ...], compiled: SpecFile) -> Diagnostic:
+    """Return the diagnostic for a chain of uses, the innermost first, that ends in the file it starts with."""
+    path = [name_from(use.spec, compiled) for use in reversed(chain)]
+    notes = [
+        Note(f"'{name}' is used here", use.bound.use)
+        for name, use in zip(path[1:-1], reversed(chain[1:-1]), strict=True)
+    ]
+    return USE_CIRCLE.at(chain[0].bound.use, path=" → ".join(path), notes=notes)

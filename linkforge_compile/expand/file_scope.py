@@ -1,0 +1,282 @@
+"""The scope of one use of a file: its parameters, variables and data, `name`, `standalone`, `prefix` and functions."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics.codes.expressions import SEEN_IN_THE_TEXT
+from linkforge_compile.diagnostics.codes.modules import (
+    INVALID_VARIABLE_NAME,
+    NAME_OF_TWO_KINDS,
+    NOT_JUDGED,
+    PACKAGE_NOWHERE,
+    RESERVED_NAME,
+)
+from linkforge_compile.expand.arguments import Unset
+from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
+from linkforge_compile.expand.expand_tree import expand_node
+from linkforge_compile.expand.file_builtins import FileBuiltins
+from linkforge_compile.expand.loader import Loader, SpecFile
+from linkforge_compile.expand.origins import Setting
+from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
+from linkforge_compile.expand.parameters import Declaration, declarations
+from linkforge_compile.expand.paths import follow
+from linkforge_compile.expand.uses import from_base, mesh_base, rebased
+from linkforge_compile.expand.values import plain_value
+from linkforge_compile.expand.variants import Variants, variants_of
+from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Lazy, PathText, Scope, Value
+from linkforge_compile.schema.shapes import shapes
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar
+from linkforge_compile.syntax.nodes import names_at_fault
+
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+
+_KINDS = {"parameters": "parameter", "variables": "variable", "data": "data name"}
+"""The sections that declare names, and what each is called in messages."""
+
+
+@dataclass(frozen=True)
+class CompileState:
+    """What all uses in one compile share; `variant` is the one selected for the compiled file."""
+
+    compiled: SpecFile
+    loader: Loader
+    expressions: Expressions
+    unset: Unset = Unset.ERROR
+    variant: str | None = None
+
+
+class FileScope:
+    """The names of one use of a file; each value is computed when first used, in any order, and once."""
+
+    def __init__(
+        self,
+        spec: SpecFile,
+        bound: BoundArguments,
+        state: CompileState,
+        sink: Diagnostics,
+        *,
+        prefix: str | Fault = "",
+        include_stack: tuple[Span, ...] = (),
+    ) -> None:
+        """`prefix` is the full one, FAULT if a part of it is; `include_stack` are the uses that led to the file."""
+        self._spec = spec
+        self._path_base = "" if spec.folder is None else mesh_base(spec, state.compiled)
+        self._bound = bound
+        self._loader = state.loader
+        self._packages: dict[str, Path] | None = None
+        self._reports_unset = state.unset is Unset.ERROR or bound.use is not None
+        self._variants = Variants() if bound.use else Variants(variants_of(spec), state.variant)
+        self.declared = declarations(spec.tree.get("parameters"))
+        self._unset: list[Declaration] = []
+        self._sink = sink
+        self._ambiguous: set[str] = set()
+        """Names that two sections declare, which is reported; they have no value."""
+        self._parameters = {
+            name: Lazy(partial(self._parameter, declaration), declaration.key.span)
+            for name, declaration in self.declared.items()
+            if self._is_valid_name(declaration.key, "parameter")
+        }
+        self._variables = {name: self._lazy(self._variable, entry) for name, entry in self._entries("variables")}
+        self._data = {name: self._lazy(self._data_value, entry) for name, entry in self._entries("data")}
+        self.builtins = FileBuiltins(spec, prefix, lambda: self.packages, state.loader, include_stack)
+        values: dict[str, Value | Fault | Lazy] = {
+            "name": Lazy(self._name, spec.file.whole),
+            "standalone": bound.use is None,
+            "prefix": prefix,
+            **self._variables,
+            **self._data,
+            **self._parameters,
+            **dict.fromkeys(self._ambiguous, FAULT),
+        }
+        scope = Scope(values, self._unread_names(), self.builtins.functions, self._loader.budget)
+        self.evaluator = Evaluator(scope, state.expressions, sink, self._paths_elsewhere())
+
+    @property
+    def packages(self) -> Mapping[str, Path]:
+        """The package folders that the file and those around it declare."""
+        if self._packages is None:
+            # Set before the declarations are computed, because computing them may look for packages.
+            self._packages = dict(self._spec.packages)
+            self._packages.update(self._declared_packages())
+        return self._packages
+
+    def _declared_packages(self) -> dict[str, Path]:
+        section = self._spec.tree.get("packages")
+        shape = shapes().under("packages")
+        declared = expand_node(section, self.evaluator, shape, key="packages") if section else None
+        folders = {}
+        for entry in declared if isinstance(declared, YamlMap) else ():
+            if isinstance(entry.value, YamlScalar):
+                folder, target = self._spec.part_at(entry.value.span).folder, entry.value.text
+                if folder is not None or Path(target).is_absolute():
+                    folders[entry.name] = follow(folder or Path(), target)
+                    self._check_package(entry.name, folders[entry.name], entry.value)
+        return folders
+
+    def _check_package(self, name: str, folder: Path, declared: YamlScalar) -> None:
+        """Report a declared folder within the roots that does not exist, unless the user says where the package is."""
+        may_look = name not in self._loader.packages and self._loader.roots.hold(folder)
+        if may_look and not os.path.isdir(folder):  # noqa: PTH112 - handles names that no file can have
+            self._sink.report(PACKAGE_NOWHERE.at(declared.span, path=declared.text, name=name))
+
+    def check_parameters(self) -> None:
+        """Report what is wrong with the parameters and their arguments, used or not."""
+        if not self._is_faulty("parameters", "include"):
+            self._bound.report_unknown(self.declared, self._variants, self._spec)
+        for name in (*self._parameters, *self._data):
+            self.evaluator.scope.lookup(name, self._sink)
+        if self._unset and self._reports_unset and not self._bound.arguments.is_partial:
+            report_unset(self._unset, self._bound, self._variants)
+        elif self._unset and not self._reports_unset:
+            names = ", ".join(f"'{declaration.name}'" for declaration in self._unset)
+            pronoun = "it" if len(self._unset) == 1 else "them"
+            self._sink.report(NOT_JUDGED.at(self._unset[0].key.span, names=names, pronoun=pronoun))
+
+    def check_unused_variables(self) -> None:
+        """Report faults of unused variables and of variants that do not depend on values.
+
+        Other faults, such as a division by zero, do not matter in a variable that is not used.
+        """
+        self.evaluator = replace(self.evaluator, sink=_TextFaultSink(self._sink))
+        for name in self._variables:
+            self.evaluator.scope.lookup(name, self.evaluator.sink)
+        for setting in self._variants.entries():
+            self.evaluator.value(setting.value)
+
+    def _parameter(self, declaration: Declaration) -> Value | Fault:
+        value, setting = parameter_value(declaration, self._bound, self._variants, self._spec, self.evaluator)
+        if setting is not None:
+            self.evaluator.settings[declaration.name] = setting
+        if value is not None:
+            is_file = declaration.type is not None and declaration.type.name == "file"
+            return self._as_path(value) if is_file else value
+        if not declaration.is_faulty:
+            self._unset.append(declaration)
+        return FAULT
+
+    def _entries(self, section: str) -> Iterator[tuple[str, YamlEntry]]:
+        """Yield the entries of `variables` or `data` with valid names that no section before declares."""
+        kind = _KINDS[section]
+        declared = self._spec.tree.get(section)
+        for entry in declared if isinstance(declared, YamlMap) else ():
+            other = self._declared_before(entry.name, section)
+            if other:
+                self._ambiguous.add(entry.name)
+                notes = [Note(f"the {other[0]} is declared here", other[1].span)]
+                kinds = f"a {other[0]} and a {kind}"
+                self._sink.report(NAME_OF_TWO_KINDS.at(entry.key.span, name=entry.name, kinds=kinds, notes=notes))
+            elif self._is_valid_name(entry.key, kind):
+                yield entry.name, entry
+
+    def _declared_before(self, name: str, section: str) -> tuple[str, YamlScalar] | None:
+        """Return the kind and the key of the same name in a section before this one."""
+        for other, kind in _KINDS.items():
+            if other == section:
+                return None
+            declared = self._spec.tree.get(other)
+            if isinstance(declared, YamlMap) and name in declared.entries:
+                return kind, declared.entries[name].key
+        return None
+
+    def _lazy(self, compute: Callable[[YamlEntry], Value | Fault], entry: YamlEntry) -> Lazy:
+        return Lazy(partial(compute, entry), entry.key.span)
+
+    def _variable(self, entry: YamlEntry) -> Value | Fault:
+        self.evaluator.settings[entry.name] = Setting("the variable", entry.value, self.evaluator)
+        value = self.evaluator.value(entry.value)
+        return FAULT if report_interpolated_quantity(entry.value, value, self.evaluator) else value
+
+    def _data_value(self, entry: YamlEntry) -> Value | Fault:
+        from linkforge_compile.expand.data import load_data
+
+        path = self.evaluator.value(entry.value)
+        place = self.evaluator.place(entry.value)
+        node = load_data(entry, path, lambda text: self.builtins.site(text, place), self._loader, self._sink)
+        if node is None:
+            return FAULT
+        self.evaluator.settings[entry.name] = Setting("data", node, named_by=entry.value)
+        return plain_value(node)
+
+    def _paths_elsewhere(self) -> dict[SourceFile, dict[str, Lazy]]:
+        """Return the path parameters as seen from each included file that lies in another folder."""
+        paths = [
+            one
+            for one in self.declared.values()
+            if one.type is not None and one.type.name == "file" and one.name in self._parameters
+        ]
+        return {
+            file: {path.name: Lazy(partial(self._seen_from, part, path.name), path.key.span) for path in paths}
+            for file, part in self._spec.included.items()
+            if part.folder != self._spec.folder
+        }
+
+    def _seen_from(self, part: SpecFile, name: str) -> Value | Fault:
+        path = self.evaluator.scope.lookup(name, self._sink)
+        return self._as_path(path, rebased(path, self._spec.folder, part)) if isinstance(path, str) else path
+
+    def _as_path(self, value: Value | Fault, text: str | None = None) -> Value | Fault:
+        """Return a path that knows how the compiled file would write it; `text` is its text, the path by default."""
+        # An empty text is not a path, and has no length by which to bound what is built from it.
+        if not isinstance(value, str) or not value:
+            return value
+        return PathText(value if text is None else text, from_base(value, self._path_base))
+
+    def _is_valid_name(self, key: YamlScalar, kind: str) -> bool:
+        """Whether an expression can use the name; reports why not."""
+        if not _NAME.fullmatch(key.text):
+            self._sink.report(INVALID_VARIABLE_NAME.at(key.span, name=key.text, kind=kind))
+        elif key.text in RESERVED_NAMES:
+            notes = [Note("names take the prefix of their use by themselves")] if key.text == "prefix" else []
+            self._sink.report(RESERVED_NAME.at(key.span, name=key.text, kind=kind, notes=notes))
+        else:
+            return True
+        return False
+
+    def _name(self) -> Value | Fault:
+        node = self._spec.tree.get("name")
+        key = self.evaluator.key(node) if isinstance(node, YamlScalar) else None
+        return key.text if key else FAULT
+
+    def _unread_names(self) -> Scope | None:
+        """Return a scope for names that a faulty section, an unknown key or an unread file may have declared."""
+        if self._spec.tree.get("name") is None or self._is_faulty(*_KINDS, "include"):
+            return _FaultyScope(None)
+        names = frozenset(names_at_fault(self._spec.tree))
+        return _FaultyScope(names) if names else None
+
+    def _is_faulty(self, *sections: str) -> bool:
+        return any(isinstance(self._spec.tree.get(section), YamlFault) for section in sections)
+
+
+class _FaultyScope(Scope):
+    """A scope with the given names, or every name for None, whose values are faults that were reported."""
+
+    def __init__(self, names: frozenset[str] | None) -> None:
+        super().__init__({})
+        self._names = names
+
+    def __contains__(self, name: object) -> bool:
+        return self._names is None or name in self._names
+
+    def lookup(self, name: str, sink: Diagnostics) -> Value | Fault:
+        return FAULT
+
+
+class _TextFaultSink(Diagnostics):
+    """Passes on only faults of the text of an expression, which do not depend on values."""
+
+    def __init__(self, sink: Diagnostics) -> None:
+        super().__init__()
+        self._sink = sink
+
+    def report(self, diagnostic: Diagnostic) -> None:
+        if diagnostic.code in SEEN_IN_THE_TEXT:
+            self._sink.report(diagnostic)

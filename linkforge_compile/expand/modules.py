@@ -1,0 +1,174 @@
+"""Read the entries of `modules`: the file each uses, its prefix, its arguments and its override."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.modules import (
+    MODULE_FIELD,
+    MODULE_WITHOUT_FILE,
+    MODULES_NOT_MAP,
+    NOT_A_MODULE,
+    SAME_KEY,
+)
+from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.expand.arguments import Arguments
+from linkforge_compile.expand.evaluate import Evaluator
+from linkforge_compile.expand.expand_tree import expand_entries, expand_node, expand_part
+from linkforge_compile.expand.loader import SpecFile
+from linkforge_compile.expand.override import Override, report_empty
+from linkforge_compile.expand.values import describe_node
+from linkforge_compile.schema.shapes import FREE, Shape, shapes
+from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
+
+
+@dataclass(frozen=True)
+class ModuleEntry:
+    """One entry: `ref` is it without `with` and `override`, `use` the file name, None for none.
+
+    `arguments` are those of `with`, to be computed by `evaluator` unless that is None. If `is_named` is false, the
+    name or the prefix is faulty, so that the final names in the module are unknown. `overrides` apply in order.
+    """
+
+    name: str
+    ref: SourceRef
+    use: YamlScalar | None = None
+    prefix: str = ""
+    is_named: bool = True
+    arguments: Arguments = field(default_factory=Arguments)
+    evaluator: Evaluator | None = None
+    overrides: tuple[Override, ...] = ()
+
+
+def read_modules(spec: SpecFile, evaluator: Evaluator, include_stack: tuple[Span, ...]) -> Iterator[ModuleEntry]:
+    """Yield the entries of `modules`, repeated as they say; one without a name for an unreadable section."""
+    section = spec.tree.get("modules")
+    shape = shapes().under("modules")
+    computed = expand_node(section, evaluator, shape, key="modules") if isinstance(section, YamlScalar) else section
+    if isinstance(computed, YamlMap):
+        for inner, entry in expand_entries(computed, evaluator, shape if computed is section else FREE):
+            yield _read_entry(entry, inner, spec.part_at(entry.key.span).folder, include_stack)
+    elif computed is not None and not (isinstance(computed, YamlScalar) and computed.value is None):
+        if not isinstance(computed, YamlFault):
+            evaluator.sink.report(MODULES_NOT_MAP.at(computed.span, found=describe_node(computed)))
+        yield ModuleEntry("", SourceRef(YamlFault(computed.span), None, include_stack), is_named=False)
+
+
+def _read_entry(
+    entry: YamlEntry, evaluator: Evaluator, folder: Path | None, include_stack: tuple[Span, ...]
+) -> ModuleEntry:
+    """Read an entry of a file in `folder`; faulty parts are reported and left out."""
+    written = entry.value
+    # A faulty entry keeps its key as written, since its names may be those of the faulty `for`.
+    key = None if isinstance(written, YamlFault) else evaluator.key(entry.key)
+    name = key.text if key else entry.name
+    body = expand_node(written, evaluator, _entry_shape(), key=name) if isinstance(written, YamlScalar) else written
+    if isinstance(body, YamlScalar) and body.value is None:
+        body = YamlMap({}, entry.key.span)
+    if not isinstance(body, YamlMap):
+        if not isinstance(body, YamlFault):
+            evaluator.sink.report(NOT_A_MODULE.at(body.span, name=name, found=describe_node(body)))
+        return ModuleEntry(name, SourceRef(YamlFault(body.span), entry.key, include_stack), is_named=False)
+    rest = YamlMap({key: inner for key, inner in body.entries.items() if key not in {"with", "override"}}, body.span)
+    fields = expand_node(rest, evaluator, _entry_shape())
+    assert isinstance(fields, YamlMap), "a map that is computed is a map"
+    arguments, is_computed = _arguments(body, name, evaluator, folder)
+    override = _override(body.get("override"), name, evaluator)
+    if key is None:
+        # Names derived from the faulty name, such as that of the joint, are not checked.
+        fault = SourceRef(YamlFault(body.span), entry.key, include_stack)
+        inner = None if is_computed else evaluator
+        return ModuleEntry(name, fault, is_named=False, arguments=arguments, evaluator=inner)
+    read = ModuleEntry(
+        name,
+        SourceRef(fields, entry.key, include_stack),
+        is_named=not isinstance(override, YamlFault),
+        arguments=arguments,
+        evaluator=None if is_computed or body is not written else evaluator,
+        overrides=() if override is None or isinstance(override, YamlFault) else (override,),
+    )
+    return with_fields(read, fields, evaluator.sink)
+
+
+def _entry_shape() -> Shape:
+    return shapes().under("modules").under("")
+
+
+def with_fields(entry: ModuleEntry, fields: YamlMap, sink: Diagnostics) -> ModuleEntry:
+    """Return an entry with other fields, without `with` and `override`; faulty ones are reported."""
+    use = _scalar_field(fields, "use", "a file name", entry.name, sink)
+    prefix = _scalar_field(fields, "prefix", "text", entry.name, sink)
+    faulty_keys = [entry.name for entry in fields if isinstance(entry.value, YamlFault)]
+    # A faulty key, already reported, may be a misspelled `use`.
+    if use is None and not faulty_keys:
+        sink.report(MODULE_WITHOUT_FILE.at(entry.ref.span, name=entry.name))
+    may_rename = any(nearest(name, ("prefix", "override")) for name in faulty_keys)
+    return replace(
+        entry,
+        ref=replace(entry.ref, node=fields),
+        use=use if isinstance(use, YamlScalar) else None,
+        prefix=prefix.text if isinstance(prefix, YamlScalar) else f"{entry.name}_",
+        is_named=entry.is_named and not isinstance(prefix, YamlFault) and not may_rename,
+    )
+
+
+def _override(written: YamlNode | None, name: str, evaluator: Evaluator) -> Override | YamlFault | None:
+    if written is None:
+        return None
+    shape = _entry_shape().under("override")
+    report_empty(written, shape, evaluator.sink)
+    patch = expand_part(written, evaluator, shape, "override")
+    if isinstance(patch, YamlMap):
+        return Override(patch, evaluator.sink)
+    if patch is None or isinstance(patch, YamlFault):
+        return patch
+    if isinstance(patch, YamlScalar) and patch.value is None:
+        return None
+    return _report_field(patch, "override", name, "a map of what to change in the module", evaluator.sink)
+
+
+def _scalar_field(
+    fields: YamlMap, field: str, expected: str, name: str, sink: Diagnostics
+) -> YamlScalar | YamlFault | None:
+    node = fields.get(field)
+    if node is None or isinstance(node, YamlScalar | YamlFault):
+        return node
+    return _report_field(node, field, name, expected, sink)
+
+
+def _arguments(body: YamlMap, name: str, evaluator: Evaluator, folder: Path | None) -> tuple[Arguments, bool]:
+    """Return the arguments of `with`, and whether they are computed already."""
+    written = body.get("with")
+    computed = expand_node(written, evaluator) if isinstance(written, YamlScalar) else written
+    if computed is None or (isinstance(computed, YamlScalar) and computed.value is None):
+        return Arguments(folder=folder), False
+    if not isinstance(computed, YamlMap):
+        if not isinstance(computed, YamlFault):
+            _report_field(computed, "with", name, "a map of parameters", evaluator.sink)
+        return Arguments(folder=folder, is_partial=True), False
+    return _with_computed_keys(computed, evaluator, folder), computed is not written
+
+
+def _with_computed_keys(section: YamlMap, evaluator: Evaluator, folder: Path | None) -> Arguments:
+    entries: dict[str, YamlEntry] = {}
+    is_partial = False
+    for entry in section:
+        key = evaluator.key(entry.key)
+        if key is None:
+            is_partial = True
+        elif key.text in entries:
+            notes = [Note("the first is here", entries[key.text].key.span)]
+            evaluator.sink.report(SAME_KEY.at(key.span, name=key.text, notes=notes))
+        else:
+            entries[key.text] = YamlEntry(key, entry.value)
+    return Arguments(entries, folder, is_partial=is_partial)
+
+
+def _report_field(node: YamlNode, field: str, name: str, expected: str, sink: Diagnostics) -> YamlFault:
+    found = describe_node(node)
+    sink.report(MODULE_FIELD.at(node.span, field=field, name=name, expected=expected, found=found))
+    return YamlFault(node.span)

@@ -1,0 +1,265 @@
+"""Apply the patch of an `override` to a module's expanded tree, in which short forms are long and frames joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from linkforge_compile.diagnostics import Code, DeletedNames, Diagnostics, Note
+from linkforge_compile.diagnostics.codes.repetition import (
+    EMPTY_OVERRIDE,
+    MOUNT_IS_NO_JOINT,
+    NO_SUCH_POSITION,
+    NOTHING_TO_DELETE,
+    NOTHING_TO_OVERRIDE,
+    PATCH_OF_SEVERAL,
+    POSITIONS_AND_KEYS,
+    SAME_AS_BEFORE,
+)
+from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.expand.normal_form import (
+    CHOICES,
+    is_set,
+    lists_objects,
+    long_form,
+    long_object,
+    with_tags_as_patched,
+)
+from linkforge_compile.schema.repetition import WORDS
+from linkforge_compile.schema.shapes import Shape, shapes
+from linkforge_compile.schema.words import alternatives
+from linkforge_compile.source import Change, TracedSpan
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import Quantity, parse_quantity
+
+SECTIONS = ("links", "joints", "modules", "mount", "materials", "sensors", "transmissions", "ros2_control")
+"""The sections whose entries have names that overrides refer to."""
+
+_MAX_SHOWN_NAMES = 8
+_AXES: Mapping[str, tuple[int, int, int]] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+
+
+@dataclass(frozen=True)
+class Override:
+    """What one file changes in a module: `patch` is computed in that file's scope, `sink` receives its faults."""
+
+    patch: YamlMap
+    sink: Diagnostics
+
+
+def report_empty(node: YamlNode, shape: Shape, sink: Diagnostics, field: str = "module") -> None:
+    """Report every value of a written override that is left empty, which is not even `null`."""
+    if isinstance(node, YamlScalar) and node.value is None and not node.text and not shape.is_plain:
+        sink.report(EMPTY_OVERRIDE.at(node.span, field=field))
+    elif isinstance(node, YamlMap):
+        if not node.entries:
+            sink.report(EMPTY_OVERRIDE.at(node.span, field=field))
+        for entry in node:
+            if entry.name not in WORDS or shape.is_plain:
+                report_empty(entry.value, shape.under(entry.name), sink, entry.name)
+
+
+def apply_patch(override: Override, tree: YamlMap, deleted: DeletedNames) -> YamlMap:
+    """Return a module's tree with the patch of an override applied; faulty parts are reported and not applied.
+
+    `deleted` explains names that are missing in the tree.
+    """
+    return _Patcher(override.sink, deleted, tree).patch_map(tree, override.patch, shapes())
+
+
+def deletes(node: YamlNode) -> bool:
+    """Whether a value in a patch is a written `null`, which deletes what it patches."""
+    return isinstance(node, YamlScalar) and node.value is None and bool(node.text)
+
+
+def names_in_section(tree: YamlMap, section: str) -> Mapping[str, object]:
+    entries = tree.get(section)
+    return entries.entries if isinstance(entries, YamlMap) else {}
+
+
+class _Patcher:
+    """Applies one patch to one tree."""
+
+    def __init__(self, sink: Diagnostics, deleted: DeletedNames, module: YamlMap) -> None:
+        """`module` is the whole tree, where a name may be that is missing in one section."""
+        self._sink = sink
+        self._deleted = deleted
+        self._module = module
+
+    def patch_map(self, base: YamlMap, patch: YamlMap, shape: Shape) -> YamlMap:
+        """Return an object or a map of names with its patch applied."""
+        base, patch = long_object(base, shape), long_object(patch, shape)
+        base = with_tags_as_patched(base, patch, shape)
+        entries = dict(base.entries)
+        changes: list[Change] = []
+        missing: list[YamlEntry] = []
+        for change in patch:
+            name, value = change.name, change.value
+            if shape.has_names and name not in base.entries and not shape.is_raw(name):
+                missing.append(change)
+            elif deletes(value):
+                self._delete(entries, change)
+                changes.append(Change(name, value.span))
+            elif is_set(value) and not isinstance(entries.get(name, change).value, YamlFault):
+                changes += self._patch_entry(entries, change, shape)
+        # A base entry whose name is faulty may be any of the missing ones.
+        if missing and not any("$(" in name for name in base.entries):
+            for change in missing:
+                self._report_missing(change, base, shape)
+        chosen = [name for name in CHOICES.get(shape.title, ()) if is_set(patch.get(name))]
+        for rival in CHOICES.get(shape.title, ()) if chosen else ():
+            if rival not in chosen:
+                entries.pop(rival, None)
+        return YamlMap(entries, TracedSpan.overridden(base.span, tuple(changes)))
+
+    def _patch_entry(self, entries: dict[str, YamlEntry], change: YamlEntry, shape: Shape) -> list[Change]:
+        """Patch one entry; return the change unless the entry's value records it in itself."""
+        name, value, old = change.name, change.value, entries.get(change.name)
+        new = self._patch_node(old.value if old else None, value, shape.under(name), name)
+        is_merged = old is not None and isinstance(old.value, YamlMap) and isinstance(new, YamlMap)
+        replaced = None if old is None or is_merged or not is_set(old.value) else old
+        entries[name] = YamlEntry(old.key if old else change.key, new, replaced)
+        is_replaced = not isinstance(new, YamlList) or isinstance(value, YamlList)
+        return [Change(name, value.span)] if is_replaced and not is_merged and not new.span.changes else []
+
+    def _patch_node(self, base: YamlNode | None, patch: YamlNode, shape: Shape, field: str) -> YamlNode:
+        """Return the value of a key with its patch applied; `base` is None for a key that is not set."""
+        base = base if base is not None and is_set(base) else None
+        if isinstance(patch, YamlMap) and shape.item and any(entry.name.isdecimal() for entry in patch):
+            return self._patch_positions(base, patch, shape, field)
+        if isinstance(patch, YamlMap) and lists_objects(shape):
+            return self._patch_single_item(base, patch, shape, field)
+        # A list replaces the base, even if it could be read as a map of names.
+        new = patch if isinstance(patch, YamlList) and shape.has_names else long_form(patch, shape)
+        old = None if base is None else long_form(base, shape)
+        if isinstance(new, YamlMap) and not shape.is_plain:
+            # Entries of a map that does not exist are missing, which is reported.
+            return self.patch_map(old if isinstance(old, YamlMap) else YamlMap({}, new.span), new, shape)
+        if isinstance(new, YamlMap) and isinstance(old, YamlMap):
+            return self.patch_map(old, new, shape)
+        if old is not None and _is_same(*(_comparable(one, field, shape) for one in (old, new))):
+            self._sink.report(SAME_AS_BEFORE.at(patch.span, field=field))
+        return new
+
+    def _patch_single_item(self, base: YamlNode | None, patch: YamlMap, shape: Shape, field: str) -> YamlNode:
+        assert shape.item, "lists only"
+        items = _items(base, shape)
+        if len(items) > 1:
+            self._sink.report(PATCH_OF_SEVERAL.at(patch.span, field=field, length=len(items)))
+            return base or patch
+        old = items[0] if items and isinstance(items[0], YamlMap) else YamlMap({}, patch.span)
+        return YamlList((self.patch_map(old, patch, shape.item),), patch.span)
+
+    def _patch_positions(self, base: YamlNode | None, patch: YamlMap, shape: Shape, field: str) -> YamlNode:
+        """Return a list with patches applied by position, counted before any item is deleted."""
+        assert shape.item, "lists only"
+        items: list[YamlNode | None] = list(_items(base, shape))
+        changes: list[Change] = []
+        length = f"{len(items)} item" if len(items) == 1 else f"{len(items)} items"
+        for change in patch:
+            if not change.name.isdecimal():
+                self._report(POSITIONS_AND_KEYS, change, field=field)
+            elif int(change.name[:9]) >= len(items):
+                self._report(NO_SUCH_POSITION, change, field=field, length=length)
+            elif deletes(change.value):
+                items[int(change.name)] = None
+                changes.append(Change(change.name, change.value.span))
+            elif is_set(change.value):
+                place = int(change.name)
+                items[place] = self._patch_node(items[place], change.value, shape.item, field)
+        span = TracedSpan.overridden(base.span if base else patch.span, tuple(changes))
+        return YamlList(tuple(item for item in items if item is not None), span)
+
+    def _delete(self, entries: dict[str, YamlEntry], change: YamlEntry) -> None:
+        if change.name in entries:
+            del entries[change.name]
+        else:
+            self._sink.report(NOTHING_TO_DELETE.at(change.key.span, field=change.name))
+
+    def _report_missing(self, change: YamlEntry, base: YamlMap, shape: Shape) -> None:
+        """Report an entry that does not exist, unless its own name is faulty."""
+        name = change.name
+        if "$(" in name:
+            return
+        hint = _nesting_hint(name, base, shape)
+        if hint and isinstance(change.value, YamlFault):
+            return  # the schema reported it with the same hint
+        if name in names_in_section(self._module, "mount") and shape is shapes().under("joints"):
+            self._report(MOUNT_IS_NO_JOINT, change)
+            return
+        notes = self._deleted.notes(name)
+        hint = "" if notes else hint or self._names_hint(name, base, shape)
+        near = () if notes or hint else base.entries
+        self._report(NOTHING_TO_OVERRIDE, change, near=near, notes=notes, owner=shape.things, hint=hint)
+
+    def _names_hint(self, name: str, base: YamlMap, shape: Shape) -> str:
+        """Return the section that has a missing name, else the existing names if none of them is similar."""
+        for section in SECTIONS if any(shape is shapes().under(section) for section in SECTIONS) else ():
+            if name in names_in_section(self._module, section):
+                return f"; write '{section}: {{{name}: …}}', for it is one of the {shapes().under(section).things}"
+        if not 0 < len(base.entries) <= _MAX_SHOWN_NAMES or nearest(name, base.entries):
+            return ""
+        names = [f"'{other}'" for other in base.entries]
+        return f"; there {'is' if len(names) == 1 else 'are'} {alternatives(names, 'and')}"
+
+    def _report(
+        self,
+        code: Code,
+        change: YamlEntry,
+        *,
+        near: Mapping[str, object] | tuple[()] = (),
+        notes: list[Note] | None = None,
+        **facts: object,
+    ) -> None:
+        self._sink.report(code.at(change.key.span, near=near, notes=notes or (), name=change.name, **facts))
+
+
+def _items(base: YamlNode | None, shape: Shape) -> tuple[YamlNode, ...]:
+    """Return the items of a list, or of the list of one that a single object means."""
+    # A list of names stays a list, even if it could be read as a map of names.
+    whole = base if base is None or isinstance(base, YamlList) else long_form(base, shape)
+    return whole.items if isinstance(whole, YamlList) else ()
+
+
+def _nesting_hint(name: str, base: YamlMap, shape: Shape) -> str:
+    """Return how to write a path such as `elbow/limits` that was written as a name; "" for any other name."""
+    from linkforge_compile.schema.words import nested, split_path
+
+    first, *steps = split_path(name)
+    is_path = steps and first in base.entries and steps[0] in shape.under(first).keys
+    return f"; write '{nested([first, *steps], '…')}'" if is_path else ""
+
+
+def _comparable(node: YamlNode, field: str, shape: Shape) -> YamlNode:
+    """Return a node with its axis as numbers and its numbers in SI units, so that equal values compare equal.
+
+    A quantity stays one if its dimension is not that of the field, or if the field's depends on other fields, as a
+    joint's velocity depends on the joint's type.
+    """
+    if shape.is_free_part or (shape.is_text and field != "axis"):
+        return node
+    match node:
+        case YamlScalar(text=text) if field == "axis" and text.lstrip("-") in _AXES:
+            sign = -1 if text.startswith("-") else 1
+            numbers = tuple(sign * number for number in _AXES[text.lstrip("-")])
+            return YamlList(tuple(YamlScalar(str(number), number, node.span) for number in numbers), node.span)
+        case YamlScalar(value=str() as value) if quantity := parse_quantity(value):
+            return _comparable(YamlScalar(node.text, quantity, node.span), field, shape)
+        case YamlScalar(value=Quantity(value=value, dimension=dimension)) if dimension.si_unit == shape.unit:
+            return YamlScalar(node.text, value, node.span)
+        case YamlList():
+            return YamlList(tuple(_comparable(item, field, shape.item or shape) for item in node), node.span)
+    return node
+
+
+def _is_same(one: YamlNode, other: YamlNode) -> bool:
+    match one, other:
+        case YamlScalar(), YamlScalar():
+            return one.value == other.value and isinstance(one.value, bool) == isinstance(other.value, bool)
+        case YamlList(), YamlList():
+            return len(one) == len(other) and all(map(_is_same, one, other))
+        case YamlMap(), YamlMap():
+            return one.entries.keys() == other.entries.keys() and all(
+                _is_same(entry.value, other.entries[entry.name].value) for entry in one
+            )
+    return False

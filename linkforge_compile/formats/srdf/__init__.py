@@ -1,0 +1,55 @@
+"""SRDF: the semantic part of a robot, for MoveIt."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from linkforge_compile.formats.document import TemplateFormat
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.formats.format import Options
+    from linkforge_compile.formats.srdf.view import SemanticView
+
+__all__ = ["Srdf"]
+
+
+class Srdf(TemplateFormat):
+    """The format SRDF, of robots with a semantic part."""
+
+    name = "srdf"
+    suffix = ".srdf"
+    description = "the semantic part of a robot, for MoveIt"
+    is_default = True
+
+    def missing(self, robot: Robot) -> Diagnostic | None:
+        if robot.has_semantic and not robot.semantic.is_empty:
+            return None
+        from linkforge_compile.diagnostics.codes.formats import NO_SEMANTIC_PART
+
+        return NO_SEMANTIC_PART.at(robot.source, "name", robot=robot.name)
+
+    def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
+        """Yield what rendering refuses."""
+        if not robot.has_semantic:
+            return  # `robot.semantic` would make an empty part
+        from linkforge_compile.formats.limits import check_attributes
+        from linkforge_compile.formats.namespaces import undeclared_prefixes
+        from linkforge_compile.formats.parts import doubtful_parts_in
+        from linkforge_compile.formats.unwritable import unwritable_texts
+
+        doubtful = doubtful_parts_in(robot.semantic)
+        yield from unwritable_texts(doubtful.parts)
+        yield from undeclared_prefixes(robot.semantic, doubtful.with_extras)
+        yield from check_attributes(doubtful.with_extras, robot, lambda: self.text(robot))
+
+    def root_view(self, robot: Robot, options: Options) -> SemanticView:
+        from linkforge_compile.formats.srdf.view import semantic_view
+
+        return semantic_view(robot)
+
+    def view(self, robot: Robot, options: Options) -> SemanticView | None:
+        return self.root_view(robot, options) if robot.has_semantic else None

@@ -1,0 +1,142 @@
+"""The table of hints: keys, words and colors that users write out of habit, and what to write instead.
+
+A new hint is a row here. Keys without a row get a did-you-mean or the list of keys, from `key_hints`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+_POSE = "write 'origin: {xyz: [x, y, z], rpy: [roll, pitch, yaw]}'"
+_JOINT_PLACES_LINK = "a link is placed by the 'origin' of the joint whose 'child' it is"
+_SET_BY_WITH = "parameters are set under 'with'"
+
+_KEYS = (
+    # objects by title ("" is any), keys, hint
+    ("", "geometry", "write the shape itself, such as 'box: [1, 1, 1]'"),
+    ("", "name", "its name is its key"),
+    ("", "if xacro:if", "write 'when', such as 'when: $(simulated)'"),
+    ("", "unless xacro:unless", "write 'when', such as 'when: $(not simulated)'"),
+    ("", "args xacro:arg", "declare it under 'parameters'"),
+    ("", "properties xacro:property", "declare it under 'variables'"),
+    ("", "macros xacro:macro", "put it in a file of its own and use that under 'modules'"),
+    ("", "xacro:include", "list files of the same robot under 'include', files of its parts under 'modules'"),
+    ("a robot", "srdf", "write 'semantic'"),
+    ("a parameter", "min", "write 'minimum'"),
+    ("a parameter", "max", "write 'maximum'"),
+    ("defaults", "frame", "defaults do not apply to frames"),
+    ("an override", "frames", "a frame is a link and a joint here; override those under 'links' or 'joints'"),
+    ("an override, a module", "parameters", _SET_BY_WITH),
+    ("a module", "args", _SET_BY_WITH),
+    ("a module", "file", "write 'use'"),
+    ("a link", "origin", "it belongs under 'visual', 'collision' or 'inertial'; a joint's 'origin' places its child"),
+    ("a link", "pose xyz rpy", _JOINT_PLACES_LINK),
+    ("an inertial", "com center_of_mass", "write 'origin: [x, y, z]', with 'inertia' about it"),
+    ("a cylinder", "height", "write 'length'"),
+    ("a material", "rgba", "write 'color: [r, g, b, a]'"),
+    ("a joint", "child_link", "write 'child'"),
+    ("a joint's limits", "min", "write 'lower'"),
+    ("a joint's limits", "max", "write 'upper'"),
+    ("a joint's limits", "torque force", "write 'effort'"),
+    ("a joint's limits", "speed", "write 'velocity'"),
+    ("a mesh", "filename uri", "write 'file'"),
+    ("a gazebo block", "mu", "write 'mu1', and 'mu2' for the second direction"),
+    ("a ros2_control block", "plugin", "write 'hardware_plugin'"),
+    ("a laser scanner's rays", "samples", "write 'horizontal_samples'"),
+    ("a laser scanner's rays", "min_angle", "write 'horizontal_min_angle'"),
+    ("a laser scanner's rays", "max_angle", "write 'horizontal_max_angle'"),
+    ("a laser scanner's rays", "range", "write 'range_min', 'range_max' and 'range_resolution'"),
+    ("a camera's picture", "image", "write 'width', 'height' and 'format'"),
+    ("a visual, a collision, a joint, a sensor, a frame, a module, an inertial", "pose transform", _POSE),
+)
+
+_NUMBERS_OF_LISTS = (
+    # objects by title, keys that other formats have for the numbers of one list, hint
+    ("an origin", "x y z", "write 'xyz: [x, y, z]'"),
+    ("an origin", "roll pitch yaw", "write 'rpy: [roll, pitch, yaw]'"),
+    ("a box", "x y z width depth height length", "write its size as one list, 'box: [x, y, z]'"),
+    ("a color", "r g b a", "write 'color: [r, g, b, a]', each from 0 to 1"),
+)
+
+_ANY_OTHER_KEY = (
+    # objects by title, where to write a key that is like none of theirs
+    ("a module", "set a parameter with 'with: {{{0}: …}}'"),
+    ("the long form", "only 'for', 'when' and 'value' are allowed here"),
+    ("a gazebo block, a robot's gazebo block", "write other tags under 'properties'"),
+)
+
+FIELDS_IN_ORDER = {
+    "a cylinder": ("radius", "length"),
+    "a capsule": ("radius", "length"),
+    "a joint's limits": ("lower", "upper", "effort", "velocity"),
+    "a chain": ("base_link", "tip_link"),
+    "an inertia tensor": ("ixx", "iyy", "izz"),
+}
+"""Objects, by title, that users write as a list of their fields."""
+
+_WORDS = {
+    # words of the language, words of Python, MuJoCo, SDFormat and people
+    "number": "float double",
+    "integer": "int",
+    "string": "str",
+    "boolean": "bool",
+    "revolute": "hinge rotary",
+    "prismatic": "slide slider",
+    "floating": "free",
+    "x": "+x",
+    "y": "+y",
+    "z": "+z",
+}
+
+_COLORS = {
+    "black": "[0, 0, 0]",
+    "blue": "[0, 0, 1]",
+    "gray": "[0.5, 0.5, 0.5]",
+    "green": "[0, 1, 0]",
+    "grey": "[0.5, 0.5, 0.5]",
+    "orange": "[1, 0.5, 0]",
+    "red": "[1, 0, 0]",
+    "white": "[1, 1, 1]",
+    "yellow": "[1, 1, 0]",
+}
+
+NO_BALL_JOINT = "; URDF has no ball joint, so write three revolute joints with the same origin"
+
+
+def _by_key(rows: Iterable[tuple[str, str, str]]) -> dict[tuple[str, str], str]:
+    return {(owner, key): hint for owners, keys, hint in rows for owner in owners.split(", ") for key in keys.split()}
+
+
+_KEY_HINTS = _by_key(_KEYS)
+_NUMBER_HINTS = _by_key(_NUMBERS_OF_LISTS)
+_OTHER_KEY_HINTS = {owner: hint for owners, hint in _ANY_OTHER_KEY for owner in owners.split(", ")}
+_INTENDED_WORDS = {word: intended for intended, words in _WORDS.items() for word in words.split()}
+
+
+def known_key_hint(owner: str, key: str) -> str:
+    """Return the hint for a key in an object of this title, "" where the table has none."""
+    return _KEY_HINTS.get((owner, key)) or _KEY_HINTS.get(("", key), "")
+
+
+def number_of_list_hint(owner: str, key: str) -> str:
+    """Return the hint for a key that is one number of a list of this object, "" for any other key."""
+    return _NUMBER_HINTS.get((owner, key), "")
+
+
+def other_key_hint(owner: str, key: str) -> str:
+    """Return where an object's keys that the schema does not know belong, "" where they belong nowhere."""
+    return _OTHER_KEY_HINTS.get(owner, "").format(key)
+
+
+def intended_word(word: str) -> str | None:
+    """Return the word of the language for a word of another format or language."""
+    return _INTENDED_WORDS.get(word.lower())
+
+
+def color_as_list(text: str) -> str | None:
+    """Return a color's name, `#ff8000` or `0xff8000` as a list: "[1, 0.502, 0]"; None for any other text."""
+    digits = re.fullmatch(r"(?:#|0x)((?:[0-9a-fA-F]{2}){3,4})", text)
+    if digits is None:
+        return _COLORS.get(text.lower())
+    return f"[{', '.join(f'{part / 255:.3g}' for part in bytes.fromhex(digits[1]))}]"

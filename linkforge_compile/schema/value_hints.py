@@ -1,0 +1,292 @@
+"""Hints for values that do not match the schema: what to write instead."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias
+
+from linkforge_compile.expressions import forgotten_expression
+from linkforge_compile.schema.hints import FIELDS_IN_ORDER, NO_BALL_JOINT, color_as_list, intended_word
+from linkforge_compile.schema.json_types import Schema, branches, linked_part, mapping
+from linkforge_compile.schema.number_hints import (
+    corrected_number,
+    is_row,
+    list_lengths,
+    number_hint,
+    numbers_in_row,
+    numbers_of_items,
+    with_decimal_points,
+)
+from linkforge_compile.schema.shapes import FREE, Shape, shape_of, shapes
+from linkforge_compile.schema.words import expected, is_number, nested, shown, split_path
+from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.scalars import TRUTHS_OF_YAML_1_1
+
+Path: TypeAlias = tuple[str | int, ...]
+
+
+class SchemaMismatch(NamedTuple):
+    """A node, the path to it in its file, and the schema that it does not match."""
+
+    node: YamlNode
+    path: Path
+    schema: Schema
+    file: YamlMap
+
+    @property
+    def field(self) -> str | int:
+        """The key or index of the node; "" for the whole file."""
+        return self.path[-1] if self.path else ""
+
+    @property
+    def shape(self) -> Shape:
+        """The shape that the schema describes."""
+        return shape_of(linked_part(self.schema))
+
+    @property
+    def titles(self) -> set[str]:
+        """The titles of the schema's branches."""
+        return {str(branch.get("title")) for branch in branches(self.schema)}
+
+    def accepts_kind(self, kind: str) -> bool:
+        """Whether the schema accepts nodes of a JSON type."""
+        return any(kind in str(branch.get("type")) for branch in branches(self.schema))
+
+
+def value_hint(mismatch: SchemaMismatch) -> str:
+    """Return what to write for a value of the wrong kind, as the end of a message; "" for no hint."""
+    match mismatch.node:
+        case YamlScalar() as scalar:
+            hint = next(filter(None, (rule(scalar, mismatch) for rule in _SCALAR_RULES)), "")
+        case YamlList() as items:
+            hint = next(filter(None, (rule(items, mismatch) for rule in _LIST_RULES)), "")
+        case YamlMap() as entries:
+            hint = next(filter(None, (rule(entries, mismatch) for rule in _MAP_RULES)), "")
+        case _:
+            hint = ""
+    return f"; write {hint}" if hint else ""
+
+
+def word_hint(mismatch: SchemaMismatch, words: Sequence[str]) -> str:
+    """Return what to write for a word that is not one of the allowed `words`; "" for no hint."""
+    word = mismatch.node.text if isinstance(mismatch.node, YamlScalar) else ""
+    intended = intended_word(word)
+    intended = intended if intended in words else _intended_expression(mismatch)
+    if intended:
+        return f"; write '{intended}'"
+    return NO_BALL_JOINT if word.lower() in ("ball", "spherical") and "revolute" in words else ""
+
+
+# Expressions
+
+_DECLARING_SECTIONS = ("parameters", "variables", "data")
+_PREDEFINED = frozenset({"name", "prefix", "standalone"})
+_PYTHON_MODULE = re.compile(r"\b(?:math|numpy|np)\.")
+
+
+def _intended_expression(mismatch: SchemaMismatch) -> str | None:
+    """Return the expression for a text without `$( )`; None for other text."""
+    node, path, _, file = mismatch
+    if not isinstance(node, YamlScalar) or not isinstance(node.value, str):
+        return None
+    return forgotten_expression(_PYTHON_MODULE.sub("", node.text), node.span, _names_in_scope(path, file))
+
+
+def _names_in_scope(path: Path, file: YamlMap) -> frozenset[str]:
+    """Return the names that the file, and each `for` around the path, declare for expressions."""
+    maps: list[YamlNode | None] = [file.get(section) for section in _DECLARING_SECTIONS]
+    node: YamlNode | None = file
+    for key in path:
+        node = node.child(key) if node else None
+        maps.append(node.get("for") if isinstance(node, YamlMap) else None)
+    return _PREDEFINED | {entry.name for each in maps if isinstance(each, YamlMap) for entry in each}
+
+
+# Rules for scalars: each returns what to write, or "" if it does not apply
+
+
+def _boolean(node: YamlScalar, mismatch: SchemaMismatch) -> str:
+    """A boolean of YAML 1.1, such as `yes`."""
+    accepts_boolean = expected(mismatch.schema).startswith(("true, false", "true or false"))
+    return TRUTHS_OF_YAML_1_1.get(node.text.lower(), "") if accepts_boolean else ""
+
+
+def _color(node: YamlScalar, mismatch: SchemaMismatch) -> str:
+    rgb = color_as_list(node.text)
+    if rgb and ("a color" in mismatch.titles or mismatch.field == "rgba"):
+        return f"'{rgb}'"
+    return f"'{{color: {rgb}}}'" if rgb and "a material" in mismatch.titles else ""
+
+
+def _expression(node: YamlScalar, mismatch: SchemaMismatch) -> str:
+    intended = None if is_row(node) else _intended_expression(mismatch)
+    return f"'{intended}'" if intended else ""
+
+
+def _row(node: YamlScalar, mismatch: SchemaMismatch) -> str:
+    """The numbers of an attribute of URDF, '0 0 1'."""
+    if not is_row(node):
+        return ""
+    if mismatch.field == "origin" and len(six := numbers_in_row(node.text)) == 6:
+        return _pose(six)
+    if mismatch.accepts_kind("array"):
+        numbers = numbers_in_row(node.text, list_lengths(mismatch.schema))
+        return f"'[{', '.join(numbers)}]'" if numbers else ""
+    return "" if corrected_number(node.text) else _list_around(mismatch)
+
+
+def _list_around(mismatch: SchemaMismatch) -> str:
+    """The whole list of an item that holds several numbers."""
+    around: YamlNode | None = mismatch.file
+    shape = shapes()
+    for key in mismatch.path[:-1]:
+        around = around.child(key) if around else None
+        shape = shape.under(key) if isinstance(key, str) else shape.item or FREE
+    if not isinstance(around, YamlList):
+        return ""
+    numbers = numbers_of_items(around, list_lengths(shape.schema))
+    return _field_with(mismatch.path[-2], numbers) if numbers else ""
+
+
+def _number(node: YamlScalar, mismatch: SchemaMismatch) -> str:
+    """A number in quotes, or with a decimal comma, or with spaces or underscores among its digits."""
+    if not mismatch.accepts_kind("number") or not isinstance(node.value, str):
+        return ""
+    text = node.text.strip()
+    return f"{text} without quotes" if is_number(text) else number_hint(text, mismatch.shape.unit)
+
+
+def _mimicked_joint(node: YamlScalar, mismatch: SchemaMismatch) -> str:
+    return f"'{{joint: {node.text}}}'" if mismatch.field == "mimic" and isinstance(node.value, str) else ""
+
+
+def _group_state(node: YamlScalar, mismatch: SchemaMismatch) -> str:
+    """A joint value directly under a group, in place of a state's name."""
+    groups = (mismatch.file.child("semantic") or mismatch.file).child("groups")
+    is_state = mismatch.path[:2] == ("semantic", "group_states") and len(mismatch.path) == 4
+    if not is_state or not isinstance(groups, YamlMap):
+        return ""
+    joint, group = mismatch.path[2:]
+    return f"'{group}: {{NAME: {{{joint}: {node.text}}}}}'" if group in groups.entries else ""
+
+
+def _path_in_key(node: YamlScalar, mismatch: SchemaMismatch) -> str:
+    """The value of a path written as one key, `elbow/limits/effort: 20`."""
+    keys = split_path(str(mismatch.field))
+    return f"'{nested(keys, node.text)}'" if len(keys) > 1 and keys[1] in mismatch.shape.keys else ""
+
+
+def _module_file(node: YamlScalar, mismatch: SchemaMismatch) -> str:
+    """The file of a module in place of its entry."""
+    is_module = len(mismatch.path) == 2 and mismatch.path[0] == "modules"
+    is_file = node.text.endswith((".yaml", ".yml", ".urdf", ".xacro"))
+    return f"'{{use: {node.text}}}'" if is_module and is_file else ""
+
+
+def _single_item(node: YamlScalar, mismatch: SchemaMismatch) -> str:
+    """The only item of a list, without its brackets."""
+    if not isinstance(node.value, str):
+        return ""
+    if "a group" in mismatch.titles:
+        return f"'{{joints: [{node.text}]}}'"
+    lists = (branch["items"] for branch in branches(mismatch.schema) if isinstance(branch.get("items"), dict))
+    kinds = (kind for items in lists for kind in branches(mapping(items)))
+    texts = (kind for kind in kinds if "string" in str(kind.get("type", "string")))
+    is_item = any(re.search(str(kind.get("pattern", "")), node.text) for kind in texts)
+    return f"'[{node.text}]'" if is_item else ""
+
+
+# Rules for lists
+
+
+def _decimal_commas(node: YamlList, mismatch: SchemaMismatch) -> str:
+    """A list that is too long because the decimal commas of its numbers separate items."""
+    lengths = {branch["maxItems"] for branch in branches(mismatch.schema) if "maxItems" in branch}
+    items = with_decimal_points(node)
+    return f"'[{', '.join(items)}]'" if len(items) < len(node) and len(items) in lengths else ""
+
+
+def _fields_in_order(node: YamlList, mismatch: SchemaMismatch) -> str:
+    """The values of an object's fields without their keys."""
+    titles = mismatch.titles
+    if titles & {"a material", "a visual's material"} and len(node) in (3, 4):
+        return f"'{{color: {shown(node)}}}'"
+    if "a group" in titles:
+        return f"'{{joints: {shown(node)}}}'"
+    keys = next((FIELDS_IN_ORDER[title] for title in titles if title in FIELDS_IN_ORDER), ())
+    if not 0 < len(node) <= len(keys):
+        return ""
+    return f"'{{{', '.join(f'{key}: {shown(item)}' for key, item in zip(keys, node, strict=False))}}}'"
+
+
+def _pose_of_six(node: YamlList, mismatch: SchemaMismatch) -> str:
+    return _pose([shown(item) for item in node]) if mismatch.field == "origin" and len(node) == 6 else ""
+
+
+def _pose(numbers: Sequence[str]) -> str:
+    return f"'{{xyz: [{', '.join(numbers[:3])}], rpy: [{', '.join(numbers[3:])}]}}'"
+
+
+def _entries_by_name(node: YamlList, mismatch: SchemaMismatch) -> str:
+    """A list in place of a map keyed by names."""
+    if not any(isinstance(branch.get("additionalProperties"), dict) for branch in branches(mismatch.schema)):
+        return ""
+    first: YamlNode | None = next(iter(node), None)
+    if isinstance(first, YamlMap):
+        only_key = next(iter(first)).key if len(first) == 1 else None
+        first = first.get("group" if mismatch.field == "group_states" else "name") or only_key
+    name = first.text if isinstance(first, YamlScalar) else "NAME"
+    return f"each entry under its name, without '-': '{name}: …'"
+
+
+# Rules for maps
+
+
+def _interfaces(node: YamlMap, mismatch: SchemaMismatch) -> str:
+    """An interface with parameters, which needs a map instead of a list of interfaces."""
+    around = mismatch.path[-2] if len(mismatch.path) > 1 else ""
+    first = next(iter(node), None)
+    if first is None or around not in ("command_interfaces", "state_interfaces"):
+        return ""
+    return f"a map instead of the list: '{around}: {{{first.name}: …}}'"
+
+
+def _axes(node: YamlMap, mismatch: SchemaMismatch) -> str:
+    """The numbers of a list by the names of their axes."""
+    is_vector = [entry.name for entry in node] == ["x", "y", "z"] and mismatch.accepts_kind("array")
+    return _field_with(mismatch.field, [shown(entry.value) for entry in node]) if is_vector else ""
+
+
+def _attribute(node: YamlMap, mismatch: SchemaMismatch) -> str:
+    """An element of URDF with its only attribute, `{link: base}`."""
+    only = next(iter(node)) if len(node) == 1 else None
+    if only is None or only.name not in ("link", "value", "name", "joint", "xyz", "rgba", "size"):
+        return ""
+    if isinstance(only.value, YamlScalar):
+        numbers = numbers_in_row(only.value.text, list_lengths(mismatch.schema))
+        return _field_with(mismatch.field, numbers or only.value.text)
+    if isinstance(only.value, YamlList) and mismatch.accepts_kind("array"):
+        return _field_with(mismatch.field, [shown(item) for item in only.value])
+    return ""
+
+
+def _field_with(field: str | int, value: str | Sequence[str]) -> str:
+    key = f"{field}: " if isinstance(field, str) and field else ""
+    return f"'{key}{value}'" if isinstance(value, str) else f"'{key}[{', '.join(value)}]'"
+
+
+_SCALAR_RULES: tuple[Callable[[YamlScalar, SchemaMismatch], str], ...] = (
+    _boolean,
+    _color,
+    _expression,
+    _row,
+    _number,
+    _mimicked_joint,
+    _group_state,
+    _path_in_key,
+    _module_file,
+    _single_item,
+)
+_LIST_RULES = (_decimal_commas, _fields_in_order, _pose_of_six, _entries_by_name)
+_MAP_RULES: tuple[Callable[[YamlMap, SchemaMismatch], str], ...] = (_interfaces, _axes, _attribute)

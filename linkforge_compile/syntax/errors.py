@@ -1,0 +1,342 @@
+"""Explain the errors of the YAML parser in terms of what the user wrote."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from yaml import MarkedYAMLError
+from yaml.events import CollectionStartEvent, ScalarEvent
+
+from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics.codes import syntax as codes
+from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
+from linkforge_compile.source import Span
+from linkforge_compile.source.characters import LIKE_SPACES, code_point
+from linkforge_compile.syntax.marks import Marks
+from linkforge_compile.syntax.scalars import IN_QUOTES, XACRO_EXPRESSION, is_cut_expression, xacro_facts
+
+_LINE = re.compile(r"[^\r\n]+")
+_MARK_OF_COMMENT = re.compile(r"(?<!\S)#")
+_COMMENT = re.compile(r"(?:^|\s)#.*")
+_COMMENT_AS_VALUE = re.compile(r"[:,\[][ \t]{1,9}(#[^\s#,\]}]+)[^\r\n]*")
+_KEY_STUCK_TO_VALUE = re.compile(r"\s*(?:-\s+)?([^\s:'\"]+:(?!//)[^\s:]\S*)")
+_WORD = re.compile(r"\w[\w$().-]*")
+_FIRST_WORD = re.compile(r"([A-Za-z]\w*) +\S")
+_ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
+_KEY_STUCK_TO_DASH = re.compile(r"\s*(-(?:<<|[^\W\d])[^\s:]*:)(?!\S)")
+_TWO_KEYS = re.compile(r"([\w.-]+):\s+(\w+)\Z")
+_IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
+_LONGEST_EXPRESSION = 2_000
+_ESCAPE_OF_NUMBER = re.compile(r"\\(?:u[0-9A-Fa-f]{4}|U[0-9A-Fa-f]{8})")
+_MERGE_CONFLICT = re.compile(r"^(?:<{7} .*|={7}$|>{7} .*)", re.MULTILINE)
+_LINE_OF_ENTRY = re.compile(r"\s*(?:-[ \t]+)?[\w$().-]+:(?!\S)")
+
+
+def explain_cut_expression(event: ScalarEvent, marks: Marks) -> Diagnostic:
+    """Return the error for an expression that ends before its `)`: it needs quotes, or the `)` is missing."""
+    assert event.start_mark is not None, "the parser marks every event"
+    assert event.end_mark is not None, "the parser marks every event"
+    opening = marks.text.rfind("$(", event.start_mark.index, event.end_mark.index)
+    if _closes(marks.text, opening + len("$(")):
+        return codes.UNQUOTED_EXPRESSION.at(marks.scalar(event))
+    return UNCLOSED_EXPRESSION.at(marks.part(opening, len("$(")))
+
+
+def _closes(text: str, start: int) -> bool:
+    """Whether the parenthesis before `start` is closed, before anything that no expression contains."""
+    closing = [")"]
+    for token in _IN_EXPRESSION.finditer(text, start, start + _LONGEST_EXPRESSION):
+        if token[0] in ("(", "["):
+            closing.append(")" if token[0] == "(" else "]")
+        elif token[0][0] not in "'\"" and token[0] != closing.pop():
+            return False
+        if not closing:
+            return True
+    return False
+
+
+@dataclass(frozen=True)
+class _Failure:
+    """An error of the parser: it stopped at index `at` of the text, in a construct that began at `began`."""
+
+    problem: str
+    construct: str
+    at: int
+    began: int
+    marks: Marks
+    last_scalar: ScalarEvent | None
+    brackets: Sequence[CollectionStartEvent]
+
+    @property
+    def character(self) -> str:
+        """The character at which the parser stopped, "" at the end of the file."""
+        return self.marks.text[self.at : self.at + 1]
+
+    @property
+    def here(self) -> Span:
+        """The span of that character, empty at the end of a line."""
+        return self.marks.part(self.at, len(self.character.strip("\r\n")))
+
+    @property
+    def before(self) -> str:
+        """The text before it on its line."""
+        here = self.here
+        return here.file.line(here.line)[: here.column - 1]
+
+    def found(self, pattern: re.Pattern[str], line: int) -> Span | None:
+        """Return the span of the first group of a pattern matched at the start of a line."""
+        found = pattern.match(self.marks.file.line(line))
+        return Span(self.marks.file, line, found.start(1) + 1, line, found.end(1) + 1) if found else None
+
+    def quoted_before(self) -> Span | None:
+        """Return the span of a quoted text of several lines that ends just before the error."""
+        last = self.last_scalar
+        if last is None or last.style not in ("'", '"'):
+            return None
+        span = self.marks.scalar(last)
+        is_just_before = span.end_line == self.here.line and not self.before[span.end_column - 1 :].strip()
+        return span if is_just_before and span.line < span.end_line else None
+
+    def around(self) -> list[Note]:
+        """Return a note on the innermost open bracket, if it is on a line above: it may not be closed."""
+        begins = [self.marks.begin(bracket) for bracket in self.brackets]
+        # A pair in a list, `[a: 1]`, is a map without a bracket.
+        opened = [self.marks.part(begin, 1) for begin in begins if self.marks.text[begin] in "[{&!"]
+        return [Note("inside the bracket that opens here", one) for one in opened[-1:] if one.line < self.here.line]
+
+    def line_above(self, line: int | None = None) -> int:
+        """Return the number of the last line above a line (by default the error's) that is not empty; 0 for none."""
+        line = (self.here.line if line is None else line) - 1
+        while line and not _strip_comment(self.marks.file.line(line)):
+            line -= 1
+        return line
+
+
+def _explain(
+    error: MarkedYAMLError, marks: Marks, last_scalar: ScalarEvent | None, brackets: Sequence[CollectionStartEvent]
+) -> Diagnostic:
+    end = len(marks.text)
+    at = min(error.problem_mark.index, end) if error.problem_mark else end
+    began = error.context_mark.index if error.context_mark else at
+    failure = _Failure(error.problem or "", error.context or "", at, began, marks, last_scalar, brackets)
+    if quoted := failure.quoted_before():
+        return _text_in_quotes_ended(failure, quoted)
+    for line in (failure.line_above(), failure.here.line):
+        if (like_space := failure.found(LIKE_SPACES, line)) and (character := like_space.text):
+            return codes.TAB_INDENTATION.at(like_space, found=f"{code_point(character)}, which looks like one")
+    for pattern, explain in _EXPLANATIONS:
+        if re.search(pattern, failure.problem):
+            return explain(failure)
+    return codes.MALFORMED_YAML.at(failure.here, problem=failure.problem)
+
+
+def explain_parser_error(
+    error: MarkedYAMLError,
+    marks: Marks,
+    last_scalar: ScalarEvent | None,
+    brackets: Sequence[CollectionStartEvent],
+) -> Iterator[Diagnostic]:
+    """Yield the diagnostic for a parser's error; for an expression of xacro, one for each in the file.
+
+    `last_scalar` is the last one that could be read, `brackets` are the flow lists and maps that are open.
+    A file carried over from xacro has many such expressions, but the parser stops at the first.
+    """
+    if conflict := _MERGE_CONFLICT.search(marks.text):
+        yield codes.MERGE_CONFLICT.at(marks.part(conflict.start(), len(conflict[0])))
+        return
+    first = _explain(error, marks, last_scalar, brackets)
+    yield first
+    if first.code is codes.XACRO_EXPRESSION:
+        for line in _LINE.finditer(marks.text):
+            comment = _MARK_OF_COMMENT.search(marks.text, line.start(), line.end())
+            end = comment.start() if comment else line.end()
+            yield from (
+                _xacro_expression(each, marks) for each in XACRO_EXPRESSION.finditer(marks.text, line.start(), end)
+            )
+
+
+def _xacro_expression(found: re.Match[str], marks: Marks) -> Diagnostic:
+    [facts] = xacro_facts(found[0])
+    span = marks.part(found.start(), len(found[0]))
+    return codes.XACRO_EXPRESSION.at(span, text=facts["text"], ours=facts["ours"])
+
+
+def _strip_comment(line: str) -> str:
+    return _COMMENT.sub("", line).strip()
+
+
+def _tab(failure: _Failure) -> Diagnostic:
+    return codes.TAB_INDENTATION.at(failure.here, found="a tab")
+
+
+def _reserved_character(failure: _Failure) -> Diagnostic:
+    if failure.character == "\t":
+        return _tab(failure)
+    return codes.RESERVED_START.at(failure.here, character=failure.character, notes=failure.around())
+
+
+def _reserved_start(failure: _Failure) -> Diagnostic:
+    return codes.RESERVED_START.at(failure.marks.part(failure.began, 1), character=failure.marks.text[failure.began])
+
+
+def _colon_not_expected(failure: _Failure) -> Diagnostic:
+    """Explain a colon: a second one on its line, or the first after a fault in the line above."""
+    if re.search(r":\s", failure.before):
+        keys = _TWO_KEYS.search(failure.before)
+        or_map = f", or a map in braces: '{keys[1]}: {{{keys[2]}: …}}'" if keys else ""
+        return codes.SECOND_COLON.at(failure.here, or_map=or_map)
+    if fault := _faulty_key_above(failure):
+        return fault
+    indentation = len(failure.before) - len(failure.before.lstrip())
+    line = failure.here.line
+    return codes.TOO_DEEPLY_INDENTED.at(Span(failure.marks.file, line, indentation + 1, line, failure.here.column))
+
+
+def _faulty_key_above(failure: _Failure) -> Diagnostic | None:
+    above = failure.line_above()
+    if not above:
+        return None
+    if stuck := failure.found(_KEY_STUCK_TO_DASH, above):
+        return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
+    if stuck := failure.found(_KEY_STUCK_TO_VALUE, above):
+        return codes.SPACE_AFTER_COLON.at(stuck, text=stuck.text)
+    content = _strip_comment(failure.marks.file.line(above))
+    begins = _strip_comment(failure.marks.file.line(failure.line_above(above))).endswith(":")
+    is_first = begins and _FIRST_WORD.match(content) and ": " not in content
+    return _missing_colon(failure, above) if is_first or _WORD.fullmatch(content) else None
+
+
+def _missing_colon(failure: _Failure, line: int) -> Diagnostic:
+    """Report a key without a colon: the whole line, or its first word if nothing is indented below it."""
+    written = failure.marks.file.line(line)
+    content = _strip_comment(written)
+    begin = written.find(content) + 1
+    first = _FIRST_WORD.match(content)
+    if first and len(written) - len(written.lstrip()) >= len(failure.before) - len(failure.before.lstrip()):
+        content = first[1]
+    return codes.MISSING_COLON.at(Span(failure.marks.file, line, begin, line, begin + len(content)), text=content)
+
+
+def _colon_expected(failure: _Failure) -> Diagnostic:
+    line = failure.marks.part(failure.began, 0).line
+    if stuck := failure.found(_ITEM_STUCK_TO_DASH, line):
+        return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
+    if stuck := failure.found(_KEY_STUCK_TO_VALUE, line):
+        return codes.SPACE_AFTER_COLON.at(stuck, text=stuck.text)
+    return _missing_colon(failure, line)
+
+
+def _entry_expected(failure: _Failure) -> Diagnostic:
+    """Explain why a line is no entry of the map or list around it."""
+    here = failure.here
+    if failure.before.strip():
+        if failure.character in ("}", "]"):
+            return codes.BRACKET_TOO_MANY.at(here, bracket=failure.character)
+        if failure.character == "," and failure.before.rstrip().endswith(("}", "]")):
+            return codes.COMMA_AFTER_VALUE.at(here)
+        return codes.TEXT_AFTER_VALUE.at(here)
+    if stuck := failure.found(_ITEM_STUCK_TO_DASH, here.line):
+        return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
+    if fault := _faulty_key_above(failure):
+        return fault
+    in_map = "mapping" in failure.construct
+    if in_map and re.match(r"-\s", failure.marks.text[failure.at :]):
+        return codes.ITEM_AMONG_KEYS.at(here)
+    if not in_map and here.column == failure.marks.part(failure.began, 0).column:
+        return codes.KEY_AMONG_ITEMS.at(here)
+    above = here.file.line(failure.line_above())
+    deeper = len(failure.before) > len(above) - len(above.lstrip())
+    return (codes.TOO_DEEPLY_INDENTED if deeper else codes.UNEVEN_INDENTATION).at(here)
+
+
+def _bracket_expected(failure: _Failure) -> Diagnostic:
+    last, text = failure.last_scalar, failure.marks.text
+    if last and not last.style and is_cut_expression(last.value):
+        return explain_cut_expression(last, failure.marks)
+    xacro = XACRO_EXPRESSION.match(text, max(failure.at - len("$"), 0))
+    if xacro:
+        return _xacro_expression(xacro, failure.marks)
+    opening = failure.marks.part(failure.began, 1)
+    closing = "]" if "sequence" in failure.construct else "}"
+    if comment := _comment_with(closing, failure):
+        return codes.COMMENT_TAKES_BRACKET.at(comment, text=comment.text, closing=closing)
+    return codes.UNCLOSED_BRACKET.at(failure.here, closing=closing, notes=[Note("opened here", opening)])
+
+
+def _comment_with(closing: str, failure: _Failure) -> Span | None:
+    """Return the first word of a comment with a bracket in it that was intended as a value, such as #ff0000."""
+    for comment in _COMMENT_AS_VALUE.finditer(failure.marks.text, failure.began, failure.at):
+        span = failure.marks.part(comment.start(1), len(comment[1]))
+        before = IN_QUOTES.sub("", span.file.line(span.line)[: span.column - 1])
+        if closing in comment[0] and not re.search("['\"]", before):
+            return span
+    return None
+
+
+def _unclosed_quote(failure: _Failure) -> Diagnostic:
+    return codes.UNCLOSED_QUOTE.at(failure.marks.part(failure.began, 1))
+
+
+def _text_in_quotes_ended(failure: _Failure, quoted: Span) -> Diagnostic:
+    """Report a missing closing quote, whose text ends at the next quote lines below, or text after a closing quote."""
+    opening = Span(quoted.file, quoted.line, quoted.column, quoted.line, quoted.column + 1)
+    lines = range(quoted.line + 1, quoted.end_line + 1)
+    if any(_LINE_OF_ENTRY.match(quoted.file.line(line)) for line in lines):
+        ending = Span(quoted.file, quoted.end_line, quoted.end_column - 1, quoted.end_line, quoted.end_column)
+        return codes.UNCLOSED_QUOTE.at(opening, notes=[Note("the next quote of its kind is here", ending)])
+    return codes.TEXT_AFTER_VALUE.at(failure.here, notes=[Note("the text in quotes begins here", opening)])
+
+
+def _unknown_escape(failure: _Failure) -> Diagnostic:
+    text = failure.marks.text
+    backslash = text.rfind("\\", failure.began, failure.at + 1)
+    if escape := _ESCAPE_OF_NUMBER.match(text, backslash):
+        number = int(escape[0][2:], 16)
+        half = ", half of a character; write the whole character as it is" if 0xD800 <= number < 0xE000 else ""
+        place = failure.marks.part(backslash, len(escape[0]))
+        return codes.FORBIDDEN_CHARACTER.at(place, character=f"U+{number:04X}{half}")
+    span = failure.marks.part(backslash, 2)
+    return codes.UNKNOWN_ESCAPE.at(span, text=span.text)
+
+
+def _broken_tag(failure: _Failure) -> Diagnostic:
+    """Report a tag with a broken escape, such as !caf%E9."""
+    text = failure.marks.text
+    start = max(text.rfind("!", 0, failure.at + 1), 0)
+    tag = text[start : failure.at + 1].split("\n")[0]
+    return codes.TAG.at(failure.marks.part(start, max(len(tag), 1)), tag=tag)
+
+
+def _value_expected(failure: _Failure) -> Diagnostic:
+    found = f"'{failure.character}'" if failure.character.strip() else "the end of the file"
+    return codes.MISSING_VALUE.at(failure.here, found=found, notes=failure.around())
+
+
+def _document_ended(failure: _Failure) -> Diagnostic:
+    """Report a second document, or a first line without a key, which the parser takes for a whole document."""
+    if _strip_comment(failure.marks.file.line(failure.line_above())) == "...":
+        return codes.SEVERAL_DOCUMENTS.at(failure.here)
+    if failure.character in ("}", "]"):
+        return codes.BRACKET_TOO_MANY.at(failure.here, bracket=failure.character)
+    return _faulty_key_above(failure) or codes.TEXT_AFTER_VALUE.at(failure.here)
+
+
+_EXPLANATIONS: tuple[tuple[str, Callable[[_Failure], Diagnostic]], ...] = (
+    (r"\btab\b", _tab),
+    (r"cannot start any token", _reserved_character),
+    (r"alphabetic or numeric|comment or (a )?line break|chomping", _reserved_start),
+    (r"mapping keys are not allowed", lambda failure: codes.RESERVED_START.at(failure.here, character="?")),
+    (r"mapping values are not allowed", _colon_not_expected),
+    (r"could not find expected ':'", _colon_expected),
+    (r"sequence entries are not allowed", lambda failure: codes.LIST_ON_KEY_LINE.at(failure.here)),
+    (r"expected key|expected '-' indicator|expected <block end>", _entry_expected),
+    (r"expected ',' or", _bracket_expected),
+    (r"unexpected (end of stream|document)", _unclosed_quote),
+    (r"URI|UTF-8 octet", _broken_tag),
+    (r"escape|hexdecimal|hexadecimal", _unknown_escape),
+    (r"node content", _value_expected),
+    (r"<document start>", _document_ended),
+)
+"""Patterns of libyaml's and PyYAML's messages, and the functions that explain them; the first match wins."""
