@@ -65,7 +65,7 @@ class Limit(Enum):
     IGNORED_CODES = _Limit(
         "codes in comments that ask not to be told of them",
         20_000,
-        "mend what is told, or leave it out with '--ignore'",
+        "fix what is reported, or hide it with '--ignore'",
     )
     MESH_BYTES = _Limit(
         "bytes in the meshes that an inertia is computed from",

@@ -60,7 +60,7 @@ def check_link_and_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Dia
     """
     for joint in robot.joints:
         if link := robot.links.get(joint.name):
-            notes = notes_at(link.source, "the link stands here")
+            notes = notes_at(link.source, "the link is here")
             yield LINK_AND_JOINT.at(joint.source, name=joint.name, notes=notes)
 
 

@@ -89,7 +89,7 @@ def check_virtual_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diag
     """
     for virtual in robot.semantic.virtual_joints:
         if joint := robot.joints.get(virtual.name):
-            notes = notes_at(joint.source, f"joint '{joint.name}' stands here")
+            notes = notes_at(joint.source, f"joint '{joint.name}' is here")
             yield VIRTUAL_NAME_TAKEN.at(virtual.source, name=virtual.name, notes=notes)
 
 

@@ -34,7 +34,7 @@ def told_once(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...
 def _with_note(diagnostic: Diagnostic, runs: list[str]) -> Diagnostic:
     *others, last = runs
     if diagnostic.code is VARIANTS_BEYOND_LIMIT:
-        words = f"what comes behind {last} is not checked"
+        words = f"what comes after {last} is not checked"
     else:
         words = f"with {', '.join(others)} and {last}" if others else f"with {last} only"
     return replace(diagnostic, notes=(*diagnostic.notes, Note(words)))

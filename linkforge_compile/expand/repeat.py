@@ -36,8 +36,8 @@ _NAMES_ITS_JOINT = frozenset({"a frame", "a module"})
 """The titles of entries that have a joint named after them, unless `joint` gives it a name."""
 
 _HINTS = {
-    "for": "; it stands inside what it repeats: '{name}: {{for: …}}'",
-    "when": "; it stands inside what it is about: '{name}: {{when: …}}'",
+    "for": "; it goes inside what it repeats: '{name}: {{for: …}}'",
+    "when": "; it goes inside what it applies to: '{name}: {{when: …}}'",
 }
 
 

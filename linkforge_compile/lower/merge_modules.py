@@ -262,10 +262,10 @@ def report_name_clashes(module: Instance, clashes: Iterable[NameClash], sink: Di
         part, more, first = group[0].part, len(group) - 1, group[0].first
         parts = f"{part} and {more} more" if more else part
         if owner is None:
-            notes = [Note(f"{part} stands here", first.span)] if first else []
+            notes = [Note(f"{part} is here", first.span)] if first else []
             sink.report(NAMES_OF_THIS_FILE.at(module.entry, "prefix", module=module.name, parts=parts, notes=notes))
         else:
-            notes = [Note(f"module '{owner.name}' stands here", owner.entry.at("prefix"))] if owner.entry else []
+            notes = [Note(f"module '{owner.name}' is here", owner.entry.at("prefix"))] if owner.entry else []
             facts = {"first": owner.name, "second": module.name, "parts": parts}
             sink.report(MODULES_SHARE_NAMES.at(module.entry, "prefix", notes=notes, **facts))
 

@@ -132,7 +132,7 @@ def single_mount(mounts: Sequence[ModuleJoint], sink: Diagnostics) -> ModuleJoin
     """Return the first mount of a robot, None for no mount; report further ones."""
     for mount in mounts[1:]:
         if mount.joint and mounts[0].joint:
-            notes = [Note("the first stands here", mounts[0].joint.source.span)] if mounts[0].joint.source else []
+            notes = [Note("the first is here", mounts[0].joint.source.span)] if mounts[0].joint.source else []
             sink.report(TWO_MOUNTS.at(mount.joint.source, joint=mount.name, first=mounts[0].name, notes=notes))
     return mounts[0] if mounts else None
 

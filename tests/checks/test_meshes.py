@@ -117,7 +117,7 @@ def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looke
     subject = Robot("r", links=links, resource_resolver=resolver)
     codes = [one.code.id for one in check(subject, UnresolvedNames()) if one.code.id in ("LF6021", "LF3403")]
     assert codes == ["LF6021"] * 4 + ["LF3403"]
-    assert "in 2 packages that nobody looked for" in next(one for one in messages_of(subject) if "LF3403" in one)
+    assert "in 2 packages that were not searched for" in next(one for one in messages_of(subject) if "LF3403" in one)
 
 
 @pytest.mark.parametrize(
@@ -170,7 +170,7 @@ def test_collisions_as_fine_as_what_is_seen_are_reported_together(meshes: Path):
     names = [f"package://arm/meshes/{name}.stl" for name in ("fine", "coarse")]
     assert messages_of(of(meshes, *names)) == []
     assert messages_of(of(meshes, *names, as_collision=True)) == [
-        "LF6025 collisions of 'a' are the meshes that are seen, of 12,000 triangles; contacts will be slow"
+        "LF6025 collisions of 'a' are the visual meshes, with 12,000 triangles; contacts will be slow"
     ]
 
 

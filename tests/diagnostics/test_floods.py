@@ -81,7 +81,7 @@ def test_behind_very_many_warnings_that_are_not_told_the_compile_ends(monkeypatc
     sink = Diagnostics()
     sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_TOLD + 50))
     sink.report(ERROR.at(at(2), name="x"))
-    with pytest.raises(BeyondLimitError, match="behind so many warnings and notes") as beyond:
+    with pytest.raises(BeyondLimitError, match="too many warnings and notes") as beyond:
         sink.report(WARNING.at(at(9999), name="x"))
     sink.end(beyond.value)
     assert [one.code for one in sink.sorted()[-2:]] == [MORE_WARNINGS, TOO_MANY_ERRORS]
@@ -101,7 +101,7 @@ def test_warnings_beyond_a_thousand_are_counted_and_end_nothing():
     sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_TOLD + 5))
     sink.report(ERROR.at(at(9999), name="y"))
     told = sink.sorted()
-    assert (told[-1].code, told[-1].message) == (MORE_WARNINGS, "5 more warnings and notes are not told")
+    assert (told[-1].code, told[-1].message) == (MORE_WARNINGS, "5 more warnings and notes are not shown")
     assert told[-2].message == "no y"
 
 

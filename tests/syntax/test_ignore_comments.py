@@ -88,7 +88,7 @@ joints: {weld: {type: fixed, parent: base, child: tool}}
     runs = {str(name): one.diagnostics for name, one in check_variants(tmp_path / "arm.robot.yaml").items()}
     assert [one.code.id for one in runs["None"]] == ["LF1204", "LF1204"]
     (reported,) = told_once(runs)
-    assert reported.message == "LF6004 is not told on line 9, so there is nothing to ignore"
+    assert reported.message == "LF6004 is not reported on line 9; remove it from this comment"
 
 
 def test_comments_are_counted_by_their_codes_and_end_the_compile_beyond_the_bound(monkeypatch: pytest.MonkeyPatch):

@@ -11,14 +11,12 @@ BEYOND_LIMIT = Code(
     "environment allows ten times as much",
     ends_report=True,
 )
-TOO_MANY_ERRORS = Code(
-    "LF3302", Severity.ERROR, "nothing is read behind so many {what}; mend some of them first", ends_report=True
-)
-MORE_WARNINGS = Code("LF3303", Severity.WARNING, "{count} more warnings and notes are not told", ends_report=True)
+TOO_MANY_ERRORS = Code("LF3302", Severity.ERROR, "too many {what}; stopping here", ends_report=True)
+MORE_WARNINGS = Code("LF3303", Severity.WARNING, "{count} more warnings and notes are not shown", ends_report=True)
 VARIANTS_BEYOND_LIMIT = Code(
     "LF3304",
     Severity.ERROR,
-    "the spec with all its variants takes more than {most} {counted}; check some of them apart, with '--variant' "
-    "(LINKFORGE_LIMITS=10 in the environment allows ten times as much)",
+    "the spec with all its variants takes more than {most} {counted}; check them one at a time with "
+    "'--variant' (LINKFORGE_LIMITS=10 in the environment allows ten times as much)",
     ends_report=True,
 )

@@ -4,11 +4,11 @@ from linkforge_compile.diagnostics.diagnostic import Code, Severity
 from linkforge_compile.source.provenance import Location
 
 UNREADABLE_EXPRESSION = Code("LF3101", Severity.ERROR, "cannot read this expression: {problem}")
-UNCLOSED_EXPRESSION = Code("LF3102", Severity.ERROR, "'$(' has no closing ')'; text that means it is written '$$('")
+UNCLOSED_EXPRESSION = Code("LF3102", Severity.ERROR, "'$(' has no closing ')'; write '$$(' for the text '$('")
 UNCLOSED_TEXT = Code("LF3103", Severity.ERROR, "no closing quote for the text that begins here")
 EMPTY_EXPRESSION = Code("LF3104", Severity.ERROR, "expected an expression between '$(' and ')', found nothing")
 EXPRESSION_TOO_LARGE = Code("LF3105", Severity.ERROR, "the expression {fault}; move parts of it into 'variables'")
-NOT_IN_EXPRESSIONS = Code("LF3106", Severity.ERROR, "{what} cannot stand in an expression; {instead}")
+NOT_IN_EXPRESSIONS = Code("LF3106", Severity.ERROR, "{what} is not allowed in an expression; {instead}")
 UNKNOWN_NAME = Code(
     "LF3107", Severity.ERROR, "no parameter, variable or 'for' name '{name}' here{hint}", is_of_a_name=True
 )
@@ -26,7 +26,7 @@ RESULT_TOO_LARGE = Code("LF3127", Severity.ERROR, "the result of {taker} is not 
 TEXT_TOO_LONG = Code("LF3128", Severity.ERROR, "the text grows beyond {limit} characters")
 UNKNOWN_KEY = Code("LF3129", Severity.ERROR, "no key '{name}' in this map")
 NO_SUCH_ITEM = Code("LF3130", Severity.ERROR, "no item {index} in a list of {length}; the first is 0")
-NOT_TEXT = Code("LF3131", Severity.ERROR, "{found} cannot stand inside text")
+NOT_TEXT = Code("LF3131", Severity.ERROR, "{found} cannot be inserted into text")
 
 CIRCULAR_NAMES = Code("LF3141", Severity.ERROR, "'{first}' is computed from itself: {path}")
 CHAIN_TOO_LONG = Code("LF3142", Severity.ERROR, "'{first}' is computed through {count} other names")

@@ -26,8 +26,8 @@ TWO_MATERIALS = Code(
 MESH_BESIDE_THE_SPEC = Code(
     "LF7006",
     Severity.WARNING,
-    "'{path}' leads nowhere from '{folder}', where the URDF goes, for it lies beside this file; "
-    "write 'package://NAME/PATH', or the URDF into '{back}'",
+    "mesh path '{path}' is relative to this file and cannot be found from '{folder}', the URDF's "
+    "folder; write 'package://NAME/PATH', or the URDF into '{back}'",
 )
 UNDECLARED_PREFIX = Code(
     "LF7007",
@@ -40,8 +40,8 @@ UNDECLARED_PREFIX = Code(
 SECOND_OF_ONE = Code(
     "LF7145",
     Severity.WARNING,
-    "another <{tag}> stands before this one: readers take one of the two, mostly the first, or refuse the file; "
-    "leave one out",
+    "this is a second <{tag}>, and readers use only one of the two, mostly the first, or refuse the "
+    "file; leave one out",
 )
 
 RAW_NAME_IS_TAKEN = Code(
@@ -59,9 +59,9 @@ NO_SEMANTIC_PART = Code(
     "with 'use' of it and 'srdf'",
 )
 CHANGED_SINCE = Code(
-    "LF7086", Severity.WARNING, "this file changed since {when}, so what is told of it may be off; compile it again"
+    "LF7086", Severity.WARNING, "the source map is out of date, as this file changed since {when}; compile it again"
 )
-SOURCE_NOT_SHOWN = Code("LF7087", Severity.WARNING, "what is written here cannot be shown: {reason}")
+SOURCE_NOT_SHOWN = Code("LF7087", Severity.WARNING, "the source cannot be shown: {reason}")
 STALE_OUTPUT = Code(
     "LF7095",
     Severity.ERROR,
@@ -73,8 +73,7 @@ MISSING_OUTPUT = Code("LF7096", Severity.ERROR, "there is no '{path}', which '{s
 OTHER_QUATERNION = Code(
     "LF7154",
     Severity.ERROR,
-    "quat_xyzw turns otherwise than rpy, here {rpy}; readers of URDF 1.1 go by the one, others by the other: "
-    "leave it out",
+    "quat_xyzw differs from rpy, which is {rpy}; readers of URDF 1.1 use the first, others the second: leave it out",
 )
 
 # LF710x: sensors in Gazebo
@@ -86,13 +85,13 @@ NO_JOINT_TO_SENSE = Code(
 SENSOR_ON_MERGED_JOINT = Code(
     "LF7102",
     Severity.WARNING,
-    "Gazebo merges the links of the fixed joint '{joint}' and drops its sensor; "
-    "say `preserveFixedJoint: true` in the joint's `gazebo`",
+    "Gazebo merges the links of the fixed joint '{joint}' and drops its sensor; set "
+    "`preserveFixedJoint: true` in the joint's `gazebo`",
 )
 NOISELESS_CONTACT = Code("LF7103", Severity.WARNING, "Gazebo's contact sensors have no noise; this one is left out")
 FRAME_OF_PLUGIN = Code(
     "LF7104",
     Severity.WARNING,
-    "in Gazebo Classic a sensor's frame is its plugin's affair; '{frame}' is left out",
+    "in Gazebo Classic the plugin sets the frame of a sensor; '{frame}' is left out",
 )
 FOREIGN_INFO = Code("LF7105", Severity.WARNING, "a sensor of type {type} has no '{info}'; it is left out")

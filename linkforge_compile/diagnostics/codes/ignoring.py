@@ -7,5 +7,5 @@ IGNORE_WITHOUT_CODE = Code(
 )
 IGNORE_OF_UNKNOWN_CODE = Code("LF1202", Severity.WARNING, "no diagnostic has the code '{name}'{hint}")
 IGNORE_OF_ERROR = Code("LF1203", Severity.WARNING, "{code} is an error, which cannot be ignored")
-NOTHING_TO_IGNORE = Code("LF1204", Severity.NOTE, "{code} is not told on line {line}, so there is nothing to ignore")
+NOTHING_TO_IGNORE = Code("LF1204", Severity.NOTE, "{code} is not reported on line {line}; remove it from this comment")
 IGNORE_MISWRITTEN = Code("LF1275", Severity.WARNING, "this ignores nothing; write '# linkforge: ignore {codes}'")

@@ -5,9 +5,9 @@ from linkforge_compile.source.provenance import Location
 
 _VALUE = Location.VALUE
 
-INVALID_NAME = Code("LF4001", Severity.ERROR, "'{name}' is no name for a {kind}: {reason}", _VALUE)
+INVALID_NAME = Code("LF4001", Severity.ERROR, "'{name}' is not a valid name for a {kind}: {reason}", _VALUE)
 RESERVED_NAME = Code(
-    "LF4002", Severity.WARNING, "Gazebo refuses a {kind} named '{name}': that is a name of its own; choose another"
+    "LF4002", Severity.WARNING, "Gazebo refuses a {kind} named '{name}', which it reserves; choose another name"
 )
 FRAME_WITH_SLASH = Code("LF4003", Severity.WARNING, "tf2 refuses frame '{name}', which begins with '/'; leave it out")
 REFUSED_TOPIC = Code("LF4004", Severity.WARNING, "ROS 2 refuses topic '{topic}': {reason}")
@@ -27,9 +27,9 @@ LINK_AND_JOINT = Code(
     "LF4108", Severity.WARNING, "a link and a joint are both named '{name}', which Gazebo refuses; rename one of them"
 )
 SHARED_TOPIC = Code("LF4109", Severity.WARNING, "sensors '{first}' and '{second}' both publish on topic '{topic}'")
-NAME_TWICE = Code("LF4160", Severity.WARNING, "'{name}' stands twice in '{field}' of {owner}; remove one")
+NAME_TWICE = Code("LF4160", Severity.WARNING, "'{name}' is listed twice in '{field}' of {owner}; remove one")
 OWN_ATTRIBUTE_STAYS = Code(
-    "LF4161", Severity.WARNING, "{what} is '{theirs}' in module '{module}' and '{ours}' here, which stays"
+    "LF4161", Severity.WARNING, "{what} is '{theirs}' in module '{module}' and '{ours}' here; this file's value is kept"
 )
 
 # LF42xx: references across the layers

@@ -18,12 +18,12 @@ UNKNOWN_KEY = Code("LF2101", Severity.ERROR, "'{name}' is not a key of {owner}{h
 SECTION_LINE_LOST = Code(
     "LF2155",
     Severity.ERROR,
-    "'{name}' stands in '{around}' and is written as one of '{section}'; write the line '{section}:' above it",
+    "'{name}' is in '{around}' but looks like an entry of '{section}'; write the line '{section}:' above it",
 )
 SECTION_LINE_INDENTED = Code(
     "LF2156",
     Severity.ERROR,
-    "'{name}' stands in '{around}', with all below it; write it as far to the left as '{around}'",
+    "'{name}' is inside '{around}', with all below it; indent it like '{around}'",
 )
 WRONG_KIND = Code("LF2201", Severity.ERROR, "{field} takes {expected}, found {found}", _DATA)
 UNKNOWN_WORD = Code("LF2202", Severity.ERROR, "{field} takes {expected}, found '{name}'{hint}", _VALUE)

@@ -5,7 +5,7 @@ from linkforge_compile.diagnostics.diagnostic import Code, Severity
 _E = Severity.ERROR
 
 TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
-UNDEFINED_IN_TEMPLATE = Code("LF7202", _E, "this template names what is not there: {reason}")
+UNDEFINED_IN_TEMPLATE = Code("LF7202", _E, "this template uses an undefined name: {reason}")
 NO_SUCH_TEMPLATE = Code("LF7203", _E, "no template '{name}' in '{folder}'")
 REFUSED_IN_TEMPLATE = Code("LF7204", _E, "a template may only read the robot: {reason}")
 TEMPLATE_FAILS = Code("LF7205", _E, "this template fails here: {reason}")
