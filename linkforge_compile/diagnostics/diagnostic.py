@@ -47,16 +47,16 @@ class Diagnostic:
     message: str
     span: Span | None
     notes: tuple[Note, ...] = ()
-    taken_for: Severity | None = None
+    severity_override: Severity | None = None
     """What the user counts it for, None for what its code is."""
-    untold: int = 0
+    omitted: int = 0
     """How many more like it there are at its place, which a note counts and nobody tells."""
-    left_out: int = 0
+    full_text_hash: int = 0
     """What the message was before its middle was left out, as a hash: two of one beginning and end are two faults."""
 
     @property
     def severity(self) -> Severity:
-        return self.taken_for or self.code.severity
+        return self.severity_override or self.code.severity
 
     @property
     def order(self) -> tuple[int, str, int, int]:
@@ -84,7 +84,7 @@ class Code:
     severity: Severity
     message: str
     location: Location = Location.USE
-    is_of_a_name: bool = False
+    is_unknown_name: bool = False
     """Whether it tells of a name that is declared nowhere: all who use the name have one cause."""
     in_xml: str = ""
     ends_report: bool = False
@@ -119,8 +119,8 @@ class Code:
         span = chain.span if chain else None
         sentence = self.in_xml if self.in_xml and span and span.file.is_xml else self.message
         whole = sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
-        left_out = hash(whole) if len(whole) > _LONGEST else 0
-        return Diagnostic(self, _quotable(whole), span, (*notes, *notes_of(chain)), left_out=left_out)
+        full_text_hash = hash(whole) if len(whole) > _LONGEST else 0
+        return Diagnostic(self, _quotable(whole), span, (*notes, *notes_of(chain)), full_text_hash=full_text_hash)
 
 
 def notes_of(chain: Iterable[Provenance] | None) -> tuple[Note, ...]:

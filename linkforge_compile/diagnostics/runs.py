@@ -10,7 +10,7 @@ from linkforge_compile.diagnostics.codes.ignoring import NOTHING_TO_IGNORE
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note
 
 
-def told_once(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...]:
+def merge_reports(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...]:
     """Return what was told in any of the runs, in reading order, with a note on what only some of them tell.
 
     The runs are named as after "with": "the defaults", "variant 'sim'". Each run read the files anew, so a fault is
@@ -20,7 +20,7 @@ def told_once(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...
     told_in: dict[tuple[str, str, str, int], list[str]] = {}
     for run, diagnostics in runs.items():
         for diagnostic in diagnostics:
-            key = (diagnostic.code.id, str(diagnostic.span), diagnostic.message, diagnostic.left_out)
+            key = (diagnostic.code.id, str(diagnostic.span), diagnostic.message, diagnostic.full_text_hash)
             first.setdefault(key, diagnostic)
             told_in.setdefault(key, []).append(run)
     # A comment that ignores something in one of the runs has its use.

@@ -35,5 +35,5 @@ class Selection(NamedTuple):
 
     def _weighed(self, diagnostic: Diagnostic) -> Diagnostic:
         if self.warnings_are_errors and diagnostic.severity is Severity.WARNING:
-            return replace(diagnostic, taken_for=Severity.ERROR)
+            return replace(diagnostic, severity_override=Severity.ERROR)
         return diagnostic

@@ -12,7 +12,7 @@ from linkforge_compile.diagnostics.codes.bounds import MORE_WARNINGS, TOO_MANY_E
 from linkforge_compile.diagnostics.diagnostic import Code, Diagnostic, Note, Severity
 from linkforge_compile.source import Position, SourceFile, Span
 
-MAX_TOLD = 1_000
+MAX_KEPT = 1_000
 """How many errors are told of one compile, and how many warnings and notes."""
 
 MAX_AT_ONE_PLACE = 3
@@ -22,7 +22,7 @@ MAX_REPORTED = 10_000
 """How many errors are looked at, those among them that are counted only, or were told already: then one that is no
 news ends the compile."""
 
-MAX_WARNED = 50_000
+MAX_COUNTED = 50_000
 """How many warnings and notes are counted that are not told: a place counts three times at most, whatever number of
 links a `for` makes there, so that only a file of as many faults ends the compile."""
 
@@ -65,9 +65,9 @@ class Diagnostics:
         is_error = diagnostic.severity is Severity.ERROR
         self._errors_reported += is_error
         is_told = self._is_to_be_told(diagnostic)
-        if self._left_out > MAX_WARNED:
+        if self._left_out > MAX_COUNTED:
             raise BeyondLimitError(TOO_MANY_ERRORS.at(diagnostic.span, what="warnings and notes"))
-        if is_error and is_told and self._errors >= MAX_TOLD:
+        if is_error and is_told and self._errors >= MAX_KEPT:
             raise too_many_errors(diagnostic.span)
         if is_error and not is_told and self._errors_reported > MAX_REPORTED:
             again = Note(f"{MAX_REPORTED:,} were found, most of them again and again at the same places")
@@ -90,12 +90,12 @@ class Diagnostics:
             at.add(number)
             if len(at) > MAX_AT_ONE_PLACE:
                 return False
-        if not is_error and len(self._reported) - self._errors >= MAX_TOLD:
+        if not is_error and len(self._reported) - self._errors >= MAX_KEPT:
             self._left_out += 1
             return False
         return True
 
-    def end(self, beyond: BeyondLimitError) -> None:
+    def abort(self, beyond: BeyondLimitError) -> None:
         """Keep what ended the compile, however much was told before."""
         diagnostic = beyond.diagnostic
         self._reported[_identity(diagnostic)] = diagnostic
@@ -138,9 +138,9 @@ class Diagnostics:
         if last.span is None or (more := len(self._at[last.code.id, last.span]) - MAX_AT_ONE_PLACE) <= 0:
             return last
         note = Note(f"and {more:,} more like this at the same place")
-        return replace(last, notes=(*last.notes, note), untold=more)
+        return replace(last, notes=(*last.notes, note), omitted=more)
 
 
 def _identity(diagnostic: Diagnostic) -> _Identity:
     """Return what makes two diagnostics one."""
-    return diagnostic.code.id, diagnostic.span, diagnostic.message, diagnostic.left_out
+    return diagnostic.code.id, diagnostic.span, diagnostic.message, diagnostic.full_text_hash

@@ -33,7 +33,7 @@ _SHARED: ContextVar[_Steps | None] = ContextVar("_SHARED", default=None)
 
 
 @contextmanager
-def suggesting() -> Iterator[None]:
+def suggestion_budget() -> Iterator[None]:
     """Have all names within share the steps of one compile: when they are spent, nothing more is suggested."""
     token = _SHARED.set(_Steps())
     try:

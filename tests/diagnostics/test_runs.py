@@ -1,7 +1,7 @@
 """One report of several runs: each fault once; what only some of them have says in which."""
 
 from linkforge_compile.diagnostics import Code, Severity
-from linkforge_compile.diagnostics.runs import told_once
+from linkforge_compile.diagnostics.runs import merge_reports
 from linkforge_compile.source import SourceFile, Span
 
 FAULT = Code("LF0001", Severity.ERROR, "{what} is wrong")
@@ -18,7 +18,7 @@ def test_each_fault_is_told_once_and_says_where_it_shows():
         "variant 'a'": [fault("some", 2), fault("all", 3)],
         "variant 'b'": [fault("all", 3), fault("one", 1), fault("some", 2)],
     }
-    told = told_once(runs)
+    told = merge_reports(runs)
     assert [(one.message, [note.message for note in one.notes]) for one in told] == [
         ("one is wrong", ["with variant 'b' only"]),
         ("some is wrong", ["with variant 'a' and variant 'b'"]),
@@ -27,4 +27,4 @@ def test_each_fault_is_told_once_and_says_where_it_shows():
 
 
 def test_the_faults_of_one_run_need_no_note():
-    assert told_once({"the defaults": [fault("it", 1)]})[0].notes == ()
+    assert merge_reports({"the defaults": [fault("it", 1)]})[0].notes == ()

@@ -144,7 +144,7 @@ class _Report(NamedTuple):
 
 def _merge_runs(compilations: _Compilations) -> _Report:
     """Return the report of a spec, with the diagnostics of all its variants merged."""
-    from linkforge_compile.diagnostics.runs import told_once
+    from linkforge_compile.diagnostics.runs import merge_reports
 
     checked = {variant: one for variant, one in compilations.items() if one is not None}
     runs = {
@@ -152,7 +152,7 @@ def _merge_runs(compilations: _Compilations) -> _Report:
         for variant, one in checked.items()
     }
     files = frozenset(os.path.realpath(file) for one in checked.values() for file in one.files)
-    return _Report(told_once(runs), len(checked) - 1, len(compilations) - len(checked), files)
+    return _Report(merge_reports(runs), len(checked) - 1, len(compilations) - len(checked), files)
 
 
 def _variants_summary(reports: Collection[_Report]) -> str:

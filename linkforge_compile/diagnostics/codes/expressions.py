@@ -10,7 +10,7 @@ EMPTY_EXPRESSION = Code("LF3104", Severity.ERROR, "expected an expression betwee
 EXPRESSION_TOO_LARGE = Code("LF3105", Severity.ERROR, "the expression {fault}; move parts of it into 'variables'")
 NOT_IN_EXPRESSIONS = Code("LF3106", Severity.ERROR, "{what} is not allowed in an expression; {instead}")
 UNKNOWN_NAME = Code(
-    "LF3107", Severity.ERROR, "no parameter, variable or 'for' name '{name}' here{hint}", is_of_a_name=True
+    "LF3107", Severity.ERROR, "no parameter, variable or 'for' name '{name}' here{hint}", is_unknown_name=True
 )
 UNKNOWN_FUNCTION = Code("LF3108", Severity.ERROR, "no function named '{name}'")
 FUNCTION_NOT_CALLED = Code("LF3110", Severity.ERROR, "'{function}' is a function; write {signature}")

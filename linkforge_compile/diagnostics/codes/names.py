@@ -13,10 +13,10 @@ FRAME_WITH_SLASH = Code("LF4003", Severity.WARNING, "tf2 refuses frame '{name}',
 REFUSED_TOPIC = Code("LF4004", Severity.WARNING, "ROS 2 refuses topic '{topic}': {reason}")
 
 DUPLICATE_NAME = Code("LF4101", Severity.ERROR, "there are two {kind}s named '{name}'")
-UNKNOWN_LINK = Code("LF4102", Severity.ERROR, "no link named '{name}'", _VALUE, is_of_a_name=True)
-UNKNOWN_JOINT = Code("LF4103", Severity.ERROR, "no joint named '{name}'", _VALUE, is_of_a_name=True)
-UNKNOWN_GROUP = Code("LF4104", Severity.ERROR, "no planning group named '{name}'{hint}", _VALUE, is_of_a_name=True)
-UNKNOWN_MATERIAL = Code("LF4105", Severity.ERROR, "no material named '{name}'{hint}", _VALUE, is_of_a_name=True)
+UNKNOWN_LINK = Code("LF4102", Severity.ERROR, "no link named '{name}'", _VALUE, is_unknown_name=True)
+UNKNOWN_JOINT = Code("LF4103", Severity.ERROR, "no joint named '{name}'", _VALUE, is_unknown_name=True)
+UNKNOWN_GROUP = Code("LF4104", Severity.ERROR, "no planning group named '{name}'{hint}", _VALUE, is_unknown_name=True)
+UNKNOWN_MATERIAL = Code("LF4105", Severity.ERROR, "no material named '{name}'{hint}", _VALUE, is_unknown_name=True)
 MODULES_SHARE_NAMES = Code(
     "LF4106", Severity.ERROR, "modules '{first}' and '{second}' both have {parts}; give one of them another prefix"
 )

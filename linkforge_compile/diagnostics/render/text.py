@@ -44,8 +44,8 @@ def _each_name_thrice(told: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
     """Yield diagnostics in their order; of one name that a file has nowhere, the first three, and how many more."""
     of_a_name = defaultdict[tuple[str, str, int, str], list[Diagnostic]](list)
     for one in told:
-        if one.code.is_of_a_name and one.span:
-            of_a_name[one.code.id, one.message, one.left_out, one.span.file.name].append(one)
+        if one.code.is_unknown_name and one.span:
+            of_a_name[one.code.id, one.message, one.full_text_hash, one.span.file.name].append(one)
     floods = [same for same in of_a_name.values() if len(same) > MOST_OF_ONE_NAME]
     left_out = {id(one) for same in floods for one in same[MOST_OF_ONE_NAME:]}
     lasts = {id(same[MOST_OF_ONE_NAME - 1]): same for same in floods}
@@ -53,7 +53,7 @@ def _each_name_thrice(told: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
         if id(one) in lasts:
             following = lasts[id(one)][MOST_OF_ONE_NAME:]
             note = Note(f"and {len(following):,} more like this, the next one here", following[0].span)
-            yield replace(one, notes=(*one.notes, note), untold=one.untold + len(following))
+            yield replace(one, notes=(*one.notes, note), omitted=one.omitted + len(following))
         elif id(one) not in left_out:
             yield one
 
@@ -72,7 +72,7 @@ def _counts(diagnostics: Iterable[Diagnostic], severities: Iterable[Severity]) -
     """Return "2 errors, 1 warning", with those that are only counted; empty for none of either."""
     found = Counter[Severity]()
     for diagnostic in diagnostics:
-        found[diagnostic.severity] += 1 + diagnostic.untold
+        found[diagnostic.severity] += 1 + diagnostic.omitted
     counts = [(found[severity], severity) for severity in severities]
     return ", ".join(f"{count:,} {severity}{'s' if count > 1 else ''}" for count, severity in counts if count)
 

@@ -18,7 +18,7 @@ from linkforge_compile.diagnostics.sink import Diagnostics
 from linkforge_compile.source import Span
 
 
-class Ignore(NamedTuple):
+class Suppression(NamedTuple):
     """One comment: on `line` of its file the codes are not to be told; each is with where it is written.
 
     One that is not understood ignores nothing.
@@ -30,7 +30,9 @@ class Ignore(NamedTuple):
     is_understood: bool = True
 
 
-def heed(diagnostics: tuple[Diagnostic, ...], ignores: tuple[Ignore, ...], *, is_whole: bool) -> tuple[Diagnostic, ...]:
+def apply_suppressions(
+    diagnostics: tuple[Diagnostic, ...], suppressions: tuple[Suppression, ...], *, is_whole: bool
+) -> tuple[Diagnostic, ...]:
     """Return a report in reading order without what is ignored, and with what is wrong with the comments.
 
     Errors stay. `is_whole` says that nothing kept a stage from looking: only then is it known what is not told.
@@ -38,7 +40,7 @@ def heed(diagnostics: tuple[Diagnostic, ...], ignores: tuple[Ignore, ...], *, is
     # By the file's name, as one that is included twice is two files with the same comments.
     asked = {
         (ignore.span.file.name, ignore.line, code)
-        for ignore in ignores
+        for ignore in suppressions
         if ignore.is_understood
         for code, _ in ignore.codes
     }
@@ -46,7 +48,7 @@ def heed(diagnostics: tuple[Diagnostic, ...], ignores: tuple[Ignore, ...], *, is
     kept = [one for one in diagnostics if one.severity is Severity.ERROR or _key(one) not in ignored]
     # A file may be all comments: no more is told of them than of anything else.
     faults, told = Diagnostics(), set()
-    for fault in (fault for ignore in ignores for fault in _faults(ignore, ignored, is_whole)):
+    for fault in (fault for ignore in suppressions for fault in _faults(ignore, ignored, is_whole)):
         if (line := hash(str(fault))) not in told:
             told.add(line)
             faults.report(fault)
@@ -58,7 +60,7 @@ def _key(diagnostic: Diagnostic) -> tuple[str, int, str]:
     return (span.file.name, span.line, diagnostic.code.id) if span else ("", 0, diagnostic.code.id)
 
 
-def _faults(ignore: Ignore, ignored: Iterable[tuple[str, int, str]], is_whole: bool) -> Iterator[Diagnostic]:
+def _faults(ignore: Suppression, ignored: Iterable[tuple[str, int, str]], is_whole: bool) -> Iterator[Diagnostic]:
     if not ignore.is_understood:
         codes = ", ".join(dict.fromkeys(code.upper() for code, _ in ignore.codes)) or "and codes such as LF6003"
         yield IGNORE_MISWRITTEN.at(ignore.span, codes=codes)
