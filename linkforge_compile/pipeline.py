@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from linkforge_compile.checks import check
 from linkforge_compile.compilation import Compilation, CompileError
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
-from linkforge_compile.diagnostics.codes.bounds import VARIANTS_BEYOND_LIMIT
-from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
+from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED, VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import (
     XACRO,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from linkforge_compile.diagnostics.codes.bounds import VARIANTS_BEYOND_LIMIT
-from linkforge_compile.diagnostics.codes.ignoring import NOTHING_TO_IGNORE
+from linkforge_compile.diagnostics.codes.modules import VARIANTS_BEYOND_LIMIT
+from linkforge_compile.diagnostics.codes.syntax import NOTHING_TO_IGNORE
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics.codes import REGISTER
-from linkforge_compile.diagnostics.codes.ignoring import (
+from linkforge_compile.diagnostics.codes.syntax import (
     IGNORE_MISWRITTEN,
     IGNORE_OF_ERROR,
     IGNORE_OF_UNKNOWN_CODE,

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
-from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
+from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
 from linkforge_compile.expand.annotating_sink import AnnotatingSink, with_use_trace
 from linkforge_compile.expand.file_text import UnreadableError, read_spec, read_utf8, read_xml
 from linkforge_compile.expand.includes import ComposedFile, compose, follow_includes

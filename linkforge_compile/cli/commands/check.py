@@ -86,8 +86,7 @@ def _find_specs(word: str, arguments: argparse.Namespace, report: Callable[[Diag
     if not os.path.isdir(word):  # noqa: PTH112
         return (word,)
     from linkforge_compile.diagnostics import Note
-    from linkforge_compile.diagnostics.codes.modules import UNREADABLE_FILE
-    from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
+    from linkforge_compile.diagnostics.codes.modules import OUTSIDE_ROOTS, UNREADABLE_FILE
     from linkforge_compile.editor.spec_files import TooManyFilesError, find_specs
     from linkforge_compile.roots import ANYWHERE, Roots
 
