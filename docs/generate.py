@@ -14,7 +14,7 @@ from pathlib import Path
 import yaml
 
 from linkforge_compile.core.meshes.read import MAX_TRIANGLES
-from linkforge_compile.diagnostics.render.text import MOST_SHOWN
+from linkforge_compile.diagnostics.render_text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_COUNTED, MAX_KEPT, MAX_REPORTED
 from linkforge_compile.expand import includes, parameter_types
 from linkforge_compile.expand.expand_uses import MAX_DEPTH

@@ -35,7 +35,7 @@ from linkforge_compile.roots import ANYWHERE, Roots
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
-    from linkforge_compile.diagnostics.suppressions import Suppression
+    from linkforge_compile.diagnostics.reports import Suppression
     from linkforge_compile.expand.listing import Listing
     from linkforge_compile.formats.urdf import Gazebo
 
@@ -274,7 +274,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
         robot = None
     report = sink.sorted()
     if suppressions:
-        from linkforge_compile.diagnostics.suppressions import apply_suppressions
+        from linkforge_compile.diagnostics.reports import apply_suppressions
 
         report = apply_suppressions(report, suppressions, is_whole=robot is not None)
     return Compilation(robot, report, (*loader.files, *meshes.files), (*loader.unread, *meshes.unread))

@@ -1,4 +1,4 @@
-"""What went wrong, as values: a code, a sentence, a place, and the way out."""
+"""Diagnostics as values: a code, a sentence, a place and notes; each code has a manual page."""
 
 from linkforge_compile.diagnostics.diagnostic import (
     Code,

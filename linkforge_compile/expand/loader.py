@@ -23,7 +23,7 @@ from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_d
 from linkforge_compile.syntax.suppressions import IGNORE_WORDS, suppressions_in
 
 if TYPE_CHECKING:
-    from linkforge_compile.diagnostics.suppressions import Suppression
+    from linkforge_compile.diagnostics.reports import Suppression
     from linkforge_compile.expand.packages import NearbyPackages, Package
 
 _PACKAGE_SCHEME = "package://"

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 import yaml
 from yaml.events import ScalarEvent
 
-from linkforge_compile.diagnostics.suppressions import Suppression
+from linkforge_compile.diagnostics.reports import Suppression
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax.marks import Marks

@@ -7,8 +7,8 @@ import pytest
 
 from linkforge_compile import import_urdf
 from linkforge_compile.diagnostics import Code, Diagnostics, Note, Severity, UnresolvedNames, suggest
-from linkforge_compile.diagnostics.render.text import render_text, summary
-from linkforge_compile.diagnostics.runs import merge_reports
+from linkforge_compile.diagnostics.render_text import render_text, summary
+from linkforge_compile.diagnostics.reports import merge_reports
 from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar

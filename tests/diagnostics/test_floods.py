@@ -6,7 +6,7 @@ from linkforge_compile.diagnostics import BeyondLimitError, Code, Diagnostics, S
 from linkforge_compile.diagnostics import sink as flood
 from linkforge_compile.diagnostics.codes.modules import MORE_WARNINGS, TOO_MANY_ERRORS
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
-from linkforge_compile.diagnostics.render.text import MOST_SHOWN, render_first, summary
+from linkforge_compile.diagnostics.render_text import MOST_SHOWN, render_first, summary
 from linkforge_compile.diagnostics.sink import MAX_KEPT
 from linkforge_compile.source import SourceFile, Span
 

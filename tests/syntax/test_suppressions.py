@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file, compile_text
-from linkforge_compile.diagnostics.runs import merge_reports
+from linkforge_compile.diagnostics.reports import merge_reports
 from linkforge_compile.limits import Limit
 from linkforge_compile.pipeline import check_variants
 from linkforge_compile.source import SourceFile

@@ -53,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.diagnostics.render.text import summary
+    from linkforge_compile.diagnostics.render_text import summary
 
     words, assignments = split_assignments(arguments.words)
     unread: list[Diagnostic] = []
@@ -143,7 +143,7 @@ class _Report(NamedTuple):
 
 def _merge_runs(compilations: _Compilations) -> _Report:
     """Return the report of a spec, with the diagnostics of all its variants merged."""
-    from linkforge_compile.diagnostics.runs import merge_reports
+    from linkforge_compile.diagnostics.reports import merge_reports
 
     checked = {variant: one for variant, one in compilations.items() if one is not None}
     runs = {
