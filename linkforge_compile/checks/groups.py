@@ -8,7 +8,7 @@ from itertools import takewhile
 from operator import or_
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.references import Reference, report_cycles
+from linkforge_compile.checks.names import Reference, report_cycles
 from linkforge_compile.core.models.graph import parent_joints, walk_up
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames

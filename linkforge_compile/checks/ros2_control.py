@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sized
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.checks.joints import WITHIN_LIMITS, missed_range
-from linkforge_compile.checks.references import Reference, report_unknown
+from linkforge_compile.checks.names import Reference, report_unknown
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Code, Diagnostic, UnresolvedNames

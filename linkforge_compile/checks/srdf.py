@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.references import Reference, notes_at, own_positions, report_unknown
+from linkforge_compile.checks.names import Reference, notes_at, own_positions, report_unknown
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (

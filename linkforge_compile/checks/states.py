@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.groups import LinkSets, group_links, moved_links
 from linkforge_compile.checks.joints import ROUNDING, in_unit, is_known, missed_range, unit_in
-from linkforge_compile.checks.references import SHOWN, Reference, join_names, own_positions
+from linkforge_compile.checks.names import SHOWN, Reference, join_names, own_positions
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
