@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from linkforge_compile.checks.mesh_files import MAX_WIDTH, MeshFinder, MeshShape, RobotMeshes
-from linkforge_compile.checks.references import SHOWN, join_names
+from linkforge_compile.checks.names import SHOWN, join_names
 from linkforge_compile.core.models.geometry import Mesh, Vector3
 from linkforge_compile.core.models.link import Collision, Link
 from linkforge_compile.core.models.robot import Robot

@@ -22,6 +22,7 @@ from linkforge_compile.lower.mount import (
     lower_module_joint,
     module_fields,
     single_mount,
+    without_virtual_joint,
 )
 from linkforge_compile.lower.object_context import report_duplicate
 from linkforge_compile.source import SourceRef
@@ -211,8 +212,6 @@ class ModuleMerger:
         for joint in component.semantic.virtual_joints:
             if joint.child_link != root:
                 continue
-            from linkforge_compile.lower.without_virtual_joint import without_virtual_joint
-
             without = without_virtual_joint(component.semantic, joint.name, prefix)
             component.semantic = without.semantic
             name, link = joint.name.removeprefix(prefix), root.removeprefix(prefix)
