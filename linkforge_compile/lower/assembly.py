@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT, UNKNOWN_LINK
-from linkforge_compile.expand.assembly import Instance, NameReference
+from linkforge_compile.expand.uses import Instance, NameReference
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.file import lower_file, unresolved_of
 from linkforge_compile.lower.merge_modules import Lowered, ModuleMerger

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import model
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
-from linkforge_compile.expand.assembly import Instance
+from linkforge_compile.expand.uses import Instance
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.file import gazebo_elements_of, sensors_of
 from linkforge_compile.lower.file_scope import FileScope

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from linkforge_compile.core.models.material import Material
 from linkforge_compile.diagnostics import UnresolvedNames
-from linkforge_compile.expand.paths import path_base
+from linkforge_compile.expand.files import path_base
 from linkforge_compile.expand.uses import from_base, no_mesh
 from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.source import SourceFile

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from linkforge_compile.expand.parameter_types import MAX_TEXT, Pattern, PatternError
+from linkforge_compile.expand.parameters import MAX_TEXT, Pattern, PatternError
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
-from linkforge_compile.expand import Arguments, Loader, SpecFile, Unset
-from linkforge_compile.expand.expand import is_plain, plain_instance
+from linkforge_compile.expand import Arguments, Loader, SpecFile, Unset, is_plain, plain_instance
 from linkforge_compile.expand.expand_uses import expand_uses
 from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
