@@ -1,4 +1,4 @@
-"""Read what a user sets: values for parameters, from the command line or Python, and variants of the file."""
+"""Read what a user sets: values of parameters, and the variants of a file."""
 
 from __future__ import annotations
 

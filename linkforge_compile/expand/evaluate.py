@@ -121,7 +121,7 @@ class Evaluator:
     """Evaluates nodes of one file in one scope.
 
     `paths_elsewhere` has the path parameters as seen from each included file that lies in another folder. `settings`
-    says what gave the names in scope their values.
+    has what gave the names in scope their values.
     """
 
     scope: Scope

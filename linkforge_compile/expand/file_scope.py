@@ -1,4 +1,4 @@
-"""The scope of one use of a file: its parameters, variables and data, `name`, `standalone`, `prefix` and functions."""
+"""The scope of one use of a file: parameters, variables, data, builtin names and functions."""
 
 from __future__ import annotations
 
@@ -314,7 +314,8 @@ class FileBuiltins:
 
     @property
     def functions(self) -> dict[str, FileFunction]:
-        return {"path": self._path, "link": self._link, "joint": self._joint}
+        named = {kind: partial(self._prefixed, kind) for kind in ("link", "joint")}
+        return {"path": self._path, **named}
 
     def site(self, text: str, where: Span) -> PathSite:
         """Return the site of a path that this file or one that it includes wrote."""
@@ -324,13 +325,7 @@ class FileBuiltins:
         target = locate(self.site(text, where), self._loader, sink)
         return FAULT if target is None else str(target.path.absolute())
 
-    def _link(self, name: str, where: Span, _sink: Diagnostics) -> Value | Fault:
-        return self._prefixed("link", name, where)
-
-    def _joint(self, name: str, where: Span, _sink: Diagnostics) -> Value | Fault:
-        return self._prefixed("joint", name, where)
-
-    def _prefixed(self, kind: str, name: str, where: Span) -> Value | Fault:
+    def _prefixed(self, kind: str, name: str, where: Span, _sink: Diagnostics) -> Value | Fault:
         self._references.append(NameReference(kind, name, SourceRef(YamlFault(where), None, self._include_stack)))
         return FAULT if isinstance(self._prefix, Fault) else self._prefix + name
 

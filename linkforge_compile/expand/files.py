@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -170,7 +171,7 @@ def unknown_package(
     seen = _packages_around(start, roots, nearby).get(name) if start else None
     option = f"--package {name}=FOLDER"
     way = option if seen and not roots.hold(seen) else f"'packages' of this file or {option}"
-    found = [Note(f"there is one; write --package {name}={_quote(_shortest(seen))}")] if seen else []
+    found = [Note(f"there is one; write --package {name}={shlex.quote(_shortest(seen))}")] if seen else []
     return UNKNOWN_PACKAGE.at(where, name=name, way=way, near=near, notes=(*notes, *found))
 
 
@@ -218,12 +219,6 @@ def _shortest(folder: Path) -> str:
         return min(str(folder), os.path.relpath(folder), key=len)
     except ValueError:  # another drive of Windows
         return str(folder)
-
-
-def _quote(path: str) -> str:
-    import shlex
-
-    return shlex.quote(path)
 
 
 def _search_path(variable: str) -> Iterator[Path]:

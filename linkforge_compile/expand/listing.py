@@ -108,7 +108,7 @@ def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listin
 
 
 def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
-    """List what each spec that a file uses declares, by the text of `use`, whatever `when` says.
+    """List what each spec that a file uses declares, by the text of `use`, whether or not its `when` holds.
 
     A file that cannot be read is left out, as is a computed `use`; compiling reports them.
     """

@@ -77,10 +77,6 @@ CheckSpec: TypeAlias = Callable[[SpecFile, "Loader"], tuple[Diagnostic, ...]]
 """Returns the errors of a spec compiled by itself."""
 
 
-def _no_check(_spec: SpecFile, _loader: Loader) -> tuple[Diagnostic, ...]:
-    return ()
-
-
 class Loader:
     """All files of one compile."""
 
@@ -91,11 +87,11 @@ class Loader:
 
         `packages` come before every other place where `package://` is looked for. Files that a spec names must lie
         within the `roots`, files that the user names may lie anywhere. `check_spec` finds the errors of a vendor's
-        robot; the pipeline sets it, since that takes later stages. Without `runs_xacro` no xacro file is expanded.
+        robot; the pipeline sets it, because later stages do the work. Without `runs_xacro` no xacro file is expanded.
         """
         self.packages = dict(packages or {})
         self.roots = roots
-        self.check_spec: CheckSpec = _no_check
+        self.check_spec: CheckSpec = lambda _spec, _loader: ()
         self.runs_xacro = True
         self.nearby_packages: NearbyPackages = {}
         self.budget = budget or Budget()
@@ -289,6 +285,6 @@ class AnnotatingSink(Diagnostics):
 
 
 def with_use_trace(sink: Diagnostics, uses: Iterable[Span | None]) -> Diagnostics:
-    """Return a sink for a file that is reached through these uses, the innermost first; None stands for no use."""
+    """Return a sink for a file that is reached through these uses, the innermost first; None is no use."""
     notes = notes_of(uses_in(use for use in uses if use is not None))
     return AnnotatingSink(sink, notes) if notes else sink

@@ -213,7 +213,7 @@ def is_set(node: YamlNode | None) -> bool:
 
 
 def lists_objects(shape: Shape) -> bool:
-    """Whether a list of objects may be written at a place, so that a single object means a list of one."""
+    """Whether a list of objects may be written at a place, so that a single object is a list of one."""
     return shape.item is not None and shape.item.is_object and not shape.has_names
 
 

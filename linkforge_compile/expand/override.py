@@ -98,7 +98,8 @@ class _Patcher:
             if shape.has_names and name not in base.entries and not shape.is_raw(name):
                 missing.append(change)
             elif deletes(value):
-                self._delete(entries, change)
+                if entries.pop(name, None) is None:
+                    self._sink.report(NOTHING_TO_DELETE.at(change.key.span, field=name))
                 changes.append(Change(name, value.span))
             elif is_set(value) and not isinstance(entries.get(name, change).value, YamlFault):
                 changes += self._patch_entry(entries, change, shape)
@@ -170,12 +171,6 @@ class _Patcher:
         span = TracedSpan.overridden(base.span if base else patch.span, tuple(changes))
         return YamlList(tuple(item for item in items if item is not None), span)
 
-    def _delete(self, entries: dict[str, YamlEntry], change: YamlEntry) -> None:
-        if change.name in entries:
-            del entries[change.name]
-        else:
-            self._sink.report(NOTHING_TO_DELETE.at(change.key.span, field=change.name))
-
     def _report_missing(self, change: YamlEntry, base: YamlMap, shape: Shape) -> None:
         """Report an entry that does not exist, unless its own name is faulty."""
         name = change.name
@@ -215,7 +210,7 @@ class _Patcher:
 
 
 def _items(base: YamlNode | None, shape: Shape) -> tuple[YamlNode, ...]:
-    """Return the items of a list, or of the list of one that a single object means."""
+    """Return the items of a list, or the single object that is written for a list of one."""
     # A list of names stays a list, even if it could be read as a map of names.
     whole = base if base is None or isinstance(base, YamlList) else long_form(base, shape)
     return whole.items if isinstance(whole, YamlList) else ()

@@ -1,4 +1,4 @@
-"""Types, declarations and constraints of parameters."""
+"""Read the declarations of `parameters`; check values against their types and constraints."""
 
 from __future__ import annotations
 
@@ -149,11 +149,11 @@ def _comparison(bound: Value, value: Value) -> tuple[str, str]:
         return plain, quoted
     if unit_text(str(bound)) == unit_text(str(value)):
         return plain, quoted
-    return _with_si(plain, bound), _with_si(quoted, value)
-
-
-def _with_si(text: str, quantity: Quantity) -> str:
-    return text if str(quantity) == quantity.in_si else f"{text}, which is {quantity.in_si}"
+    if str(bound) != bound.in_si:
+        plain += f", which is {bound.in_si}"
+    if str(value) != value.in_si:
+        quoted += f", which is {value.in_si}"
+    return plain, quoted
 
 
 def unquoted(value: Value) -> str:
@@ -224,16 +224,8 @@ def _vector(value: Value) -> Value:
     return value if all(_number(size) is not None for size in sizes) else None
 
 
-def _boolean(value: Value) -> Value:
-    return value if isinstance(value, bool) else None
-
-
-def _list(value: Value) -> Value:
-    return value if isinstance(value, tuple) else None
-
-
-def _map(value: Value) -> Value:
-    return value if isinstance(value, Mapping) else None
+def _instance(kind: type, value: Value) -> Value:
+    return value if isinstance(value, kind) else None
 
 
 def _dimension_words(dimension: Dimension) -> str:
@@ -247,12 +239,12 @@ _MATCHED = frozenset({"pattern", "enum"})
 _TABLE = (
     ParameterType("number", "a bare number", _number, _BOUNDED),
     ParameterType("integer", "a whole number", _integer, _BOUNDED),
-    ParameterType("boolean", "true or false", _boolean),
+    ParameterType("boolean", "true or false", partial(_instance, bool)),
     ParameterType("string", "text", as_text, _MATCHED),
     ParameterType("file", "a path", as_text, _MATCHED),
     ParameterType("vector", "three numbers", _vector),
-    ParameterType("list", "a list", _list),
-    ParameterType("map", "a map", _map),
+    ParameterType("list", "a list", partial(_instance, tuple)),
+    ParameterType("map", "a map", partial(_instance, Mapping)),
     *(ParameterType(one, _dimension_words(one), partial(_quantity, one), _BOUNDED) for one in Dimension),
 )
 

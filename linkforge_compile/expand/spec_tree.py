@@ -1,4 +1,4 @@
-"""Turn a spec's text into its validated tree; faultless trees are cached for later compiles in the same process."""
+"""Validate the tree of a spec and the places of its expressions; cache faultless trees."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from linkforge_compile.expressions import Expression
 
 MAX_CACHED_CHARACTERS = 500_000
-"""How many characters of text the cached trees may have together; their trees take up to 100 MB."""
+"""How many characters of text the cached trees may have together; the trees need up to 100 MB."""
 
 _CacheKey: TypeAlias = tuple[str, Path | None, int]
 """The name of a file, its path, and how many files were read before it."""

@@ -1,4 +1,4 @@
-"""Uses of files: locate what a path names, rewrite relative paths, and the Instance that each use becomes."""
+"""Uses of files: locate what a path names, and the Instance that each use becomes."""
 
 from __future__ import annotations
 

@@ -97,7 +97,7 @@ class Size(NamedTuple):
 def size_of(value: Value, max_nodes: int) -> Size:
     """Return the size of a value; counting stops after `max_nodes` nodes.
 
-    Values share parts, so that ten short variables can stand for a billion nodes.
+    Values share parts, so that ten short variables can make a billion nodes.
     """
     nodes = characters = depth = 0
     waiting = [(value, 0)]
@@ -141,7 +141,7 @@ _LONGEST_TEXT = 60
 
 
 class Evaluation(Protocol):
-    """What following a value back needs of the evaluator that computed it."""
+    """The part of an evaluator that is needed to trace a value."""
 
     @property
     def scope(self) -> Scope: ...
@@ -158,10 +158,12 @@ class Evaluation(Protocol):
 class Setting:
     """What gives a name its value.
 
-    `by` says who: "with", "the default". The value is the part at `path` of what `node` says, which `tree` computes;
-    `tree` is None where no `$(` is an expression. `is_made` where the value itself stands nowhere, as those that a
-    `for` counts. `named_by` is what names the file in which `node` stands, and `instead_of` what would have set the
-    name otherwise, the next in line first.
+    - `by`: the words for it, such as "'with'" or "the default".
+    - `node`, `path`: the value is the part at this path of the node.
+    - `tree`: evaluates the node; None for plain data, where `$(` is text.
+    - `is_made`: whether the value is written nowhere, such as a number that a `for` counts.
+    - `named_by`: the node that names the data file which holds `node`.
+    - `instead_of`: the settings that this one overrides, the next in line first.
     """
 
     by: str
@@ -175,20 +177,20 @@ class Setting:
 
 @dataclass(frozen=True, eq=False)
 class ExpressionTrace:
-    """One expression and the scope in which it was computed: from there its value can be followed back."""
+    """An expression and the evaluator that computed it, to trace its value."""
 
     scalar: YamlScalar
     tree: Evaluation
 
     def origin(self, path: ValuePath) -> Origin | None:
-        """Return where the part at a path of the value was written; None where the expression itself made it."""
+        """Return where the part at a path of the value was written, None if the expression made it."""
         node, is_data, key, _ = _written(self.scalar, self.tree, path)
         if node is self.scalar or isinstance(node, YamlFault):
             return None
         return Origin((node.key_span(key) if key else None) or node.span, is_data)
 
     def forgotten_expression(self, path: ValuePath) -> str | None:
-        """Return the expression that the text at a path looks like but for its `$(`; None for anything else."""
+        """Return the expression that the text at a path lacks only the `$(` to be, None for other text."""
         written = _written(self.scalar, self.tree, path)
         node, tree = written.node, written.tree
         if tree is None or written.key or not isinstance(node, YamlScalar) or has_expression(node.text):
@@ -197,7 +199,7 @@ class ExpressionTrace:
 
 
 class NameOrigin(NamedTuple):
-    """How a name of an expression got its value: `names` are those that the value was computed from in turn."""
+    """How a name got its value; `names` are those from which the value was computed."""
 
     name: str
     value: str
@@ -206,31 +208,28 @@ class NameOrigin(NamedTuple):
 
 
 def names_behind(node: YamlNode) -> tuple[NameOrigin, ...]:
-    """Return how the names got their values that the expressions use from which a node was computed.
-
-    A name that several others take is told of once.
-    """
+    """Return the origin of each name used by the expressions that computed a node; each name appears once."""
     return tuple(_names_of(node, None, set()))
 
 
-def _names_of(node: YamlNode, writer: Evaluation | None, told: set[Setting]) -> Iterator[NameOrigin]:
+def _names_of(node: YamlNode, writer: Evaluation | None, seen: set[Setting]) -> Iterator[NameOrigin]:
     for name, tree in _names_in(node, writer):
         setting = tree.settings.get(name)
-        if setting is None or setting in told:
+        if setting is None or setting in seen:
             continue
-        told.add(setting)
+        seen.add(setting)
         value = tree.scope.lookup(name, Diagnostics())
         shown = "unknown" if value is FAULT else describe(value)
         if isinstance(value, str):
             shown = shown if len(shown) < _LONGEST_TEXT else f"{shown[:_LONGEST_TEXT]}…'"
         else:
             shown = shown.strip("'")
-        within = tuple(_names_of(setting.named_by or setting.node, setting.tree, told))
+        within = tuple(_names_of(setting.named_by or setting.node, setting.tree, seen))
         yield NameOrigin(name, shown, setting, within)
 
 
 def _names_in(node: YamlNode, tree: Evaluation | None) -> Iterator[tuple[str, Evaluation]]:
-    """Yield the names that the expressions in a node use, in the order of the text, and what computed each."""
+    """Yield the names that the expressions in a node use, in order, each with its evaluator."""
     if computed := _expression_of(node):
         node, tree = computed[0].scalar, computed[0].tree
     match node:
@@ -246,10 +245,7 @@ def _names_in(node: YamlNode, tree: Evaluation | None) -> Iterator[tuple[str, Ev
 
 
 class _Written(NamedTuple):
-    """A node that says a value; `key` where it is the key of the node that is meant, not what stands under it.
-
-    `tree` is what computes the node, None where no `$(` is an expression.
-    """
+    """Where a value is written: a node, or its `key` if that is set. `tree` as in Setting."""
 
     node: YamlNode
     is_data: bool
@@ -258,7 +254,7 @@ class _Written(NamedTuple):
 
 
 def _written(node: YamlNode, tree: Evaluation | None, path: ValuePath) -> _Written:
-    """Follow a value through the names that hand it on; what computes it is where it was written."""
+    """Follow a value through the names that pass it on, to where it was written or computed."""
     is_data = False
     for _ in range(_MOST_STEPS):
         if computed := _expression_of(node):
@@ -284,7 +280,7 @@ def _written(node: YamlNode, tree: Evaluation | None, path: ValuePath) -> _Writt
 
 
 def _expression_of(node: YamlNode) -> tuple[ExpressionTrace, ValuePath] | None:
-    """Return the expression that computed a node and the path in its value; None for what overrides changed."""
+    """Return the expression that computed a node and the path in its value; None if an override changed it."""
     span = node.span
     if isinstance(span, TracedSpan) and isinstance(span.trace, ExpressionTrace) and not span.changes:
         return span.trace, span.path
@@ -292,7 +288,7 @@ def _expression_of(node: YamlNode) -> tuple[ExpressionTrace, ValuePath] | None:
 
 
 def _part(node: YamlNode, key: str | int) -> YamlNode | None:
-    """Return what a node says under a key, as expressions reach into values."""
+    """Return the part of a node under a key, by the rules of expressions."""
     if isinstance(node, YamlMap):
         return node.child(str(key))
     if isinstance(node, YamlList):

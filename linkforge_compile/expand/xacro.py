@@ -1,4 +1,4 @@
-"""Expand xacro files, read the result as specs, and report faults in the file and in the terms of its author."""
+"""Expand xacro files, read the results as specs, and report faults where they were written."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.files import Package, as_typed, find_package, names_in, unknown_package
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile, with_use_trace
 from linkforge_compile.expand.values import plain_value
-from linkforge_compile.expressions import FAULT
+from linkforge_compile.expressions import Fault
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, number_text, parse_quantity
@@ -116,35 +116,28 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
 def _argument_texts(use: XacroUse, sink: Diagnostics) -> dict[str, str] | None:
     """Return the arguments as text, the only type that xacro has; None after a reported error."""
     texts: dict[str, str] = {}
-    is_complete = not use.arguments.is_partial
     for name, entry in use.arguments.entries.items():
         text = _argument_text(entry.value, use)
-        if text is FAULT:
-            is_complete = False
-        elif isinstance(text, str):
+        if isinstance(text, str):
             texts[name] = text
-        else:
+        elif text is None:
             sink.report(XACRO_ARGUMENT.at(entry.value.span, name=name))
-            is_complete = False
+    is_complete = len(texts) == len(use.arguments.entries) and not use.arguments.is_partial
     return texts if is_complete else None
 
 
-def _argument_text(node: YamlNode, use: XacroUse) -> object:
+def _argument_text(node: YamlNode, use: XacroUse) -> str | Fault | None:
     """Return an argument as text; FAULT after a reported error, None for a list, a map or nothing."""
     if use.arguments.as_text and isinstance(node, YamlScalar):
         quantity = parse_quantity(node.text)
         return number_text(quantity.value) if quantity else node.text
     value = use.evaluator.value(node) if use.evaluator else plain_value(node)
-    match value:
-        case bool():
-            return "true" if value else "false"
-        case Quantity():
-            return number_text(value.value)
-        case int() | float():
-            return number_text(value)
-        case str():
-            return value
-    return FAULT if value is FAULT else None
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    number = value.value if isinstance(value, Quantity) else value
+    if isinstance(number, int | float):
+        return number_text(number)
+    return value if isinstance(value, str | Fault) else None
 
 
 @dataclass(frozen=True)
@@ -196,8 +189,7 @@ class WrittenElements:
         self.main, self._loader = main, loader
         self._paths = result.files
         self._elements: dict[int, tuple[XmlElement, ...]] = {}
-        files = (self.open(path) for path in result.files[1:])
-        self.files = tuple(file for file in files if file)
+        self.files = tuple(filter(None, map(self.open, result.files[1:])))
         for path in result.read:
             loader.add_read_by_xacro(path)
 
@@ -205,12 +197,15 @@ class WrittenElements:
         elements = self._elements_of(place.file)
         return elements[place.element] if place.element < len(elements) else None
 
+    def span(self, place: Place | None) -> Span | None:
+        element = self.element(place) if place else None
+        return element.span if element else None
+
     @property
     def all_elements(self) -> Iterator[XmlElement]:
         return (element for number in range(len(self._paths)) for element in self._elements_of(number))
 
     def named(self, tag: str) -> Iterator[str]:
-        """Yield the names of all elements with a tag."""
         return (name for one in self.all_elements if one.tag == tag and (name := one.get("name")))
 
     def open(self, path: Path) -> SourceFile | None:
@@ -282,7 +277,7 @@ class XacroReporter:
         """Report the arguments that neither this file nor the robot's other file declares or uses."""
         if self.use.used_elsewhere is None:
             return
-        first = next((self._declaration(declared, name) for name in declared), None)
+        first = next(map(self.written.span, declared.values()), None)
         note = Note("its arguments are declared here" if declared else "this file declares no arguments", first)
         known = (*declared, *wanted, *self.use.used_elsewhere)
         for name, entry in self.use.arguments.entries.items():
@@ -297,7 +292,7 @@ class XacroReporter:
         return unknown_package(where or place, name, start, loader.roots, nearby, near=near, notes=notes)
 
     def _report_unset(self, name: str, place: Span | None, arguments: Mapping[str, Place]) -> None:
-        where, declared = self.use.used.where, self._declaration(arguments, name)
+        where, declared = self.use.used.where, self.written.span(arguments.get(name))
         remedy = f"with: {{{name}: VALUE}}" if where else f"{name}:=VALUE"
         if declared and place:
             notes = [Note("its default stands here", declared)]
@@ -341,16 +336,11 @@ class XacroReporter:
             if element.tag == "xacro:macro":
                 yield from re.findall(r"(?:^|\s)[*^]*([A-Za-z_]\w*)", element.get("params") or "")
 
-    def _declaration(self, declared: Mapping[str, Place], name: str) -> Span | None:
-        element = self.written.element(declared[name]) if name in declared else None
-        return element.span if element else None
-
     def _place(self, failed: Failed) -> Span | None:
         if failed.line is not None and failed.file:
             file = self.written.open(failed.file)
             return Span(file, failed.line, 1, failed.line, 1) if file else None
-        element = self.written.element(failed.place) if failed.place else None
-        return element.span if element else None
+        return self.written.span(failed.place)
 
 
 def _find_expression(expression: str, elements: Iterable[XmlElement]) -> Span | None:

@@ -1,4 +1,4 @@
-"""Run xacro on a file in a separate process, and trace the elements of its output to where they were written."""
+"""Run xacro in a separate process, and trace its output to the places in the source."""
 
 from __future__ import annotations
 
