@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
-from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
+from linkforge_compile.diagnostics.codes.modules import OUTSIDE_ROOTS
 from linkforge_compile.expand.files import (
     UnreadableError,
     as_typed,
@@ -28,10 +28,10 @@ from linkforge_compile.source import SourceFile, Span, place_of_byte
 from linkforge_compile.source.encoding import begins_xml
 from linkforge_compile.source.provenance import uses_in
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
-from linkforge_compile.syntax.ignore_comments import IGNORE_WORDS, ignore_comments
+from linkforge_compile.syntax.suppressions import IGNORE_WORDS, suppressions_in
 
 if TYPE_CHECKING:
-    from linkforge_compile.diagnostics.ignores import Ignore
+    from linkforge_compile.diagnostics.reports import Suppression
     from linkforge_compile.expand.files import NearbyPackages, Package
 
 _PACKAGE_SCHEME = "package://"
@@ -120,10 +120,10 @@ class Loader:
         return tuple(dict.fromkeys(self._unread))
 
     @property
-    def ignores(self) -> tuple[Ignore, ...]:
+    def suppressions(self) -> tuple[Suppression, ...]:
         """The comments that suppress codes, of all files read."""
         commented = [file for file in self.sources if IGNORE_WORDS.search(file.text)]
-        return tuple(one for file in commented for one in ignore_comments(file, self.budget))
+        return tuple(one for file in commented for one in suppressions_in(file, self.budget))
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:
         """Read a spec or URDF given as text; `folder` is where its relative paths start, None for none."""

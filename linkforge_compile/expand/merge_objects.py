@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
-from linkforge_compile.diagnostics.codes.repetition import REPEATED_DEFAULT
+from linkforge_compile.diagnostics.codes.modules import REPEATED_DEFAULT
 from linkforge_compile.diagnostics.codes.schema import WRONG_KIND
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.evaluate import Evaluator

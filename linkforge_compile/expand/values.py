@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import NamedTuple, Protocol, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.files import TAG_NOT_NUMBER
+from linkforge_compile.diagnostics.codes.modules import TAG_NOT_NUMBER
 from linkforge_compile.expressions import (
     FAULT,
     Fault,

@@ -81,7 +81,7 @@ def test_a_missing_file_is_reported_with_a_similar_one(tmp_path: Path):
     code, message, [(_, line)] = told(tmp_path, "<link name=\"${xacro.load_yaml('limit.yaml')}\"/>")
     assert (code, line) == ("LF8064", 2)
     assert message.startswith("xacro needs the file '")
-    assert message.endswith("limit.yaml', which is not there; did you mean 'limits.yaml'?")
+    assert message.endswith("limit.yaml', which does not exist; did you mean 'limits.yaml'?")
 
 
 def test_a_fault_in_a_nested_macro_is_reported_in_that_macro(tmp_path: Path):
