@@ -154,7 +154,7 @@ def check_variants(
 
 def check_each_variant(file: Path, settings: Settings) -> dict[str | None, Compilation | None]:
     """Check a spec file as `check_variants` does, with settings."""
-    from linkforge_compile.expand.variants import names_of_variants
+    from linkforge_compile.expand.arguments import names_of_variants
 
     whole = Budget(times=5, code=VARIANTS_BEYOND_LIMIT)
     settings = settings._replace(whole=whole)
@@ -230,8 +230,7 @@ def compile_path(path: str | Path, settings: Settings) -> Compilation:
         return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
 
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
-        from linkforge_compile.expand.xacro import open_xacro
-        from linkforge_compile.expand.xacro_use import XacroUse
+        from linkforge_compile.expand.xacro import XacroUse, open_xacro
 
         return open_xacro(XacroUse(file, ImportSite(str(path), None), settings.arguments(loader, sink)), loader, sink)
 
