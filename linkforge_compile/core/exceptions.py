@@ -154,7 +154,7 @@ class RobotParserXMLRootError(RobotParserError):
 
 
 class RobotParserUnexpectedError(RobotParserError):
-    """A failure while reading that has no class of its own; `original_error` is what happened, None if unknown."""
+    """A failure of reading without a class of its own; `original_error` is None if unknown."""
 
     def __init__(self, source_area: str = "unknown", original_error: object = None) -> None:
         reason = f": {original_error}" if original_error else ""

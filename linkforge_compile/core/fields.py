@@ -1,4 +1,4 @@
-"""Specs of the fields of model classes, for the walkers that read, write, compare and prefix their values.
+"""Specs of the fields of model classes, for walkers that read, write, compare and prefix values.
 
 A field is annotated with a spec: `effort: Annotated[float, Number(EFFORT, NOT_NEGATIVE)]`. Type checkers, constructors
 and `typing.get_type_hints` see the plain type; a walker asks `field_specs` for the specs of a class. A field without
@@ -23,7 +23,7 @@ from linkforge_compile.units import BARE, FieldUnit, Motion
 
 @dataclass(frozen=True)
 class Bound:
-    """The range of a number, or with `is_of_magnitude` of its distance from 0, and its words in "must be …"."""
+    """The range of a number, of its distance from 0 if `is_of_magnitude`; `words` follow "must be"."""
 
     words: str
     least: float = -math.inf
@@ -116,7 +116,7 @@ class Name(Text):
 
 @dataclass(frozen=True)
 class Reference(Text):
-    """The name of another element, which takes the prefix; or a sequence of names, or a mapping with names as keys.
+    """The name of another element, with the prefix; a sequence of names, or a mapping by names.
 
     `to` is the kind of what is named: link, joint, part (a link or joint), collision, group, frame or topic. Absolute
     topics take no prefix.
@@ -229,7 +229,7 @@ def _complete(spec: Spec, name: str, annotation: Any, default: object) -> Spec:
 
 
 def tags_with_text(kind: type) -> dict[str, str]:
-    """Return the tags of the fields of a model class that become elements with a text, by field, in their order."""
+    """Return the tags of the fields of a class that become elements with a text, by field, in order."""
     spellings = ((name, spec.xml or "") for name, spec in field_specs(kind).items())
     return {name: xml.removesuffix("/text()") for name, xml in spellings if xml.endswith("/text()")}
 
@@ -247,7 +247,7 @@ def written_numbers(part: object) -> Iterator[tuple[str, float]]:
 
 
 def check_numbers(part: object) -> None:
-    """Refuse numbers of a part that are out of their range or not finite, and None where the field may not be None.
+    """Refuse numbers of a part that are out of range or not finite, and None where it is not allowed.
 
     Raises:
         RobotValidationError: OUT_OF_RANGE.

@@ -48,7 +48,7 @@ class Part(Sourced):
 
 
 def prefixed_fields(part: object, prefix: str) -> dict[str, Any]:  # Any: names, parts, sequences and mappings of them
-    """Return the fields of a part that a prefix changes, by name, with the prefix put before the names in them."""
+    """Return the fields of a part that a prefix changes, by name, with the prefix applied."""
     changed: dict[str, Any] = {}
     kind: type = type(part)
     for name, put_prefix in _prefixers(kind).items():
@@ -60,7 +60,7 @@ def prefixed_fields(part: object, prefix: str) -> dict[str, Any]:  # Any: names,
 
 @cache
 def _prefixers(kind: type) -> Mapping[str, Callable[[str, Any], Any]]:
-    """Return the fields of a class with names that take a prefix: its own, of others, and in the elements in it."""
+    """Return the fields of a class that hold names with a prefix, also in the elements inside."""
     prefixers: dict[str, Callable[[str, Any], Any]] = {}
     for name, spec in field_specs(kind).items():
         if isinstance(spec, Reference) and spec.to == "topic":
@@ -140,6 +140,17 @@ class Inside(Element):
     name: Annotated[str | None, Reference("part")] = None
 
 
+class Stating:
+    """Adds `is_written` to a part whose `stated` names fields that are written with their default."""
+
+    __slots__ = ()
+
+    def is_written(self, name: str) -> bool:
+        """Whether a field becomes a tag: it differs from its default, or is stated."""
+        stated: Sequence[str] = getattr(self, "stated")  # noqa: B009 the part's field
+        return name in stated or getattr(self, name) != field_specs(type(self))[name].implied
+
+
 def attribute_pairs(attributes: Sequence[tuple[str, str]] | Mapping[str, str]) -> tuple[tuple[str, str], ...]:
     """Return (name, value) pairs in the order given."""
     if attributes is _NOTHING:
@@ -186,7 +197,7 @@ class FrozenMap(dict[K, V]):
 
 
 def frozen(value: object) -> object:
-    """Return a value that cannot be changed: FrozenMaps for mappings and tuples for lists, all the way down."""
+    """Return a value with FrozenMaps for mappings and tuples for lists, all the way down."""
     if isinstance(value, Mapping):
         return FrozenMap({name: frozen(item) for name, item in value.items()})
     return tuple(map(frozen, value)) if isinstance(value, list | tuple) else value

@@ -1,4 +1,4 @@
-"""Inertia of bodies: of each primitive shape and of meshes as solids, moved, turned and summed, exactly."""
+"""Inertia of bodies, primitive shapes and meshes as solids: moved, turned and summed exactly."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def _capsule_inertia(capsule: Capsule, mass: float) -> InertiaTensor:
 
 
 def rotation_matrix(rpy: Vector3) -> Matrix:
-    """Return the rotation by roll, pitch and yaw [rad] about the fixed axes x, then y, then z, as URDF defines it.
+    """Return the rotation by roll, pitch, yaw [rad] about the fixed axes x, then y, then z, as in URDF.
 
     Its columns are the turned axes, so it maps a vector of the turned frame to the frame around it.
     """
@@ -87,7 +87,7 @@ def rotation_matrix(rpy: Vector3) -> Matrix:
 
 
 def rotated(inertia: InertiaTensor, rpy: Vector3) -> InertiaTensor:
-    """Return a tensor given in axes that are turned by `rpy` [rad] in the axes around them, about the same point."""
+    """Return a tensor of axes turned by `rpy` [rad] in the axes around them, about the same point."""
     if not any(rpy):
         return inertia
     turn = rotation_matrix(rpy)
@@ -105,7 +105,7 @@ _TURNING_NOISE = 1e-15
 
 
 def shifted(inertia: InertiaTensor, mass: float, lever_arm: Vector3) -> InertiaTensor:
-    """Return a tensor about the centre of mass as it is about a point `lever_arm` [m] away: the parallel-axis theorem.
+    """Return a tensor about the centre of mass as it is about a point `lever_arm` [m] away.
 
     `mass` [kg]; the sign of the lever arm does not matter.
     """
@@ -311,7 +311,7 @@ class Solid:
         )
 
     def inertia(self, mass: float) -> InertiaTensor:
-        """Return the inertia about the centre, in the axes of the frame, of that mass [kg] spread evenly [kg·m²]."""
+        """Return the inertia [kg·m²] of that mass [kg], spread evenly, about the centre in the frame's axes."""
         density = mass / self.volume
         xx, yy, zz = (density * one for one in self.spread)
         xy, xz, yz = (density * one for one in self.skew)

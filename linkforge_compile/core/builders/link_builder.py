@@ -51,7 +51,7 @@ class IComposer(Protocol):
 
 
 class LinkBuilder(JointDraft):
-    """A link under construction, made by `RobotBuilder.link` or `child`; every call returns it for the next one.
+    """A link under construction, made by `RobotBuilder.link` or `child`; every call returns it.
 
     It joins the robot when it is committed: by `commit`, `root`, `child` or `build`, by the robot's own `build`, or
     at the end of a `with` block, inside of which it is the parent of the links that name none. A call after that
@@ -123,7 +123,7 @@ class LinkBuilder(JointDraft):
         rpy: Triple | None = None,
         name: str | None = None,
     ) -> Self:
-        """Add a shape to touch; None for that of the last visual, and, with neither xyz nor rpy, for its pose too.
+        """Add a shape to touch; None for the last visual's, with its pose if neither xyz nor rpy is given.
 
         Raises:
             RobotValidationError: GENERIC_FAILURE where there is no visual to take the shape from.
@@ -174,7 +174,7 @@ class LinkBuilder(JointDraft):
         return self
 
     def physics(self, **properties: Any) -> Self:  # Any: each field has a type of its own
-        """Set fields of LinkPhysics (self_collide, gravity, mu, mu2, kp, kd); others are set on a GazeboElement."""
+        """Set fields of LinkPhysics (self_collide, gravity, mu, mu2, kp, kd), others on a GazeboElement."""
         self._check_not_committed()
         known = {name: properties.pop(name) for name in field_specs(LinkPhysics) if name in properties}
         self._physics = replace(self._physics, **known)

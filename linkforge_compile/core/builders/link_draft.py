@@ -218,7 +218,7 @@ class JointDraft(LinkDraft):
         effort: float | None = DEFAULT_JOINT_EFFORT,
         velocity: float | None = DEFAULT_JOINT_VELOCITY,
     ) -> Self:
-        """Let the link turn about an axis without end, [N·m], [rad/s]; its limits are 0 to 0, which no reader uses.
+        """Let the link turn about an axis without end, [N·m], [rad/s]; its limits are 0 to 0, unused.
 
         One of effort and velocity that is None counts as 0; without both the joint has no limits.
         """

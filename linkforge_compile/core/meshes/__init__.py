@@ -1,4 +1,4 @@
-"""Meshes as solid bodies: the triangles of a file, read by trimesh or pycollada, and the solid that they bound.
+"""Meshes as solid bodies: triangles, read by trimesh or pycollada, and the solid that they bound.
 
 Read only where an inertia is to be computed from a mesh; needs the extra `mesh`.
 
@@ -90,7 +90,7 @@ def _solid_of(mesh: Mesh, resolver: IResourceResolver) -> Solid:
 
 
 def solid_in(content: bytes, name: str, *, times: int = 1) -> Solid:
-    """Return the solid that a mesh bounds, in the units and the frame of its file; `name` ends in .stl, .obj or .dae.
+    """Return the solid that a mesh bounds, in the frame of its file; `name` ends in .stl, .obj or .dae.
 
     Several bodies are one solid; where they overlap, the common part counts for each. The numbers of a COLLADA file are
     converted to metres by its unit, and its axes are kept whatever its `up_axis` is: so does RViz, for which most
@@ -165,7 +165,7 @@ def _read_obj(content: bytes, limit: int) -> Triangles:
 
 
 def _count_triangles(content: bytes, limit: int) -> int:
-    """Return how many triangles the faces of an OBJ file make, n - 2 for one of n corners; counts to the limit only."""
+    """Return how many triangles the faces of an OBJ file make, n - 2 of n corners; stop at the limit."""
     count = 0
     for face in _FACE.finditer(content):
         # One face may have millions of corners.
@@ -176,7 +176,7 @@ def _count_triangles(content: bytes, limit: int) -> int:
 
 
 def _find_wrong_corner(content: bytes) -> str | None:
-    """Return what is wrong with the first corner of a face in an OBJ file that is no vertex; None if each is one.
+    """Return what is wrong with the first corner of a face in an OBJ file that is no vertex, or None.
 
     Corners count from 1, and backwards from -1.
     """
@@ -219,7 +219,7 @@ def _read_by_trimesh(content: bytes, file_type: str) -> Triangles:
 
 
 def collada_triangles(content: bytes, limit: int) -> Triangles:
-    """Return the corners of all triangles of the scene [m], of shape (triangles, 3, 3); at most `limit` of them.
+    """Return the corners of all triangles of the scene [m], at most `limit`, as (triangles, 3, 3).
 
     Nodes place what they hold, `<unit meter>` scales all of it, `<up_axis>` turns nothing.
 
@@ -269,7 +269,7 @@ def _unit(root: Any) -> float:  # an element of lxml, whose class its stubs keep
 
 
 def _placed(nodes: Any) -> Iterator[tuple[Any, Triangles]]:  # pycollada has no types
-    """Yield every geometry of a scene, as often as it is placed, with the matrix that takes it to the scene's frame."""
+    """Yield every geometry of a scene, as often as it is placed, with its matrix to the scene's frame."""
     import numpy as np
     from collada.scene import GeometryNode, Node
 

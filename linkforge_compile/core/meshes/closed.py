@@ -35,7 +35,7 @@ _MAX_HOLLOW_CHECKS = 50_000_000
 
 
 def bounded_solid(triangles: Numbers) -> Solid:
-    """Return the solid that triangles bound, in their frame and unit; `triangles` has the shape (count, 3, 3).
+    """Return the solid that triangles of shape (count, 3, 3) bound, in their frame and unit.
 
     They must be closed: each edge is used as often in one direction as in the other. A body whose triangles face
     inwards is a hollow if it lies in another body, and a fault if not.
@@ -115,7 +115,7 @@ def _require_closed(triangles: Numbers, faces: Indices, bodies: Indices) -> None
 
 
 def _require_insides(corners: Numbers, bodies: Indices) -> None:
-    """Raise for a surface that encloses nothing, and for bodies that face inwards without being hollows of others."""
+    """Raise for a surface that encloses nothing, and for bodies facing inwards that are no hollows."""
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     least = _FLAT * np.bincount(bodies, np.sqrt((cross * cross).sum(axis=1)) / 2)
     volumes = np.bincount(bodies, _six_volumes(corners) / 6)
@@ -133,7 +133,7 @@ def _require_insides(corners: Numbers, bodies: Indices) -> None:
 
 
 def _lies_inside(point: Numbers, corners: Numbers) -> bool:
-    """Return whether bodies enclose a point: their triangles, seen from it, cover the whole sphere of directions."""
+    """Return whether bodies enclose a point: their triangles cover all directions seen from it."""
     a, b, c = (corners[:, index] - point for index in range(3))
     far_a, far_b, far_c = (np.sqrt((side * side).sum(axis=1)) for side in (a, b, c))
     ab, bc, ca = ((one * other).sum(axis=1) for one, other in ((a, b), (b, c), (c, a)))

@@ -119,7 +119,7 @@ KEEP_FIXED_JOINT = ("preserveFixedJoint", "disableFixedJointLumping")
 
 
 def keeps_fixed_joint(blocks: Iterable[GazeboElement]) -> bool:
-    """Whether one of the blocks about a fixed joint keeps it: Gazebo reads the attribute `value`, else the text."""
+    """Whether a block about a fixed joint keeps it: Gazebo reads the attribute `value`, else the text."""
     return any(_says_yes(block.properties.get(tag, "")) for block in blocks for tag in KEEP_FIXED_JOINT)
 
 
@@ -140,7 +140,7 @@ def content_key(element: GazeboElement) -> tuple[str, str]:
 
 
 def _sorted(value: object) -> object:
-    """Return a value with the items of every mapping in it sorted: their order does not matter for equality."""
+    """Return a value with the items of every mapping in it sorted, as equality ignores their order."""
     if isinstance(value, Mapping):
         return sorted((name, _sorted(item)) for name, item in value.items())
     return [_sorted(item) for item in value] if isinstance(value, tuple | list) else value

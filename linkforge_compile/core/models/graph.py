@@ -117,7 +117,7 @@ def _cyclic() -> RobotValidationError:
 
 
 def find_cycles(successors: Mapping[str, Sequence[str]]) -> Iterator[list[Edge]]:
-    """Yield a cycle for each edge that closes one in a depth-first walk, as its edges; that one comes last.
+    """Yield the edges of a cycle for each edge that closes one in a depth-first walk; it comes last.
 
     The walk starts at the names in their order; names that are only successors of others end it.
     """
@@ -201,7 +201,7 @@ class KinematicGraph:
         return not networkx.is_directed_acyclic_graph(self._drawn())
 
     def get_root_links(self) -> list[str]:
-        """Return the sorted names of the links that are no joint's child; a link without joints is one of them."""
+        """Return the sorted names of links that are no joint's child, those without joints included."""
         return sorted(name for name in self.link_names if not self.inv_adj.get(name))
 
     def find_islands(self) -> list[set[str]]:

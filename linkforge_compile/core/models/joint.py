@@ -138,7 +138,7 @@ class JointDynamics(Element):
 
 @dataclass(frozen=True, slots=True)
 class JointMimic(Element):
-    """A joint that follows another: `<mimic>`; its position is `multiplier` times that of `joint`, plus `offset`.
+    """A joint at `multiplier` times the position of `joint`, plus `offset`: `<mimic>`.
 
     `offset` is [rad], or [m] for a prismatic joint. `stated` names those of
     the two that are written although they have their default; it is not compared.
@@ -178,7 +178,7 @@ class JointSafetyController(Element):
 
 @dataclass(frozen=True, slots=True)
 class JointCalibration(Element):
-    """Positions at which a reference switch goes up or down: `<calibration>`; [rad] or [m], None for no such position.
+    """Positions [rad] or [m] where a reference switch goes up or down, or None: `<calibration>`.
 
     Raises:
         RobotMathError: INVALID_VALUE for NaN or infinity.

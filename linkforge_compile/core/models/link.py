@@ -21,7 +21,7 @@ from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidation
 from linkforge_compile.core.fields import Child, Children, Flag, Name, Number, Pose, Text, check_numbers, tags_with_text
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Material, Transform
 from linkforge_compile.core.naming import require_name, require_valid_characters
-from linkforge_compile.core.part import Element, Part, attribute_pairs, prefixed_fields, set_field
+from linkforge_compile.core.part import Element, Part, Stating, attribute_pairs, prefixed_fields, set_field
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import CONTACT_DAMPING, INERTIA, MASS, STIFFNESS
 
@@ -90,8 +90,8 @@ class Inertial(Element):
 
 
 @dataclass(frozen=True, slots=True)
-class LinkPhysics(Part):
-    """How a simulator treats a link in contact; becomes tags of its `<gazebo reference>`, defaults left out.
+class LinkPhysics(Part, Stating):
+    """How a simulator treats a link in contact: tags of its `<gazebo reference>`, defaults left out.
 
     `stated` names the fields that are written although they have their default: simulators do not agree on it.
     `mu` and `mu2` are Coulomb coefficients along the first and second friction direction, `kp` the contact
@@ -114,10 +114,6 @@ class LinkPhysics(Part):
         set_field(self, "stated", tuple(self.stated))
         check_numbers(self)
 
-    def is_written(self, name: str) -> bool:
-        """Whether a field becomes a tag: it differs from its default, or is stated."""
-        return name in self.stated or getattr(self, name) != getattr(USUAL_PHYSICS, name)
-
 
 USUAL_PHYSICS = LinkPhysics()
 """The defaults of simulators."""
@@ -128,7 +124,7 @@ PHYSICS_TAGS = tags_with_text(LinkPhysics)
 
 @dataclass(frozen=True, slots=True)
 class Visual(Element):
-    """A visible shape: `<visual>`; `origin` is its pose in the link frame, `material` and `name` may be None."""
+    """A visible shape: `<visual>`; `origin` is in the link frame, `material` and `name` may be None."""
 
     TAG = "visual"
 
@@ -151,7 +147,7 @@ class Collision(Element):
 
 @dataclass(slots=True, weakref_slot=True)
 class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
-    """A rigid body, or a frame if `inertial` is None and it has no shapes: `<link name>`. It may be changed in place.
+    """A rigid body, or a frame if it has no `inertial` and no shapes: `<link name>`. It is mutable.
 
     `source` is where it was written, None if it was not read; it is not compared. `extra_attributes` and
     `extra_elements` are as on `Element`. `shape_order` has a 'visual' or 'collision' for each shape in the order in
@@ -298,7 +294,7 @@ def shortest_setting(kinds: Sequence[str]) -> str | Sequence[str] | None:
 
 
 def shown_colors(own: Iterable[ColorT | None]) -> Iterator[ColorT | None]:
-    """Yield the color in which MuJoCo shows each shape of a link, given the shapes' own colors in document order.
+    """Yield the color of each shape of a link in MuJoCo, given their own colors in document order.
 
     A shape without a color, such as any collision, has that of the shape before it; None before the first color.
     """

@@ -1,4 +1,4 @@
-"""Collections of parts of one kind: tuples that find a part by its name, and how parts are added to them."""
+"""Collections of parts of one kind: lists that grow, and tuples that find a part by its name."""
 
 from __future__ import annotations
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from copy import deepcopy
+from dataclasses import replace
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, Self
 
@@ -15,7 +16,6 @@ from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.named_table import NAME
 from linkforge_compile.core.models.robot_parts import (
     RobotParts,
-    complete_joint,
     prefixed_materials,
     prefixed_parts,
     require_robot_name,
@@ -157,7 +157,7 @@ class Robot(RobotParts):
         return self._disable_pairs([(link1, link2)], reason)
 
     def disable_all_collisions(self, links: list[str], reason: str = SRDF_REASON_ADJACENT) -> Self:
-        """Let planning ignore collisions between any two of the links; INVALID_VALUE for one that is listed twice."""
+        """Let planning ignore collisions between any two of the links; INVALID_VALUE for one listed twice."""
         for link in links:
             self.link(link)
         return self._disable_pairs(combinations(links, 2), reason)
@@ -169,7 +169,7 @@ class Robot(RobotParts):
         return self._add_entries(disabled_collisions=disabled)
 
     def enable_collisions(self, link1: str, link2: str, reason: str | None = None) -> Self:
-        """Let planning look for collisions between two links although it is disabled by default; a pair counts once."""
+        """Let planning check two links for collisions although that is disabled by default; once a pair."""
         from linkforge_compile.core.models.srdf import CollisionPair
 
         pair = CollisionPair(self.link(link1).name, self.link(link2).name, reason)
@@ -229,7 +229,10 @@ class Robot(RobotParts):
             # The connecting joint comes from a link that is none of theirs, so it makes no cycle.
             root = tree_root(parts["links"], parts["joints"])
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
-            parts["joints"].append(complete_joint(connecting, joint) if joint else connecting)
+            if joint:
+                names = ("name", "type", "parent", "child", "origin", "axis", "limits")
+                connecting = replace(joint, **{name: getattr(connecting, name) for name in names})
+            parts["joints"].append(connecting)
         parts["extra_elements"] = list(component.extra_elements)
         self._add_component(component, prefix, parts, materials)
         return self
@@ -250,7 +253,7 @@ class Robot(RobotParts):
         self.extra_attributes = tuple(extra_attributes.items())
 
     def prefix_all(self, prefix: str) -> None:
-        """Put a prefix before the robot's name, the names of all its parts, and wherever they refer to one another.
+        """Put a prefix before the names of the robot and its parts, and wherever they refer to one another.
 
         Extra elements, metadata and files stay as they are; an empty prefix changes nothing.
 
@@ -275,7 +278,7 @@ class Robot(RobotParts):
         return deepcopy(self)
 
     def normalized(self) -> Robot:
-        """Return a clone with every kind of part sorted by name, so that equality does not depend on their order.
+        """Return a clone with parts sorted by name, so that equality does not depend on their order.
 
         Gazebo elements are sorted by reference and then by content; materials and metadata are mappings, and the order
         of visuals and collisions is kept, for it has a meaning.

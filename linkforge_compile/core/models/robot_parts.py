@@ -286,7 +286,7 @@ class RobotParts:
         return self._tree.above.get(link_name)
 
     def get_parent_link(self, link_name: str) -> Link | None:
-        """Return the parent of the first joint whose child the link is, None for a root and for an unknown link."""
+        """Return the parent of the first joint whose child the link is, None for a root or unknown link."""
         joint = self.get_parent_joint(link_name)
         return self.get_link(joint.parent) if joint else None
 
@@ -324,7 +324,7 @@ class RobotParts:
         return sum(joint.degrees_of_freedom for joint in self.joints)
 
     def resolve_resource(self, uri: str, relative_to: Path | None = None) -> Path:
-        """Return the file of a URI, as the robot's resolver finds it; raise FileNotFoundError if there is none."""
+        """Return the file of a URI by the robot's resolver; raise FileNotFoundError if there is none."""
         return self.resource_resolver.resolve(uri, relative_to=relative_to)
 
     def __str__(self) -> str:
@@ -361,7 +361,7 @@ _KINDS = ("links", "joints", "sensors", "transmissions", "ros2_controls", "gazeb
 
 
 def prefixed_parts(robot: RobotParts, prefix: str) -> dict[str, list[Any]]:  # Any: each kind has a class of its own
-    """Return the parts of a robot by kind, with the prefix on their names and on the names that they refer to.
+    """Return the parts of a robot by kind, with the prefix on their names and references.
 
     Raises:
         RobotModelError: INVALID_NAME where the prefix makes a name that no part may have.
@@ -376,7 +376,7 @@ def prefixed_materials(robot: RobotParts, prefix: str) -> dict[str, Material]:
 
 
 def select_new_materials(added: Mapping[str, Material], own: Mapping[str, Material]) -> dict[str, Material]:
-    """Return those of the added materials that are not among a robot's own, and those of its own that move.
+    """Return the added materials that a robot lacks, and those of its own that move.
 
     A material that both have is written after the links only if it is in both, so that their order does not matter.
 
@@ -397,17 +397,3 @@ def select_new_materials(added: Mapping[str, Material], own: Mapping[str, Materi
         for name, material in added.items()
         if name not in own or own[name].after_links > material.after_links
     }
-
-
-def complete_joint(connecting: Joint, joint: Joint) -> Joint:
-    """Return the connecting joint with those fields of `joint` for which merging has no argument."""
-    return replace(
-        joint,
-        name=connecting.name,
-        type=connecting.type,
-        parent=connecting.parent,
-        child=connecting.child,
-        origin=connecting.origin,
-        axis=connecting.axis,
-        limits=connecting.limits,
-    )

@@ -17,7 +17,7 @@ from linkforge_compile.source import SourceRef
 
 
 class Interface(str):
-    """The name of an interface, such as `position`: `<command_interface name>` or `<state_interface name>`.
+    """An interface's name, such as `position`: `<command_interface name>`, `<state_interface name>`.
 
     It sorts, hashes and prints as that name, and equals it; two interfaces are equal if their parameters and extras
     are, too. `parameters` are texts by name (`min`, `max`, `initial_value`): `<param name>`.
@@ -162,7 +162,7 @@ class Ros2ControlJoint(_CommandedComponent):
 
 
 class Ros2ControlGpio(_CommandedComponent):
-    """Pins that hardware switches or reads: `<gpio name>` in `<ros2_control>`; interfaces and parameters as of a joint.
+    """Pins that hardware switches or reads: `<gpio name>` in `<ros2_control>`; fields as of a joint.
 
     Raises:
         RobotValidationError: NAME_EMPTY for an empty name.
@@ -177,7 +177,7 @@ class Ros2ControlGpio(_CommandedComponent):
 
 @dataclass(frozen=True, slots=True)
 class Ros2ControlSensor(Element):
-    """A sensor that hardware reads: `<sensor name>` in `<ros2_control>`; interfaces and parameters as of a joint.
+    """A sensor that hardware reads: `<sensor name>` in `<ros2_control>`; fields as of a joint.
 
     Raises:
         RobotValidationError: NAME_EMPTY for an empty name.

@@ -27,7 +27,7 @@ from linkforge_compile.core.fields import (
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.naming import require_name
-from linkforge_compile.core.part import Element
+from linkforge_compile.core.part import Element, Stating
 from linkforge_compile.units import ANGLE, FREQUENCY, LENGTH, LOAD, PIXELS, TURN_RATE, VELOCITY
 
 
@@ -75,7 +75,7 @@ class ForceTorqueDirection(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class SensorNoise(Element):
+class SensorNoise(Element, Stating):
     """Noise on a measured value, in that value's unit: `<noise>`.
 
     `type` is `gaussian`, `gaussian_quantized` or what else the simulator knows. A bias is drawn once from
@@ -95,10 +95,6 @@ class SensorNoise(Element):
     bias_mean: Annotated[float, Number(xml="bias_mean/text()")] = 0.0
     bias_stddev: Annotated[float, Number(xml="bias_stddev/text()")] = 0.0
     stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
-
-    def is_written(self, name: str) -> bool:
-        """Whether a bias becomes a tag: it is not 0, or is stated."""
-        return name in self.stated or getattr(self, name) != 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -234,7 +234,7 @@ class JointProperty(Element):
 
 @dataclass(frozen=True, slots=True)
 class CollisionPair(Element):
-    """Two links whose collision is not checked, or is after all: `<disable_collisions>`, `<enable_collisions>`.
+    """Two links whose collision is ignored or checked: `<disable_collisions>`, `<enable_collisions>`.
 
     `reason` is for people and tools (`Adjacent`, `Never`), None if not given. (a, b) and (b, a) are
     the same pair but not equal; `key` is.
@@ -306,7 +306,7 @@ class SrdfSphere(Element):
 
 @dataclass(frozen=True, slots=True)
 class LinkSphereApproximation(Element):
-    """Spheres in place of the shape of a link: `<link_sphere_approximation link>`; without spheres it has no shape.
+    """Spheres, or none, in place of the shape of a link: `<link_sphere_approximation link>`.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank link.

@@ -21,7 +21,7 @@ from linkforge_compile.core.fields import (
     require_finite,
 )
 from linkforge_compile.core.naming import require_name, require_unique_names, require_valid_characters
-from linkforge_compile.core.part import Element, FreePart, FrozenMap
+from linkforge_compile.core.part import Element, FreePart, FrozenMap, Stating
 from linkforge_compile.units import POSITION
 
 
@@ -42,7 +42,7 @@ _JOINTS_AND_ACTUATORS: dict[str, int] = {
 
 
 @dataclass(frozen=True, slots=True)
-class _TransmissionEnd(Element):
+class _TransmissionEnd(Element, Stating):
     """What a joint and an actuator of a transmission have in common."""
 
     name: Annotated[str, Name()]
@@ -76,10 +76,6 @@ class _TransmissionEnd(Element):
             )
         require_finite(self, "mechanical_reduction", "offset")
 
-    def is_written(self, name: str) -> bool:
-        """Whether `offset` becomes a tag: it is not 0, or is stated."""
-        return name in self.stated or getattr(self, name) != 0
-
     def normalized(self) -> Self:
         """Return it with its interfaces sorted."""
         return replace(self, hardware_interfaces=tuple(sorted(self.hardware_interfaces)))
@@ -106,7 +102,7 @@ class TransmissionJoint(_TransmissionEnd):
 
 
 class TransmissionActuator(_TransmissionEnd):
-    """An actuator that drives a transmission: `<actuator name>`; fields and refusals as for TransmissionJoint."""
+    """An actuator that drives a transmission: `<actuator name>`; otherwise as TransmissionJoint."""
 
     __slots__ = ()
     TAG = "actuator"
