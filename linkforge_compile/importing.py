@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
-from linkforge_compile.diagnostics.suggest import suggesting
+from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import XACRO, Arguments, ImportSite, Loader, SpecFile
-from linkforge_compile.expand.assembly import charge_entries
+from linkforge_compile.expand.uses import charge_entries
 from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
@@ -25,7 +25,7 @@ from linkforge_compile.syntax import YamlMap, read
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
-    from linkforge_compile.expand.merge_srdf import Semantic
+    from linkforge_compile.expand.expand_uses import Semantic
     from linkforge_compile.formats.urdf import Gazebo
 
 _IMPORTED = (URDF, SRDF)
@@ -100,13 +100,13 @@ def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> ReadBack:
     try:
         back = on_fresh_stack(lambda: _read_back(robot, gazebo, sink))
     except BeyondLimitError as beyond:
-        sink.end(beyond)
+        sink.abort(beyond)
         back = None
     return ReadBack(back, tuple(one for one in sink.sorted() if one.severity is Severity.ERROR))
 
 
 @gc_paused()
-@suggesting()
+@suggestion_budget()
 def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     from linkforge_compile.importers.srdf_with_urdf import with_srdf
     from linkforge_compile.importers.urdf import read_urdf
@@ -132,13 +132,13 @@ def _checker_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Checked]:
 
 
 @gc_paused()
-@suggesting()
+@suggestion_budget()
 def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     sink = Diagnostics()
     try:
         text = _imported_text(urdf, srdf, settings, sink)
     except BeyondLimitError as beyond:
-        sink.end(beyond)
+        sink.abort(beyond)
         text = None
     return Import(text, sink.sorted())
 
@@ -206,8 +206,8 @@ _Read = tuple[SourceFile, Imported]
 
 
 def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnostics) -> Semantic | None:
-    from linkforge_compile.expand.merge_srdf import open_semantic
-    from linkforge_compile.expand.xacro_use import XacroUse
+    from linkforge_compile.expand.expand_uses import open_semantic
+    from linkforge_compile.expand.xacro import XacroUse
 
     # The user named it like the URDF, and a xacro of MoveIt includes files from its own package.
     loader.roots = loader.roots.with_those_around(srdf)
@@ -233,15 +233,10 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, declared: _Names, loader: Load
 
 
 def _read_xacro(xacro: Path, arguments: Arguments, declared: _Names, loader: Loader, sink: Diagnostics) -> _Read | None:
-    from linkforge_compile.expand.xacro import read_xacro
-    from linkforge_compile.expand.xacro_use import XacroUse
+    from linkforge_compile.expand.xacro import XacroUse, read_xacro
 
-    expanded = read_xacro(
-        XacroUse(xacro, ImportSite(str(xacro), None), arguments, used_elsewhere=declared),
-        loader,
-        sink,
-        keeps_refused=True,
-    )
+    use = XacroUse(xacro, ImportSite(str(xacro), None), arguments, used_elsewhere=declared)
+    expanded = read_xacro(use, loader, sink, keeps_refused=True)
     return (expanded.file, expanded.imported) if expanded else None
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from linkforge_compile.diagnostics import BeyondLimitError, Code, Where
-from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
+from linkforge_compile.diagnostics.codes.modules import BEYOND_LIMIT
 
 MAX_FILE_BYTES = 16 * 1024 * 1024
 """The largest spec, data file or XML file that is read."""

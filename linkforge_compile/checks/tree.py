@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkforge_compile.checks.references import (
+from linkforge_compile.checks.names import (
     SHOWN,
     Graph,
     Reference,

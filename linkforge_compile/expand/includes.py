@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.files import (
+from linkforge_compile.diagnostics.codes.modules import (
     ENTRY_IN_TWO_FILES,
     INCLUDE_CIRCLE,
     INCLUDE_NOT_PLAIN,
@@ -17,7 +17,7 @@ from linkforge_compile.diagnostics.codes.files import (
     SAID_BY_MAIN_FILE,
     TOO_MANY_INCLUDES,
 )
-from linkforge_compile.expand.paths import follow
+from linkforge_compile.expand.files import follow
 from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import (

@@ -7,18 +7,18 @@ from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT
-from linkforge_compile.diagnostics.codes.modules import INVALID_VARIABLE_NAME, RESERVED_NAME
-from linkforge_compile.diagnostics.codes.repetition import (
+from linkforge_compile.diagnostics.codes.modules import (
     CONDITION_KIND,
     FOR_KIND,
     FOR_NAME_TAKEN,
+    INVALID_VARIABLE_NAME,
     KEY_WITHOUT_NAME,
     LONG_FORM,
     RESERVED_KEY,
+    RESERVED_NAME,
 )
 from linkforge_compile.expand.evaluate import Evaluator
-from linkforge_compile.expand.origins import Setting
-from linkforge_compile.expand.values import describe
+from linkforge_compile.expand.values import Setting, describe
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression
 from linkforge_compile.limits import Limit
 from linkforge_compile.schema.repetition import WORDS

@@ -8,8 +8,7 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.link import Collision, Visual
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.expand.defaults import is_default
-from linkforge_compile.expand.origins import NameOrigin, names_behind
+from linkforge_compile.expand.values import NameOrigin, is_default, names_behind
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.provenance import place_of
 from linkforge_compile.export_spec.robot import spec_of

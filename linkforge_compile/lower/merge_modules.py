@@ -12,7 +12,7 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
 from linkforge_compile.diagnostics.codes.names import MODULES_SHARE_NAMES, NAMES_OF_THIS_FILE, OWN_ATTRIBUTE_STAYS
-from linkforge_compile.expand.assembly import Instance, joint_name_of
+from linkforge_compile.expand.uses import Instance, joint_name_of
 from linkforge_compile.lower.file import LoweredFile, unresolved_of
 from linkforge_compile.lower.mount import (
     ModuleJoint,
@@ -22,6 +22,7 @@ from linkforge_compile.lower.mount import (
     lower_module_joint,
     module_fields,
     single_mount,
+    without_virtual_joint,
 )
 from linkforge_compile.lower.object_context import report_duplicate
 from linkforge_compile.source import SourceRef
@@ -211,8 +212,6 @@ class ModuleMerger:
         for joint in component.semantic.virtual_joints:
             if joint.child_link != root:
                 continue
-            from linkforge_compile.lower.without_virtual_joint import without_virtual_joint
-
             without = without_virtual_joint(component.semantic, joint.name, prefix)
             component.semantic = without.semantic
             name, link = joint.name.removeprefix(prefix), root.removeprefix(prefix)

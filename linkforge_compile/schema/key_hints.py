@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, islice
 from typing import NamedTuple
 
-from linkforge_compile.diagnostics import MAX_TOLD
+from linkforge_compile.diagnostics import MAX_KEPT
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.hints import known_key_hint, number_of_list_hint, other_key_hint
 from linkforge_compile.schema.json_types import Json, Schema, branches, mapping
@@ -44,7 +44,7 @@ def group_unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
         and not any(re.search(pattern, entry.name) for pattern in patterns)
     )
     groups: dict[str, list[YamlEntry]] = {}
-    for before, entry in islice(unknown, MAX_TOLD + 1):  # a hostile map has a hundred thousand
+    for before, entry in islice(unknown, MAX_KEPT + 1):  # a hostile map has a hundred thousand
         if before and (hint := _decimal_comma_hint(before.value, entry)):
             yield UnknownKeys([entry], hint)
         else:

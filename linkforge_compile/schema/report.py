@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from jsonschema import Draft7Validator
 
-from linkforge_compile.diagnostics import MAX_TOLD, Diagnostics, notes_of, too_many_errors
+from linkforge_compile.diagnostics import MAX_KEPT, Diagnostics, notes_of, too_many_errors
 from linkforge_compile.schema.explain import Finding, explain
 from linkforge_compile.schema.gate import HEADER, plain
 from linkforge_compile.schema.json_types import LinkedSchema, Schema
@@ -33,7 +33,7 @@ def report_mismatches(tree: YamlMap, sink: Diagnostics, *, is_included: bool) ->
     errors = (error for error in _errors(tree, is_included) if not _is_under_reserved_name(error))
     found = (finding for error in errors for finding in _explain(error, tree))
     # A hostile file has a hundred thousand errors; explaining more than are shown would take long.
-    return _report(tree, list(islice(found, MAX_TOLD + 1)), sink)
+    return _report(tree, list(islice(found, MAX_KEPT + 1)), sink)
 
 
 def report_computed_mismatches(
@@ -104,7 +104,7 @@ def _report(tree: YamlMap, findings: Sequence[Finding], sink: Diagnostics) -> Ya
     for diagnostic, aliases in sorted(found, key=lambda one: (one[0].order, [alias.span.start for alias in one[1]])):
         notes = (*diagnostic.notes, *notes_of(aliases))
         sink.report(replace(diagnostic, notes=notes) if aliases else diagnostic)
-    if sum(1 + len(finding.also) for finding in findings) > MAX_TOLD:
+    if sum(1 + len(finding.also) for finding in findings) > MAX_KEPT:
         raise too_many_errors(findings[-1].diagnostic.span)
     return _prune(tree, findings)
 

@@ -6,7 +6,8 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.checks import check, mesh_files
-from linkforge_compile.checks.mesh_files import MAX_SAMPLES, MeshScan, ScanBudget, scan_mesh
+from linkforge_compile.checks.bounding import ScanBudget
+from linkforge_compile.checks.mesh_files import MAX_SAMPLES, MeshScan, scan_mesh
 from linkforge_compile.checks.shapes import MAX_SINGLE_FILES
 from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
 from linkforge_compile.diagnostics import UnresolvedNames

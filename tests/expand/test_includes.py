@@ -4,7 +4,7 @@ import pytest
 
 from linkforge_compile import compile_file, render_urdf
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.files import INCLUDE_TOO_DEEP, TOO_MANY_INCLUDES
+from linkforge_compile.diagnostics.codes.modules import INCLUDE_TOO_DEEP, TOO_MANY_INCLUDES
 from linkforge_compile.expand import Loader, arguments_from_text, expand
 from linkforge_compile.expand.includes import MAX_DEPTH, MAX_INCLUDES
 from tests.expand.assembling import plain
@@ -103,7 +103,7 @@ def test_one_palette_may_be_included_by_several_modules(tmp_path):
     assert [path.name for path in compilation.files] == ["robot.yaml", "palette.yaml", "part.yaml"]
 
 
-def test_what_stands_in_a_file_that_cannot_be_read_is_not_missed(tmp_path):
+def test_names_of_an_unreadable_file_are_not_reported_as_missing(tmp_path):
     write(
         tmp_path,
         {

@@ -173,7 +173,7 @@ def test_what_a_reader_forgets_is_a_loss_and_strict_fails(
 
 
 def test_a_loss_that_is_only_counted_is_counted_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
-    monkeypatch.setattr(sink, "MAX_TOLD", 2)
+    monkeypatch.setattr(sink, "MAX_KEPT", 2)
     urdf = tmp_path / "r.urdf"
     shapes = '<visual>stray<geometry><sphere radius="1"/></geometry></visual>\n' * 5
     urdf.write_text(f'<robot name="r"><link name="a">{shapes}</link></robot>', "utf-8")

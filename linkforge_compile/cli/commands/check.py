@@ -7,9 +7,14 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.inputs import check_settings_of, check_spec
-from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.options import (
+    add_spec_options,
+    check_settings_of,
+    check_spec,
+    packages_of,
+    split_assignments,
+)
 from linkforge_compile.cli.reports import add_report_options, format_diagnostics, has_errors, select, write_to_stderr
 
 if TYPE_CHECKING:
@@ -53,7 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.diagnostics.render.text import summary
+    from linkforge_compile.diagnostics.render_text import summary
 
     words, assignments = split_assignments(arguments.words)
     unread: list[Diagnostic] = []
@@ -86,8 +91,7 @@ def _find_specs(word: str, arguments: argparse.Namespace, report: Callable[[Diag
     if not os.path.isdir(word):  # noqa: PTH112
         return (word,)
     from linkforge_compile.diagnostics import Note
-    from linkforge_compile.diagnostics.codes.modules import UNREADABLE_FILE
-    from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
+    from linkforge_compile.diagnostics.codes.modules import OUTSIDE_ROOTS, UNREADABLE_FILE
     from linkforge_compile.editor.spec_files import TooManyFilesError, find_specs
     from linkforge_compile.roots import ANYWHERE, Roots
 
@@ -144,7 +148,7 @@ class _Report(NamedTuple):
 
 def _merge_runs(compilations: _Compilations) -> _Report:
     """Return the report of a spec, with the diagnostics of all its variants merged."""
-    from linkforge_compile.diagnostics.runs import told_once
+    from linkforge_compile.diagnostics.reports import merge_reports
 
     checked = {variant: one for variant, one in compilations.items() if one is not None}
     runs = {
@@ -152,7 +156,7 @@ def _merge_runs(compilations: _Compilations) -> _Report:
         for variant, one in checked.items()
     }
     files = frozenset(os.path.realpath(file) for one in checked.values() for file in one.files)
-    return _Report(told_once(runs), len(checked) - 1, len(compilations) - len(checked), files)
+    return _Report(merge_reports(runs), len(checked) - 1, len(compilations) - len(checked), files)
 
 
 def _variants_summary(reports: Collection[_Report]) -> str:

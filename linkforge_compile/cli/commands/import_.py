@@ -6,13 +6,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.inputs import STDIN, read_stdin, require_file, require_one_spec
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.options import (
+    STDIN,
     add_outside_option,
     add_package_option,
     add_parameter_option,
     packages_of,
+    read_stdin,
+    require_file,
+    require_one_spec,
     split_assignments,
 )
 from linkforge_compile.cli.reports import add_report_options, print_failure, progress_after, report
@@ -94,13 +97,15 @@ def run(arguments: argparse.Namespace) -> int:
 def _with_losses_as_errors(imported: Import) -> list[Diagnostic]:
     from linkforge_compile.diagnostics.codes.importing import LOSSES
 
-    return [replace(one, taken_for=Severity.ERROR) if one.code in LOSSES else one for one in imported.diagnostics]
+    return [
+        replace(one, severity_override=Severity.ERROR) if one.code in LOSSES else one for one in imported.diagnostics
+    ]
 
 
 def _reason(losses: tuple[Diagnostic, ...]) -> str:
     if not losses:
         return "there are errors"
-    count = sum(1 + loss.untold for loss in losses)
+    count = sum(1 + loss.omitted for loss in losses)
     codes = sorted({loss.code.id for loss in losses})
     return f"{count} {'loss' if count == 1 else 'losses'} ({', '.join(codes)})"
 

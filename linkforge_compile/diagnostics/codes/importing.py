@@ -1,8 +1,8 @@
-"""LF8xxx: what an imported file is not, and what of it does not come in as it was."""
+"""LF8xxx: what an imported file lacks, and what the import changes or keeps as raw XML."""
 
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
 
-_E, _W = Severity.ERROR, Severity.WARNING
+_E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
 
 # LF800x: XML
 MALFORMED_XML = Code("LF8001", _E, "this is not XML: {problem}")
@@ -33,16 +33,12 @@ NOTHING_EXPANDED = Code(
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML: {reason}")
 
 ENDS_KEPT_RAW = Code(
-    "LF8090",
-    _W,
-    "lower must not be above upper, found {lower} and {upper}; they are kept as raw attributes",
+    "LF8090", _W, "lower must not be above upper, found {lower} and {upper}; they are kept as raw attributes"
 )
 
 # LF803x: xacro
 XACRO_NOT_INSTALLED = Code(
-    "LF8031",
-    _E,
-    "'{path}' needs the xacro package, which runs its expressions: pip install 'linkforge-compile[xacro]'",
+    "LF8031", _E, "'{path}' needs the xacro package, which runs its expressions: pip install 'linkforge-compile[xacro]'"
 )
 XACRO_FAILED = Code("LF8032", _E, "xacro gives up here: {problem}")
 XACRO_ARGUMENT = Code("LF8033", _E, "'{name}' of a xacro file takes a text, a number, or true or false")
@@ -52,7 +48,7 @@ XACRO_WARNS = Code("LF8034", _W, "xacro says: {text}")
 XACRO_ARGUMENT_TOO_EARLY = Code("LF8062", _E, "xacro uses '{name}' here, before it reads its default; write '{remedy}'")
 XACRO_UNKNOWN_NAME = Code("LF8063", _E, "xacro knows no {kind} named '{name}' here")
 XACRO_FILE_MISSING = Code("LF8064", _E, "xacro needs the file '{path}', which does not exist")
-ARGUMENTS_NOT_LISTED = Code("LF8061", Severity.NOTE, "the arguments that '{path}' declares are not listed: {reason}")
+ARGUMENTS_NOT_LISTED = Code("LF8061", _N, "the arguments that '{path}' declares are not listed: {reason}")
 
 # LF813x: which file goes where
 URDF_FOR_SRDF = Code(
@@ -80,7 +76,7 @@ MESH_BESIDE_THE_URDF = Code(
 # LF813x: what is said in addition, and loses nothing
 VERSION_FOR_CAPSULE = Code(
     "LF8131",
-    Severity.NOTE,
+    _N,
     '<capsule> came with URDF 1.1, and this file states no version, so what is compiled says version="1.1"; '
     'write <robot version="1.1" ...> here',
 )

@@ -90,11 +90,7 @@ MOUNT_AND_JOINT = Code(
 
 # LF54xx: the tree of links
 NO_LINKS = Code("LF5401", _E, "robot '{robot}' has no links; a robot has at least one")
-SECOND_PARENT = Code(
-    "LF5402",
-    _E,
-    "link '{link}' is the child of two joints, '{first}' and '{joint}'; {way_out}",
-)
+SECOND_PARENT = Code("LF5402", _E, "link '{link}' is the child of two joints, '{first}' and '{joint}'; {way_out}")
 LINK_CIRCLE = Code("LF5403", _E, "links are each other's parents in a circle: {path}")
 SEVERAL_ROOTS = Code(
     "LF5404", _E, "{count} links have no parent: {roots}; only one may be the root, so attach {strays} to '{root}'"
@@ -169,9 +165,7 @@ ATTRIBUTE_OF_OWNER = Code(
 LIST_IN_LIST = Code("LF5702", _E, "a list repeats the tag '{field}', so it cannot hold another list")
 TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is set twice; remove one, in an override with 'null'")
 TAG_OF_TWO_BLOCKS = Code(
-    "LF5780",
-    _W,
-    "Gazebo's tag '{tag}' of '{owner}' is {found} here, {first} in another block; Gazebo takes the last",
+    "LF5780", _W, "Gazebo's tag '{tag}' of '{owner}' is {found} here, {first} in another block; Gazebo takes the last"
 )
 UNPREFIXED_NAME = Code("LF5704", _W, "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}")
 ABSOLUTE_TOPIC = Code(
