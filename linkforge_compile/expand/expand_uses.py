@@ -285,9 +285,8 @@ def with_semantic(
     spec: SpecFile, semantic: Semantic, use: XacroUse, loader: Loader, sink: Diagnostics
 ) -> SpecFile | None:
     """Return a robot with its SRDF merged; None after a reported error. `use` names the SRDF."""
-    from linkforge_compile.importers.comments import Comments
-    from linkforge_compile.importers.document import Imported
-    from linkforge_compile.importers.srdf import with_srdf
+    from linkforge_compile.importers.document import Comments, Imported
+    from linkforge_compile.importers.srdf_with_urdf import with_srdf
 
     def merged(tree: YamlMap) -> SpecFile:
         parts = {file: SpecFile(file, tree, semantic.folder, semantic.package) for file in semantic.files}
