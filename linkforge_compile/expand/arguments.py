@@ -11,8 +11,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.modules import UNKNOWN_VARIANT
-from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE
+from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_VARIANT
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.loader import Loader, SpecFile
 from linkforge_compile.expand.uses import XACRO

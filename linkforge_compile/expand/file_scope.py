@@ -11,8 +11,8 @@ from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.expressions import SEEN_IN_THE_TEXT
-from linkforge_compile.diagnostics.codes.modules import DATA_NOT_PATH
 from linkforge_compile.diagnostics.codes.modules import (
+    DATA_NOT_PATH,
     INVALID_VARIABLE_NAME,
     NAME_OF_TWO_KINDS,
     NOT_JUDGED,

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
-from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
-from linkforge_compile.diagnostics.codes.modules import OUTSIDE_ROOTS
+from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
 from linkforge_compile.expand.files import (
     UnreadableError,
     as_typed,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import reduce
 from pathlib import Path
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostics, Note
@@ -12,7 +13,6 @@ from linkforge_compile.diagnostics.codes.modules import (
     MODULE_WITHOUT_FILE,
     MODULES_NOT_MAP,
     NOT_A_MODULE,
-    SAME_KEY,
 )
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.arguments import Arguments
@@ -163,8 +163,7 @@ def _with_computed_keys(section: YamlMap, evaluator: Evaluator, folder: Path | N
         if key is None:
             is_partial = True
         elif key.text in entries:
-            notes = [Note("the first is here", entries[key.text].key.span)]
-            evaluator.sink.report(SAME_KEY.at(key.span, name=key.text, notes=notes))
+            evaluator.report_same_key(key, entries[key.text])
         else:
             entries[key.text] = YamlEntry(key, entry.value)
     return Arguments(entries, folder, is_partial=is_partial)
@@ -189,10 +188,7 @@ class ModuleBody:
 
     def with_overrides(self, overrides: Iterable[Override]) -> ModuleBody:
         """Return the body with overrides applied in order; their parts for nested modules go to the entries."""
-        body = self
-        for override in overrides:
-            body = body._with_override(override)
-        return body
+        return reduce(ModuleBody._with_override, overrides, self)
 
     def _with_override(self, override: Override) -> ModuleBody:
         own, nested = _split_nested(override)

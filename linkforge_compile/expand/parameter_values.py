@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics, Note
-from linkforge_compile.diagnostics.codes.modules import FILE_OUTSIDE_PACKAGE
 from linkforge_compile.diagnostics.codes.modules import (
     BAD_PATTERN,
     CROSSED_BOUNDS,
+    FILE_OUTSIDE_PACKAGE,
     NO_CHOICE,
     PARAMETER_NOT_SET,
     UNFIT_CONSTRAINT,
