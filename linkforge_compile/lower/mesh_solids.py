@@ -106,19 +106,15 @@ class MeshSolids:
             return None
         self._budget.spend(Limit.MESH_BYTES, len(content), where)
         self._files.append(as_typed(path))
-        self._collect(len(content))
+        self._uncollected += len(content)
+        if self._uncollected > _BYTES_UNTIL_COLLECTION:
+            gc.collect()
+            self._uncollected = 0
         try:
             return solid_in(content, path.name, times=self._budget.times)
         except MeshError as error:
             # The traceback of the error would keep its frames, and with them the mesh, in memory.
             return MeshError(error.fault, error.message)
-
-    def _collect(self, read: int) -> None:
-        """Free the memory of earlier meshes once it is large; `read` bytes come now."""
-        self._uncollected += read
-        if self._uncollected > _BYTES_UNTIL_COLLECTION:
-            gc.collect()
-            self._uncollected = 0
 
     def _content(self, path: Path) -> bytes | None:
         """Return the content of a file, None for a missing one; record one that cannot be read."""
