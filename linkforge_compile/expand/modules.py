@@ -198,12 +198,14 @@ class ModuleBody:
         patched = _without_links(patched, {*names_in_section(before, "links")} - {*names_in_section(patched, "links")})
         section = patched.get("modules")
         left = section.entries if isinstance(section, YamlMap) else {}
-        entries = tuple(
-            _with_nested(
-                _patched_entry(entry, left[entry.name].value, modules.entries[entry.name].value, override), nested
-            )
+        patched_entries = (
+            _patched_entry(entry, left[entry.name].value, modules.entries[entry.name].value, override)
             for entry in self.entries
             if entry.name in left
+        )
+        entries = tuple(
+            replace(entry, overrides=(*entry.overrides, nested[entry.name])) if entry.name in nested else entry
+            for entry in patched_entries
         )
         names = dict(_deleted_names(before, patched, own.patch))
         gone = [(entry, names[entry.name]) for entry in self.entries if entry.name in names]
@@ -246,12 +248,6 @@ def _patched_entry(entry: ModuleEntry, fields: YamlNode, before: YamlNode, overr
     section = fields.get("with")
     arguments = replace(entry.arguments, entries=section.entries if isinstance(section, YamlMap) else {})
     return with_fields(replace(entry, arguments=arguments), _without_key(fields, "with"), override.sink)
-
-
-def _with_nested(entry: ModuleEntry, nested: Mapping[str, Override]) -> ModuleEntry:
-    if entry.name not in nested:
-        return entry
-    return replace(entry, overrides=(*entry.overrides, nested[entry.name]))
 
 
 def _deleted_names(before: YamlMap, after: YamlMap, patch: YamlMap) -> Iterator[tuple[str, Note]]:
