@@ -168,8 +168,8 @@ def check_mimic_range(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint that mimics another can follow it as far as it goes.
 
     Where the leader's range, times `multiplier` plus `offset`, passes a limit of the follower, simulators stop one of
-    the two, or let the follower pass its limit, and planners find states that no robot takes. Correct the sign of the
-    `multiplier` or of the `axis`, or the limits of one of the two.
+    the two, or let the follower pass its limit, and planners find states that no robot can reach. Correct the sign of
+    the `multiplier` or of the `axis`, or the limits of one of the two.
     """
     for joint in robot.joints:
         leader = robot.joints.get(joint.mimic.joint) if joint.mimic else None
@@ -282,7 +282,7 @@ def check_soft_limits(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The soft limits of a safety controller lie within the limits of its joint, the lower one below the upper one.
 
     A controller begins to brake there. A soft limit beyond the stop never acts; with the two crossed, or a missing
-    one that URDF reads as 0, the joint is held everywhere. Without `k_position` nothing acts on positions.
+    one that URDF reads as 0, the joint cannot move. Without `k_position` nothing acts on positions.
     """
     for joint in robot.joints:
         safety, limits = joint.safety_controller, joint.limits
