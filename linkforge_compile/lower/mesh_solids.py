@@ -22,9 +22,16 @@ from linkforge_compile.diagnostics.codes.physics import (
     UNREADABLE_MESH,
     WIDE_MESH,
 )
-from linkforge_compile.expand.annotating_sink import with_use_trace
-from linkforge_compile.expand.file_text import TooLargeError, UnreadableError, read_bytes
-from linkforge_compile.expand.paths import as_typed, misspelt_part, path_base, searched_note
+from linkforge_compile.expand.files import (
+    TooLargeError,
+    UnreadableError,
+    as_typed,
+    misspelt_part,
+    path_base,
+    read_bytes,
+    searched_note,
+)
+from linkforge_compile.expand.loader import with_use_trace
 from linkforge_compile.expand.uses import FindMesh
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.roots import identity

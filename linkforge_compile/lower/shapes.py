@@ -19,7 +19,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.paths import path_base
+from linkforge_compile.expand.files import path_base
 from linkforge_compile.expand.uses import from_base, no_mesh
 from linkforge_compile.lower.elements import CommonKwargs, common_kwargs, lower_element
 from linkforge_compile.lower.fields import Fields
