@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import argparse
 
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.expand.origins import NameOrigin, Setting
+    from linkforge_compile.expand.values import NameOrigin, Setting
     from linkforge_compile.export_spec import ComputedFrom, Explanation, UnknownPathError
 
 _EXAMPLES = """\
