@@ -26,7 +26,7 @@ from linkforge_compile.expand import (
     arguments_from_values,
     expand,
 )
-from linkforge_compile.formats import NO_OPTIONS, Options, limits, require_options
+from linkforge_compile.formats import NO_OPTIONS, Options, report_limits, require_options
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.limits import Budget
@@ -263,7 +263,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
         robot = robot_of(spec, settings, loader, meshes, sink) if spec else None
         if robot is not None and robot.extra_elements:
             # Only of the compiled robot: an import keeps raw XML that has the name of another part.
-            from linkforge_compile.formats.extra_limits import check_raw_names
+            from linkforge_compile.formats.limits import check_raw_names
 
             sink.report_all(check_raw_names(robot))
         suppressions = loader.suppressions
@@ -292,7 +292,7 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
         robot.resource_resolver = resolver
         sink.report_all(check(robot, unresolved.with_access(loader.roots.hold)))
     if lowered.robot is not None:
-        sink.report_all(limits(lowered.robot, settings.options, settings.formats))
+        sink.report_all(report_limits(lowered.robot, settings.options, settings.formats))
         if settings.output is not None:
             from linkforge_compile.formats.relative_paths import lost_on_the_way
 
