@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from linkforge_compile.editor.completions import if_used, snippet
-from linkforge_compile.schema.json_types import Json, Schema
+from linkforge_compile.schema.json_schema import Json, Schema
 
 
 class SpecPaths:

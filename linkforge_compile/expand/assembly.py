@@ -12,7 +12,7 @@ from linkforge_compile.diagnostics import DeletedNames
 from linkforge_compile.expand.uses import FindMesh, no_mesh
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
 
 COMPUTING = frozenset({"parameters", "variables", "data", "variants", "packages", "modules", "defaults"})

@@ -11,11 +11,10 @@ from linkforge_compile.diagnostics.codes.files import NAME_OUTSIDE_TEXT, PATH_OF
 from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
 from linkforge_compile.expand.syntax_markers import CONTEXT_PATTERN
 from linkforge_compile.expressions import Expression, parse_template
-from linkforge_compile.schema.json_types import LinkedSchema
-from linkforge_compile.schema.shapes import FREE, Shape, shapes
-from linkforge_compile.schema.words import field
+from linkforge_compile.schema.json_schema import LinkedSchema
+from linkforge_compile.schema.shapes import FREE, Shape, field, shapes
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
-from linkforge_compile.syntax.scalars import xacro_facts
+from linkforge_compile.syntax.nodes import xacro_facts
 
 _NAME_TITLES = frozenset({"a name", "a joint's name", "a material's name", "a joint value or a state's name"})
 """The titles of schemas of names, which get the prefix automatically."""

@@ -7,7 +7,7 @@ from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from pathlib import Path
 
 from linkforge_compile.limits import MAX_FILE_BYTES
-from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
+from linkforge_compile.source.characters import EncodingError, begins_xml, xml_text
 
 
 class UnreadableError(Exception):

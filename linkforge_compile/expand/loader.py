@@ -19,9 +19,9 @@ from linkforge_compile.expand.spec_tree import cached_source, read_tree
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.roots import ANYWHERE, Roots, identity
 from linkforge_compile.source import SourceFile, Span, place_of_byte
-from linkforge_compile.source.encoding import begins_xml
+from linkforge_compile.source.characters import begins_xml
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
-from linkforge_compile.syntax.ignore_comments import IGNORE_WORDS, ignore_comments
+from linkforge_compile.syntax.parser import IGNORE_WORDS, ignore_comments
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.ignores import Ignore

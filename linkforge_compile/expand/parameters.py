@@ -33,7 +33,7 @@ from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_express
 from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
-from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS
+from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS
 from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, unit_text
 
 _STEPS_PER_INSTRUCTION = 4

@@ -9,7 +9,7 @@ from pathlib import Path
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.roots import is_folder
 from linkforge_compile.source import Span
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.span import Located
 from linkforge_compile.syntax import YamlScalar
 
 _MAX_NAMES = 10_000

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from linkforge_compile.schema.repetition import WORDS
+from linkforge_compile.schema.json_schema import WORDS
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 
 CONTEXT_PATTERN = re.compile(r"\bprefix\b(?!['\"]?\s*:)|\b(?:path|link|joint)[\s)]*\(|\$\{|[“„‘]")

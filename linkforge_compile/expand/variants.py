@@ -13,7 +13,7 @@ from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.arguments import COMMAND_LINE
 from linkforge_compile.expand.loader import Loader, SpecFile
 from linkforge_compile.expand.uses import XACRO
-from linkforge_compile.schema.words import alternatives
+from linkforge_compile.schema.shapes import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode
 

@@ -23,13 +23,13 @@ from linkforge_compile.expressions.operators import (
     truth,
     wrong_kind,
 )
-from linkforge_compile.expressions.scope import Scope
 from linkforge_compile.expressions.types import (
     FAULT,
     Expression,
     Fault,
     PathText,
     RefusedError,
+    Scope,
     Template,
     Value,
     as_text,

@@ -19,7 +19,7 @@ from linkforge_compile.expressions.types import (
     kind_name,
     seen_from_compiled,
 )
-from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS
+from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS
 from linkforge_compile.units import UNITS, Dimension, Quantity, parse_quantity, suggested_unit, unit_text
 
 Number: TypeAlias = int | float

@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from linkforge_compile.source.xml_places import ATTRIBUTE, MARKUP
+from linkforge_compile.source.xml_tree import ATTRIBUTE, MARKUP
 from linkforge_compile.syntax import YamlScalar
 
 _PREFIX = "$(prefix)"

@@ -11,7 +11,7 @@ from linkforge_compile.expand.paths import path_base
 from linkforge_compile.expand.uses import from_base, no_mesh
 from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.source import SourceFile
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.span import Located
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.lower.fields import Fields, by_word
 from linkforge_compile.lower.joint import SUBSTITUTE_LIMITS
 from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, NumberType, Refusal, number_type, si_number
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlMap, YamlScalar
 from linkforge_compile.units import POSITION, Motion
 

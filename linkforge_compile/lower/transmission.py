@@ -13,7 +13,7 @@ from linkforge_compile.lower.elements import lower_element
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.numbers import NumberType
 from linkforge_compile.lower.positions import joints_of, position_type_of_node
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlList
 
 End = TypeVar("End", TransmissionJoint, TransmissionActuator)

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.source.ref import Key, Located, SourceRef
-from linkforge_compile.source.span import Change, Span
+from linkforge_compile.source.span import Change, Key, Located, SourceRef, Span
 
 
 class Kind(Enum):

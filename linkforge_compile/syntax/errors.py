@@ -14,8 +14,8 @@ from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.source import Span
 from linkforge_compile.source.characters import LIKE_SPACES, code_point
-from linkforge_compile.syntax.marks import Marks
-from linkforge_compile.syntax.scalars import IN_QUOTES, XACRO_EXPRESSION, is_cut_expression, xacro_facts
+from linkforge_compile.syntax.nodes import IN_QUOTES, XACRO_EXPRESSION, is_cut_expression, xacro_facts
+from linkforge_compile.syntax.parser import Marks
 
 _LINE = re.compile(r"[^\r\n]+")
 _MARK_OF_COMMENT = re.compile(r"(?<!\S)#")

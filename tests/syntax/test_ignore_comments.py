@@ -10,7 +10,7 @@ from linkforge_compile.diagnostics.runs import told_once
 from linkforge_compile.limits import Limit
 from linkforge_compile.pipeline import check_variants
 from linkforge_compile.source import SourceFile
-from linkforge_compile.syntax.ignore_comments import ignore_comments
+from linkforge_compile.syntax.parser import ignore_comments
 from tests.yaml_case import compile_yaml
 
 
