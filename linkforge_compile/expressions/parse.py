@@ -269,9 +269,9 @@ def _constant_fault(node: ast.Constant, value: object, expression: Expression) -
             what = f"the character {code_point(forbidden[0])}"
             return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=what, instead="no file may contain it")
         case int() if value.bit_length() > MAX_INTEGER_BITS:
-            return codes.RESULT_TOO_LARGE.at(expression.span(node), taker="this number")
+            return codes.RESULT_TOO_LARGE.at(expression.span(node), operation="this number")
         case float() if not math.isfinite(value):
-            return codes.RESULT_TOO_LARGE.at(expression.span(node), taker="this number")
+            return codes.RESULT_TOO_LARGE.at(expression.span(node), operation="this number")
         case str() | int() | float():
             return None
     return codes.NOT_IN_EXPRESSIONS.at(
