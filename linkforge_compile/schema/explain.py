@@ -12,28 +12,24 @@ from typing import TYPE_CHECKING, NamedTuple
 from jsonschema import Draft7Validator
 
 from linkforge_compile.diagnostics import MAX_TOLD, Diagnostic, Diagnostics, notes_of, too_many_errors
-from linkforge_compile.diagnostics.codes.schema import (
-    MISSING_NAME,
-    MISSING_VERSION,
-    OTHER_VERSION,
-    UNKNOWN_KEY,
-    UNKNOWN_WORD,
-    WRONG_KIND,
-    WRONG_LENGTH,
-)
-from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, TAB_INDENTATION, XACRO_EXPRESSION
+from linkforge_compile.diagnostics.codes import schema as codes
+from linkforge_compile.diagnostics.codes import syntax
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.schema.hint_rules import Path, SchemaMismatch, is_row, value_hint, word_hint
+from linkforge_compile.schema.hint_rules import is_row, value_hint, word_hint
 from linkforge_compile.schema.json_schema import LinkedSchema, Schema, linked_part, mapping
 from linkforge_compile.schema.misplaced_keys import find_like_space, group_unknown_keys
 from linkforge_compile.schema.registry import HEADER, linked, plain
 from linkforge_compile.schema.shapes import (
     FREE,
+    Path,
+    SchemaMismatch,
     Shape,
     expected,
     field,
     find_branch,
     found,
+    is_text,
+    node_at,
     shape_of,
     shapes,
     shortened,
@@ -65,9 +61,8 @@ _LEVEL_HINT = "; so are all entries here: is a line with a name missing above, o
 def report_mismatches(tree: YamlMap, sink: Diagnostics, *, is_included: bool) -> YamlMap:
     """Report each node of a file that does not match the schema; return the file without them."""
     errors = (error for error in _errors(tree, is_included) if not _is_under_reserved_name(error))
-    found = (finding for error in errors for finding in _explain(error, tree))
     # A hostile file has a hundred thousand errors; explaining more than are shown would take long.
-    return _report(tree, list(islice(found, MAX_TOLD + 1)), sink)
+    return _report(tree, list(islice(_findings(errors, tree), MAX_TOLD + 1)), sink)
 
 
 def report_computed_mismatches(
@@ -82,7 +77,7 @@ def report_computed_mismatches(
     shown = YamlMap({key: YamlEntry(name, written)}, node.span)
     whole: Schema = {"type": "object", "properties": {key: schema}}
     errors = Draft7Validator(whole).iter_errors({key: plain(written)})
-    findings = [finding for error in errors for finding in _explain(error, shown) if len(finding.path) > 1]
+    findings = [finding for finding in _findings(errors, shown) if len(finding.path) > 1]
     return _report(tree, findings, sink).entries[key].value
 
 
@@ -116,9 +111,10 @@ def _is_under_reserved_name(error: ValidationError) -> bool:
     return False
 
 
-def _explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
-    yield from explain(error, tree)
-    _break_cycles(error)
+def _findings(errors: Iterable[ValidationError], tree: YamlMap) -> Iterator[Finding]:
+    for error in errors:
+        yield from _explain(error, tree)
+        _break_cycles(error)
 
 
 def _break_cycles(error: ValidationError) -> None:
@@ -189,9 +185,7 @@ def _merge_missing_levels(findings: Sequence[Finding], tree: YamlMap) -> list[Fi
 
 def _is_every_entry(tree: YamlMap, path: Path, count: int) -> bool:
     """Whether a map has this many entries with a value, and more than one."""
-    node: YamlNode | None = tree
-    for key in path:
-        node = node.child(key) if node else None
+    node = node_at(tree, path)
     entries = [entry for entry in node if not is_null(entry.value)] if isinstance(node, YamlMap) else []
     return count > 1 and len(entries) == count
 
@@ -220,26 +214,27 @@ class Finding(NamedTuple):
     wrong_kind: int = 0
 
 
-def explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
+def _explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
     """Yield the findings of one error; none for an empty field and for what the reader has reported."""
     path = tuple(error.absolute_path)
-    node = _node_at(tree, path)
+    node = node_at(tree, path)
+    assert node is not None, "jsonschema reports only what is in the tree"
     if isinstance(node, YamlFault) or (is_null(node) and not isinstance(path[-1], int)):
         return
     if nameless := _object_without_name(tree, path):
         yield nameless
         return
     mismatch = SchemaMismatch(node, path, mapping(error.schema), tree)
-    branch = None if error.validator != "anyOf" or _is_text(node) else find_branch(mismatch.schema, node)
+    branch = None if error.validator != "anyOf" or is_text(node) else find_branch(mismatch.schema, node)
     if branch is not None:
         for inner in error.context or ():
             if inner.schema_path[0] == branch:
-                yield from explain(inner, tree)
+                yield from _explain(inner, tree)
     elif isinstance(node, YamlScalar) and _lacks_space(node, mismatch.schema):
-        yield Finding(SPACE_AFTER_COLON.at(node.span, text=node.text), path)
+        yield Finding(syntax.SPACE_AFTER_COLON.at(node.span, text=node.text), path)
     elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
         for one in facts:
-            yield Finding(XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
+            yield Finding(syntax.XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
     else:
         yield from _EXPLAIN[str(error.validator)](mismatch)
 
@@ -257,9 +252,11 @@ def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
     for entries, hint, near in group_unknown_keys(node, schema) if isinstance(node, YamlMap) else ():
         first, *others = entries
         hinted = f"; {hint}" if hint else ""
-        fault = UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
+        fault = codes.UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
         if space_like := find_like_space(first):
-            fault = TAB_INDENTATION.at(space_like, found=f"{code_point(space_like.text or '')}, which looks like one")
+            fault = syntax.TAB_INDENTATION.at(
+                space_like, found=f"{code_point(space_like.text or '')}, which looks like one"
+            )
         yield Finding(fault, (*path, first.name), tuple((*path, other.name) for other in others))
 
 
@@ -278,12 +275,12 @@ def _missing_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
             entry.value.child(name) or nearest(entry.name, known) == name for entry in unknown[:_MOST_COMPARED]
         )
         if node.get(name) is None and not is_reported:
-            code = MISSING_VERSION if name == "linkforge" else MISSING_NAME
+            code = codes.MISSING_VERSION if name == "linkforge" else codes.MISSING_NAME
             yield Finding(code.at(first), (*path, name))
 
 
 def _other_version(mismatch: SchemaMismatch) -> Iterator[Finding]:
-    yield Finding(OTHER_VERSION.at(mismatch.node.span, found=found(mismatch.node)), mismatch.path)
+    yield Finding(codes.OTHER_VERSION.at(mismatch.node.span, found=found(mismatch.node)), mismatch.path)
 
 
 def _wrong_word(mismatch: SchemaMismatch) -> Iterator[Finding]:
@@ -293,18 +290,18 @@ def _wrong_word(mismatch: SchemaMismatch) -> Iterator[Finding]:
         words = words_of(schema)
         hint = word_hint(mismatch, words)
         facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint}
-        yield Finding(UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
+        yield Finding(codes.UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
 
 
 def _wrong_kind(mismatch: SchemaMismatch) -> Iterator[Finding]:
     node, path, schema, _ = mismatch
     actual = f"{found(node)}{value_hint(mismatch)}"
-    fault = WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=actual)
+    fault = codes.WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=actual)
     yield Finding(fault, path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0)
 
 
 def _no_branch(mismatch: SchemaMismatch) -> Iterator[Finding]:
-    word = _is_text(mismatch.node) and not is_row(mismatch.node) and words_of(mismatch.schema)
+    word = is_text(mismatch.node) and not is_row(mismatch.node) and words_of(mismatch.schema)
     yield from (_wrong_word if word else _wrong_kind)(mismatch)
 
 
@@ -313,7 +310,9 @@ def _wrong_length(mismatch: SchemaMismatch) -> Iterator[Finding]:
     # A row of numbers without commas is reported at its item.
     if isinstance(node, YamlList) and not any(map(is_row, node)):
         actual = f"{len(node)}{value_hint(mismatch)}"
-        yield Finding(WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=actual), path)
+        yield Finding(
+            codes.WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=actual), path
+        )
 
 
 def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:
@@ -328,7 +327,9 @@ def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:
             name = "NAME" if first is known else first.name
             actual = f"the keys of a single one; write '{field}: {{{name}: {{{known.name}: …}}}}'"
             where = known.key.span
-            return Finding(WRONG_KIND.at(where, field=f"'{field}'", expected=shape.title, found=actual), path[:length])
+            return Finding(
+                codes.WRONG_KIND.at(where, field=f"'{field}'", expected=shape.title, found=actual), path[:length]
+            )
         inner = node.child(key)
         if not isinstance(inner, YamlMap):
             return None
@@ -355,16 +356,3 @@ _EXPLAIN: dict[str, Callable[[SchemaMismatch], Iterator[Finding]]] = {
     "minItems": _wrong_length,
     "maxItems": _wrong_length,
 }
-
-
-def _node_at(tree: YamlMap, path: Path) -> YamlNode:
-    node: YamlNode | None = tree
-    for key in path:
-        node = node.child(key) if node else None
-    if node is None:
-        raise LookupError(f"no node at {path}")
-    return node
-
-
-def _is_text(node: YamlNode) -> bool:
-    return isinstance(node, YamlScalar) and isinstance(node.value, str)

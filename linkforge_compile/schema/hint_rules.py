@@ -6,18 +6,19 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import Any
 
 from linkforge_compile.expressions import forgotten_expression
 from linkforge_compile.schema.hints import FIELDS_IN_ORDER, NO_BALL_JOINT, color_as_list, intended_word
-from linkforge_compile.schema.json_schema import Schema, branches, linked_part, mapping
+from linkforge_compile.schema.json_schema import Schema, branches, mapping
 from linkforge_compile.schema.shapes import (
     FREE,
-    Shape,
+    SchemaMismatch,
     expected,
     is_number,
+    is_text,
     nested,
-    shape_of,
+    node_at,
     shapes,
     shown,
     split_path,
@@ -25,48 +26,11 @@ from linkforge_compile.schema.shapes import (
 from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import parse_quantity
 
-Path: TypeAlias = tuple[str | int, ...]
-
-
-class SchemaMismatch(NamedTuple):
-    """A node, the path to it in its file, and the schema that it does not match."""
-
-    node: YamlNode
-    path: Path
-    schema: Schema
-    file: YamlMap
-
-    @property
-    def field(self) -> str | int:
-        """The key or index of the node; "" for the whole file."""
-        return self.path[-1] if self.path else ""
-
-    @property
-    def shape(self) -> Shape:
-        """The shape that the schema describes."""
-        return shape_of(linked_part(self.schema))
-
-    @property
-    def titles(self) -> set[str]:
-        """The titles of the schema's branches."""
-        return {str(branch.get("title")) for branch in branches(self.schema)}
-
-    def accepts_kind(self, kind: str) -> bool:
-        """Whether the schema accepts nodes of a JSON type."""
-        return any(kind in str(branch.get("type")) for branch in branches(self.schema))
-
 
 def value_hint(mismatch: SchemaMismatch) -> str:
     """Return what to write for a value of the wrong kind, as the end of a message; "" for no hint."""
-    match mismatch.node:
-        case YamlScalar() as scalar:
-            hint = next(filter(None, (rule(scalar, mismatch) for rule in _SCALAR_RULES)), "")
-        case YamlList() as items:
-            hint = next(filter(None, (rule(items, mismatch) for rule in _LIST_RULES)), "")
-        case YamlMap() as entries:
-            hint = next(filter(None, (rule(entries, mismatch) for rule in _MAP_RULES)), "")
-        case _:
-            hint = ""
+    rules = _RULES.get(type(mismatch.node), ())
+    hint = next(filter(None, (rule(mismatch.node, mismatch) for rule in rules)), "")
     return f"; write {hint}" if hint else ""
 
 
@@ -88,21 +52,15 @@ _PYTHON_MODULE = re.compile(r"\b(?:math|numpy|np)\.")
 
 
 def _intended_expression(mismatch: SchemaMismatch) -> str | None:
-    """Return the expression for a text without `$( )`; None for other text."""
+    """Return the expression of declared names for a text without `$( )`; None for other text."""
     node, path, _, file = mismatch
     if not isinstance(node, YamlScalar) or not isinstance(node.value, str):
         return None
-    return forgotten_expression(_PYTHON_MODULE.sub("", node.text), node.span, _names_in_scope(path, file))
-
-
-def _names_in_scope(path: Path, file: YamlMap) -> frozenset[str]:
-    """Return the names that the file, and each `for` around the path, declare for expressions."""
-    maps: list[YamlNode | None] = [file.get(section) for section in _DECLARING_SECTIONS]
-    node: YamlNode | None = file
-    for key in path:
-        node = node.child(key) if node else None
-        maps.append(node.get("for") if isinstance(node, YamlMap) else None)
-    return _PREDEFINED | {entry.name for each in maps if isinstance(each, YamlMap) for entry in each}
+    maps = [file.get(section) for section in _DECLARING_SECTIONS]
+    around = (node_at(file, path[:length]) for length in range(1, len(path) + 1))
+    maps += [one.get("for") for one in around if isinstance(one, YamlMap)]
+    names = _PREDEFINED | {entry.name for each in maps if isinstance(each, YamlMap) for entry in each}
+    return forgotten_expression(_PYTHON_MODULE.sub("", node.text), node.span, names)
 
 
 # Rules for scalars: each returns what to write, or "" if it does not apply
@@ -139,15 +97,14 @@ def _row(node: YamlScalar, mismatch: SchemaMismatch) -> str:
 
 
 def _list_around(mismatch: SchemaMismatch) -> str:
-    """The whole list of an item that holds several numbers."""
-    around: YamlNode | None = mismatch.file
-    shape = shapes()
+    """The whole list of an item that holds several numbers, or a part of one."""
+    around, shape = node_at(mismatch.file, mismatch.path[:-1]), shapes()
     for key in mismatch.path[:-1]:
-        around = around.child(key) if around else None
         shape = shape.under(key) if isinstance(key, str) else shape.item or FREE
-    if not isinstance(around, YamlList):
+    if not isinstance(around, YamlList) or len(around) > _MOST_ITEMS:
         return ""
-    numbers = numbers_of_items(around, list_lengths(shape.schema))
+    parts = [f"{',' if _is_adjacent(before, item) else ', '}{shown(item)}" for before, item in pairwise(around)]
+    numbers = numbers_in_row("".join((*map(shown, around.items[:1]), *parts)), list_lengths(shape.schema))
     return _field_with(mismatch.path[-2], numbers) if numbers else ""
 
 
@@ -160,7 +117,7 @@ def _number(node: YamlScalar, mismatch: SchemaMismatch) -> str:
 
 
 def _mimicked_joint(node: YamlScalar, mismatch: SchemaMismatch) -> str:
-    return f"'{{joint: {node.text}}}'" if mismatch.field == "mimic" and isinstance(node.value, str) else ""
+    return f"'{{joint: {node.text}}}'" if mismatch.field == "mimic" and is_text(node) else ""
 
 
 def _group_state(node: YamlScalar, mismatch: SchemaMismatch) -> str:
@@ -188,7 +145,7 @@ def _module_file(node: YamlScalar, mismatch: SchemaMismatch) -> str:
 
 def _single_item(node: YamlScalar, mismatch: SchemaMismatch) -> str:
     """The only item of a list, without its brackets."""
-    if not isinstance(node.value, str):
+    if not is_text(node):
         return ""
     if "a group" in mismatch.titles:
         return f"'{{joints: [{node.text}]}}'"
@@ -203,9 +160,15 @@ def _single_item(node: YamlScalar, mismatch: SchemaMismatch) -> str:
 
 
 def _decimal_commas(node: YamlList, mismatch: SchemaMismatch) -> str:
-    """A list that is too long because the decimal commas of its numbers separate items."""
+    """A list that is too long because the decimal commas of its numbers separate items: `1,5 mm`."""
     lengths = {branch["maxItems"] for branch in branches(mismatch.schema) if "maxItems" in branch}
-    items = with_decimal_points(node)
+    items = [*map(shown, node.items[:1])]
+    for before, item in pairwise(node):
+        is_part = _is_adjacent(before, item) and re.fullmatch(r"[+-]?\d+", items[-1])
+        if is_part and corrected_number(f"{items[-1]},{shown(item)}"):
+            items[-1] += f".{shown(item)}"
+        else:
+            items.append(shown(item))
     return f"'[{', '.join(items)}]'" if len(items) < len(node) and len(items) in lengths else ""
 
 
@@ -278,21 +241,17 @@ def _field_with(field: str | int, value: str | Sequence[str]) -> str:
     return f"'{key}{value}'" if isinstance(value, str) else f"'{key}[{', '.join(value)}]'"
 
 
-_SCALAR_RULES: tuple[Callable[[YamlScalar, SchemaMismatch], str], ...] = (
-    _boolean,
-    _color,
-    _expression,
-    _row,
-    _number,
-    _mimicked_joint,
-    _group_state,
-    _path_in_key,
-    _module_file,
-    _single_item,
-)
-_LIST_RULES = (_decimal_commas, _fields_in_order, _pose_of_six, _entries_by_name)
-_MAP_RULES: tuple[Callable[[YamlMap, SchemaMismatch], str], ...] = (_interfaces, _axes, _attribute)
+_RULES: dict[type, tuple[Callable[[Any, SchemaMismatch], str], ...]] = {
+    YamlScalar: (
+        *(_boolean, _color, _expression, _row, _number),
+        *(_mimicked_joint, _group_state, _path_in_key, _module_file, _single_item),
+    ),
+    YamlList: (_decimal_commas, _fields_in_order, _pose_of_six, _entries_by_name),
+    YamlMap: (_interfaces, _axes, _attribute),
+}
+"""The rules by kind of node; the first that applies wins."""
 
+# Numbers that YAML reads as text
 
 _DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+)(\s*[^\d\s,]\S*|)")
 _UNDERSCORES = re.compile(r"(?<=[0-9a-fA-F])_+(?=[0-9a-fA-F])")
@@ -374,31 +333,9 @@ def _numbers(words: Sequence[str]) -> Sequence[str]:
 
 def is_row(node: YamlNode) -> bool:
     """Whether a node is text of several numbers."""
-    return isinstance(node, YamlScalar) and isinstance(node.value, str) and bool(numbers_in_row(node.text))
-
-
-def numbers_of_items(node: YamlList, lengths: Sequence[range]) -> Sequence[str]:
-    """Return the numbers of a list whose items may hold several numbers or a part of one, as for `numbers_in_row`."""
-    if len(node) > _MOST_ITEMS:
-        return ()
-    parts = [f"{',' if _is_adjacent(before, item) else ', '}{shown(item)}" for before, item in pairwise(node)]
-    return numbers_in_row("".join((*map(shown, node.items[:1]), *parts)), lengths)
+    return isinstance(node, YamlScalar) and is_text(node) and bool(numbers_in_row(node.text))
 
 
 def _is_adjacent(before: YamlNode, item: YamlNode) -> bool:
     """Whether there is only a comma between two items."""
     return before.span.end == (item.span.line, item.span.column - 1)
-
-
-def with_decimal_points(node: YamlList) -> list[str]:
-    """Return the items of a list as text, joined at decimal commas: `1,5 mm` is one item."""
-    items: list[str] = []
-    before: YamlNode | None = None
-    for item in node:
-        is_part = before is not None and _is_adjacent(before, item) and re.fullmatch(r"[+-]?\d+", items[-1])
-        if is_part and corrected_number(f"{items[-1]},{shown(item)}"):
-            items[-1] = f"{items[-1]}.{shown(item)}"
-        else:
-            items.append(shown(item))
-        before = item
-    return items

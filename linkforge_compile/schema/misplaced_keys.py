@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence, Set
 from itertools import chain, islice
-from typing import NamedTuple
 
 from linkforge_compile.diagnostics import MAX_TOLD, Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.schema import SECTION_LINE_INDENTED, SECTION_LINE_LOST
@@ -35,16 +34,11 @@ _NOT_HOMES = {"defaults", "override"}
 """Fields whose keys change other parts, so that a misplaced key is not suggested there."""
 
 
-class UnknownKeys(NamedTuple):
-    """Unknown keys with the same mistake, and its hint; `near` are the candidates of a did-you-mean."""
+def group_unknown_keys(node: YamlMap, schema: Schema) -> Iterator[tuple[Sequence[YamlEntry], str, Sequence[str]]]:
+    """Yield the keys of a map that its schema does not know, in groups with the same mistake.
 
-    entries: Sequence[YamlEntry]
-    hint: str
-    near: Sequence[str] = ()
-
-
-def group_unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
-    """Yield the keys of a map that its schema does not know, in groups with the same mistake."""
+    Each has the hint and the candidates of a did-you-mean.
+    """
     known, patterns = mapping(schema.get("properties", {})), mapping(schema.get("patternProperties", {}))
     unknown = (
         (before, entry)
@@ -56,18 +50,18 @@ def group_unknown_keys(node: YamlMap, schema: Schema) -> Iterator[UnknownKeys]:
     groups: dict[str, list[YamlEntry]] = {}
     for before, entry in islice(unknown, MAX_TOLD + 1):  # a hostile map has a hundred thousand
         if before and (hint := _decimal_comma_hint(before.value, entry)):
-            yield UnknownKeys([entry], hint)
+            yield [entry], hint, ()
         else:
             groups.setdefault(_group(entry, node, schema), []).append(entry)
     for group, entries in groups.items():
         if group in known:
-            yield UnknownKeys(entries, _home_hint(group, entries, node))
+            yield entries, _home_hint(group, entries, node), ()
             continue
         hint, near = _hint(entries[0], node, schema)
         more = len(entries) - 1
         if more and not number_of_list_hint(str(schema["title"]), entries[0].name):
             hint = f"{hint} ({more} more like it here)"
-        yield UnknownKeys(entries, hint, near)
+        yield entries, hint, near
 
 
 def find_like_space(entry: YamlEntry) -> Span | None:
@@ -157,7 +151,10 @@ def _place_hint(entry: YamlEntry, known: Mapping[str, Json]) -> str:
 
 def _homes(name: str, known: Mapping[str, Json]) -> list[str]:
     """Return the fields of an object that have a key of this name."""
-    return [home for home, part in known.items() if home not in _NOT_HOMES and name in _keys_of(part)]
+    if name in COMMON_KEYS or name == "name":
+        return []
+    parts = ((home, branches(mapping(part))) for home, part in known.items() if home not in _NOT_HOMES)
+    return [home for home, kinds in parts if any(name in mapping(kind.get("properties", {})) for kind in kinds)]
 
 
 def _is_other_number(name: str, known: Mapping[str, Json]) -> bool:
@@ -171,11 +168,6 @@ def _decimal_comma_hint(before: YamlNode, entry: YamlEntry) -> str:
         return ""
     hint = number_hint(f"{before.text},{entry.name}", unit=None)
     return f"write {hint}" if hint else ""
-
-
-def _keys_of(schema: Json) -> set[str]:
-    keys = {key for branch in branches(mapping(schema)) for key in mapping(branch.get("properties", {}))}
-    return keys - COMMON_KEYS - {"name"}
 
 
 def _is_empty(node: YamlNode) -> bool:
@@ -207,42 +199,34 @@ def restore_sections(tree: YamlMap, sink: Diagnostics) -> YamlMap:
 
 def _restore_in(node: YamlMap, shape: Shape, sink: Diagnostics) -> YamlMap:
     """Return an object with the sections that are inside others of its sections."""
+    parts = {name: shape.under(name) for name in shape.keys if name not in COMMON_KEYS}
+    sections = {
+        name: part for name, part in parts.items() if part.is_object or "object" in str(part.schema.get("type"))
+    }
     # `x-` sections are the author's own, and may look like anything.
     entries, todo = {**node.entries}, [entry for entry in node if not entry.name.startswith("x-")]
     while todo:
         around = todo.pop(0)
-        absent = {name: section for name, section in _sections(shape).items() if name not in entries}
-        misplaced = _find_misplaced(around, shape.under(around.name), absent)
-        if misplaced:
-            sink.report(misplaced.diagnostic)
-            entries |= {around.name: YamlEntry(around.key, misplaced.before), misplaced.section.name: misplaced.section}
-            todo[:0] = [entries[around.name], misplaced.section]
+        absent = {name: section for name, section in sections.items() if name not in entries}
+        if misplaced := _find_misplaced(around, shape.under(around.name), absent):
+            fault, before, section = misplaced
+            sink.report(fault)
+            entries |= {around.name: YamlEntry(around.key, before), section.name: section}
+            todo[:0] = [entries[around.name], section]
     return YamlMap(entries, node.span) if len(entries) > len(node) else node
 
 
-def _sections(shape: Shape) -> Mapping[str, Shape]:
-    """Return the fields of an object that are maps, by key."""
-    parts = {name: shape.under(name) for name in shape.keys if name not in COMMON_KEYS}
-    return {name: part for name, part in parts.items() if part.is_object or "object" in str(part.schema.get("type"))}
-
-
-class _Misplaced(NamedTuple):
-    """A section found inside another one; `before` is what remains of that."""
-
-    diagnostic: Diagnostic
-    before: YamlMap
-    section: YamlEntry
-
-
-def _find_misplaced(around: YamlEntry, shape: Shape, absent: Mapping[str, Shape]) -> _Misplaced | None:
-    """Return the section that begins inside another one, None where there is none."""
+def _find_misplaced(
+    around: YamlEntry, shape: Shape, absent: Mapping[str, Shape]
+) -> tuple[Diagnostic, YamlMap, YamlEntry] | None:
+    """Return the fault of a section that begins inside another one, what remains of that, and the section."""
     inner = [*around.value] if isinstance(around.value, YamlMap) else []
     # From the end, so that each of several lines gets its own entries.
     for at, line in reversed([*enumerate(inner[:-1])]):
         below, section = inner[at + 1 :], absent.get(line.name)
         if section is not None and _is_indented(line, below, around.name, shape, section):
             fault = SECTION_LINE_INDENTED.at(line.key.span, name=line.name, around=around.name)
-            return _Misplaced(fault, _map(inner[:at], around), YamlEntry(line.key, _map(below, around)))
+            return fault, _map(inner[:at], around), YamlEntry(line.key, _map(below, around))
     # The entries of a mount look like joints.
     others = {name: section for name, section in absent.items() if name != "mount"}
     begins = {name: at for name, section in others.items() if (at := _begin(inner, shape, name, section))}
@@ -257,7 +241,7 @@ def _find_misplaced(around: YamlEntry, shape: Shape, absent: Mapping[str, Shape]
     at, first = begins[name], inner[begins[name]].key
     fault = SECTION_LINE_LOST.at(first.span, name=shortened(first.text), section=name, around=around.name)
     key = YamlScalar(name, name, first.span)
-    return _Misplaced(fault, _map(inner[:at], around), YamlEntry(key, _map(inner[at:], around)))
+    return fault, _map(inner[:at], around), YamlEntry(key, _map(inner[at:], around))
 
 
 def _map(entries: Sequence[YamlEntry], around: YamlEntry) -> YamlMap:
@@ -271,16 +255,11 @@ def _is_indented(line: YamlEntry, below: Sequence[YamlEntry], name: str, around:
     """Whether an entry without a value is the indented line of the section whose entries follow it."""
     if not is_null(line.value) or line.name in around.keys or not all(_may_be_of(section, entry) for entry in below):
         return False
-    if name in _OF_ANY_VALUE and not any(_is_plainly_of(section, entry) for entry in below):
-        return False
+    if name in _OF_ANY_VALUE:
+        known, keyed = _keys_of_entries(section), [entry for entry in below if isinstance(entry.value, YamlMap)]
+        if not any(section.is_object or (_may_contain(section, entry) and _keys(entry) & known) for entry in keyed):
+            return False
     return around.things not in _MAY_BE_EMPTY or not all(_may_contain(around, entry) for entry in below)
-
-
-def _is_plainly_of(section: Shape, entry: YamlEntry) -> bool:
-    """Whether an entry, by its keys, belongs to a section and to no other."""
-    if section.is_object:
-        return isinstance(entry.value, YamlMap)
-    return _may_contain(section, entry) and bool(_keys(entry) & _keys_of_entries(section))
 
 
 def _may_be_of(section: Shape, entry: YamlEntry) -> bool:

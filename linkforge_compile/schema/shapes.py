@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Collection, Sequence
 from functools import cache
-from typing import Final
+from typing import Final, NamedTuple, TypeAlias
 
 from linkforge_compile.schema.json_schema import (
     LONG_FORM,
@@ -166,6 +166,37 @@ def shapes() -> Shape:
     return Shape(linked())
 
 
+Path: TypeAlias = tuple[str | int, ...]
+
+
+class SchemaMismatch(NamedTuple):
+    """A node, the path to it in its file, and the schema that it does not match."""
+
+    node: YamlNode
+    path: Path
+    schema: Schema
+    file: YamlMap
+
+    @property
+    def field(self) -> str | int:
+        """The key or index of the node; "" for the whole file."""
+        return self.path[-1] if self.path else ""
+
+    @property
+    def shape(self) -> Shape:
+        """The shape that the schema describes."""
+        return shape_of(linked_part(self.schema))
+
+    @property
+    def titles(self) -> set[str]:
+        """The titles of the schema's branches."""
+        return {str(branch.get("title")) for branch in branches(self.schema)}
+
+    def accepts_kind(self, kind: str) -> bool:
+        """Whether the schema accepts nodes of a JSON type."""
+        return any(kind in str(branch.get("type")) for branch in branches(self.schema))
+
+
 COMMON_KEYS = frozenset({*WORDS, *RAW})
 """Keys that most objects have, so that messages do not list them."""
 
@@ -288,3 +319,16 @@ def nested(keys: Sequence[str], value: str) -> str:
     first, *steps = keys
     inside = "".join(f"{{{step}: " for step in steps)
     return f"{first}: {inside}{value}{'}' * len(steps)}"
+
+
+def is_text(node: YamlNode) -> bool:
+    """Whether a node is a scalar whose value is text."""
+    return isinstance(node, YamlScalar) and isinstance(node.value, str)
+
+
+def node_at(tree: YamlNode, path: Path) -> YamlNode | None:
+    """Return the node at a path, None if there is none."""
+    node: YamlNode | None = tree
+    for key in path:
+        node = node.child(key) if node else None
+    return node
