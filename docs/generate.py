@@ -14,8 +14,8 @@ from pathlib import Path
 import yaml
 
 from linkforge_compile.core.meshes.read import MAX_TRIANGLES
-from linkforge_compile.diagnostics.render.text import MOST_SHOWN
-from linkforge_compile.diagnostics.sink import MAX_REPORTED, MAX_TOLD, MAX_WARNED
+from linkforge_compile.diagnostics.render_text import MOST_SHOWN
+from linkforge_compile.diagnostics.sink import MAX_COUNTED, MAX_KEPT, MAX_REPORTED
 from linkforge_compile.expand import includes, parameter_types
 from linkforge_compile.expand.expand_uses import MAX_DEPTH
 from linkforge_compile.expressions import operators, parse
@@ -243,8 +243,8 @@ def _bounds() -> str:
     }
     shared = {limit.counted.replace("'for'", "`for`"): limit.most for limit in Limit}
     shared["triangles of one of these meshes"] = MAX_TRIANGLES
-    told = {"errors that are told, and warnings": MAX_TOLD, "errors that are found": MAX_REPORTED}
-    told |= {"warnings and notes that are counted beyond those": MAX_WARNED}
+    told = {"errors that are told, and warnings": MAX_KEPT, "errors that are found": MAX_REPORTED}
+    told |= {"warnings and notes that are counted beyond those": MAX_COUNTED}
     told |= {"diagnostics that the command shows as text": MOST_SHOWN}
     bounds = {**shared, **bounds, **told}
     rows = [[what, f"{most:,}" if isinstance(most, int) else most] for what, most in bounds.items()]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
-from linkforge_compile.diagnostics.suggest import suggesting
+from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import XACRO, Arguments, ImportSite, Loader, SpecFile
 from linkforge_compile.expand.assembly import charge_entries
 from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
@@ -100,13 +100,13 @@ def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> ReadBack:
     try:
         back = on_fresh_stack(lambda: _read_back(robot, gazebo, sink))
     except BeyondLimitError as beyond:
-        sink.end(beyond)
+        sink.abort(beyond)
         back = None
     return ReadBack(back, tuple(one for one in sink.sorted() if one.severity is Severity.ERROR))
 
 
 @gc_paused()
-@suggesting()
+@suggestion_budget()
 def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     from linkforge_compile.importers.srdf import with_srdf
     from linkforge_compile.importers.urdf import read_urdf
@@ -132,13 +132,13 @@ def _judge_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Checked]:
 
 
 @gc_paused()
-@suggesting()
+@suggestion_budget()
 def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     sink = Diagnostics()
     try:
         text = _imported_text(urdf, srdf, settings, sink)
     except BeyondLimitError as beyond:
-        sink.end(beyond)
+        sink.abort(beyond)
         text = None
     return Import(text, sink.sorted())
 

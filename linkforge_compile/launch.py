@@ -185,7 +185,7 @@ class RobotDescription:
             allow_outside=self._allow_outside,
         )
         from linkforge_compile.diagnostics import Severity
-        from linkforge_compile.diagnostics.render.text import render_text
+        from linkforge_compile.diagnostics.render_text import render_text
 
         if compilation.robot is None:
             raise SubstitutionFailure(f"{self.spec} has errors:\n{render_text(compilation.diagnostics)}")

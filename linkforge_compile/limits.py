@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from linkforge_compile.diagnostics import BeyondLimitError, Code, Where
-from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
+from linkforge_compile.diagnostics.codes.modules import BEYOND_LIMIT
 
 MAX_FILE_BYTES = 16 * 1024 * 1024
 """The largest spec, data file or XML file that is read."""
@@ -65,7 +65,7 @@ class Limit(Enum):
     IGNORED_CODES = _Limit(
         "codes in comments that ask not to be told of them",
         20_000,
-        "mend what is told, or leave it out with '--ignore'",
+        "fix what is reported, or hide it with '--ignore'",
     )
     MESH_BYTES = _Limit(
         "bytes in the meshes that an inertia is computed from",

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from linkforge_compile.checks import check
 from linkforge_compile.compilation import Compilation, CompileError
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
-from linkforge_compile.diagnostics.codes.bounds import VARIANTS_BEYOND_LIMIT
-from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED
-from linkforge_compile.diagnostics.suggest import suggesting
+from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED, VARIANTS_BEYOND_LIMIT
+from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import (
     XACRO,
     Arguments,
@@ -36,7 +35,7 @@ from linkforge_compile.roots import ANYWHERE, Roots
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
-    from linkforge_compile.diagnostics.ignores import Ignore
+    from linkforge_compile.diagnostics.reports import Suppression
     from linkforge_compile.expand.listing import Listing
     from linkforge_compile.formats.urdf import Gazebo
 
@@ -163,7 +162,7 @@ def check_each_variant(file: Path, settings: Settings) -> dict[str | None, Compi
     return {name: None if whole.is_spent else compile_path(file, settings._replace(variant=name)) for name in names}
 
 
-@suggesting()
+@suggestion_budget()
 def parameters_of(
     path: str | Path, *, packages: Packages | None = None, allow_outside: bool = False
 ) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
@@ -183,7 +182,7 @@ def parameters_of(
         elif spec := loader.open(Path(path), sink):
             listing = list_parameters(spec, loader, sink)
     except BeyondLimitError as beyond:
-        sink.end(beyond)
+        sink.abort(beyond)
     return listing, sink.sorted()
 
 
@@ -251,7 +250,7 @@ def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation
 
 
 @gc_paused()
-@suggesting()
+@suggestion_budget()
 def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compilation:
     require_options(settings.options)
     sink = Diagnostics()
@@ -259,7 +258,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
     meshes = MeshSolids(loader.budget)
     loader.check_spec = lambda spec, loader: check_alone(meshes, spec, loader).faults
     robot = None
-    ignores: tuple[Ignore, ...] = ()
+    suppressions: tuple[Suppression, ...] = ()
     try:
         spec = read(loader, sink)  # the loader reads and validates each file, modules' files as expand meets them
         robot = robot_of(spec, settings, loader, meshes, sink) if spec else None
@@ -268,16 +267,16 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
             from linkforge_compile.formats.extra_limits import check_raw_names
 
             sink.report_all(check_raw_names(robot))
-        ignores = loader.ignores
+        suppressions = loader.suppressions
     except BeyondLimitError as beyond:
-        sink.end(beyond)
+        sink.abort(beyond)
     if sink.has_errors or any(diagnostic.code is NOT_JUDGED for diagnostic in sink):
         robot = None
     report = sink.sorted()
-    if ignores:
-        from linkforge_compile.diagnostics.ignores import heed
+    if suppressions:
+        from linkforge_compile.diagnostics.reports import apply_suppressions
 
-        report = heed(report, ignores, is_whole=robot is not None)
+        report = apply_suppressions(report, suppressions, is_whole=robot is not None)
     return Compilation(robot, report, (*loader.files, *meshes.files), (*loader.unread, *meshes.unread))
 
 

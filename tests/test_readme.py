@@ -7,7 +7,7 @@ import pytest
 from benchmarks import lines
 from linkforge_compile import compile_text, render_urdf
 from linkforge_compile.cli.main import COMMANDS
-from linkforge_compile.diagnostics.render.text import render_text
+from linkforge_compile.diagnostics.render_text import render_text
 from linkforge_compile.units import UNITS
 from tests.conftest import ROOT
 

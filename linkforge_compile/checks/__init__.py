@@ -15,15 +15,18 @@ from linkforge_compile.checks import (
     sensors,
     shapes,
     srdf,
-    states,
     tree,
 )
+from linkforge_compile.checks.groups import LinkSets
 from linkforge_compile.checks.mesh_files import RobotMeshes
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 
 Check: TypeAlias = Callable[[Robot, UnresolvedNames], Iterator[Diagnostic]]
 """Checks one rule, which the first line of its docstring states; the rest is its manual page."""
+
+GroupCheck: TypeAlias = Callable[[Robot, UnresolvedNames, LinkSets], Iterator[Diagnostic]]
+"""A check of planning groups or their states; all of them share the sets of links."""
 
 MeshCheck: TypeAlias = Callable[[Robot, RobotMeshes], Iterator[Diagnostic]]
 """A check that needs mesh files; all of them share what was read."""
@@ -84,16 +87,19 @@ SEMANTIC_CHECKS: tuple[Check, ...] = (
     srdf.check_virtual_joint_names,
     srdf.check_collision_pairs,
     srdf.check_enabled_pairs,
-    srdf.check_passive_joints,
+    ros2_control.check_passive_joints,
     groups.check_group_circles,
+)
+
+GROUP_CHECKS: tuple[GroupCheck, ...] = (
     groups.check_chains,
     groups.check_empty_groups,
     groups.check_end_effectors,
     groups.check_arms_of_end_effectors,
-    states.check_group_states,
-    states.check_states_taken_over,
-    states.check_states_of_mimics,
-    states.check_states_are_whole,
+    srdf.check_group_states,
+    srdf.check_states_taken_over,
+    srdf.check_states_of_mimics,
+    srdf.check_states_are_whole,
 )
 
 MESH_CHECKS: tuple[MeshCheck, ...] = (
@@ -112,8 +118,12 @@ def check(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     for check_robot in ROBOT_CHECKS:
         yield from check_robot(robot, unresolved)
     # Reading the semantic part of a robot that has none creates one, and imports its classes.
-    for check_semantic in SEMANTIC_CHECKS if robot.has_semantic else ():
-        yield from check_semantic(robot, unresolved)
+    if robot.has_semantic:
+        for check_semantic in SEMANTIC_CHECKS:
+            yield from check_semantic(robot, unresolved)
+        links = LinkSets(robot)
+        for check_groups in GROUP_CHECKS:
+            yield from check_groups(robot, unresolved, links)
     meshes = RobotMeshes(robot, unresolved)
     for check_meshes in MESH_CHECKS:
         yield from check_meshes(robot, meshes)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from itertools import takewhile
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.checks.references import SHOWN, Reference, join_names
+from linkforge_compile.checks.names import SHOWN, Reference, join_names
 from linkforge_compile.checks.tree import child_reference
 from linkforge_compile.core.constants import WORLD
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from functools import reduce
+from functools import cached_property, reduce
+from graphlib import CycleError, TopologicalSorter
 from itertools import takewhile
 from operator import or_
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.references import Reference, report_cycles
+from linkforge_compile.checks.names import Reference, report_cycles
 from linkforge_compile.core.models.graph import parent_joints, walk_up
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
@@ -23,7 +24,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.srdf import Chain, PlanningGroup
+    from linkforge_compile.core.models.srdf import Chain
 
 
 def check_group_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -42,14 +43,13 @@ def check_group_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
     yield from report_cycles(subgroups, GROUP_CIRCLE)
 
 
-def check_chains(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+def check_chains(robot: Robot, _: UnresolvedNames, links: LinkSets) -> Iterator[Diagnostic]:
     """The chain of a group leads from its `base_link` down to its `tip_link`.
 
     With the two swapped MoveIt takes the joints between them and the one above as well, and kinematics solvers
     find no chain. Between two branches (such as two hands) it takes the joints of both: that is allowed, but
     solvers for a single arm refuse it.
     """
-    links = LinkSets(robot)
     for group in robot.semantic.groups:
         for chain in group.chains:
             meeting = links.meeting_link(chain)
@@ -60,33 +60,27 @@ def check_chains(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
             yield ref.report(code, base=chain.base_link, tip=chain.tip_link, meeting=meeting)
 
 
-def check_empty_groups(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+def check_empty_groups(robot: Robot, _: UnresolvedNames, links: LinkSets) -> Iterator[Diagnostic]:
     """A planning group has a joint.
 
     MoveIt leaves out a group without one, with its states and end effectors: a chain from a link to itself, or
     subgroups that have none either. Add a joint, or a link, which means the joint above it.
     """
-    moving = group_links(robot, LinkSets(robot))
     for group in robot.semantic.groups:
-        if moving.get(group.name) == 0:
+        if links.of_groups.get(group.name) == 0:
             yield GROUP_WITHOUT_JOINT.at(group.source, group=group.name)
 
 
-def check_end_effectors(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+def check_end_effectors(robot: Robot, _: UnresolvedNames, links: LinkSets) -> Iterator[Diagnostic]:
     """The parent group of an end effector is another group, and holds its parent link.
 
     Otherwise MoveIt ignores the parent group and takes the smallest group that holds the link, or none. The base
     link of a chain is not in its group, the tip link is.
     """
-    effectors = robot.semantic.end_effectors
-    if not effectors:
-        return
-    links = LinkSets(robot)
-    moving = group_links(robot, links)
-    for effector in effectors:
+    for effector in robot.semantic.end_effectors:
         if not effector.parent_group:
             continue
-        members = moving.get(effector.parent_group)
+        members = links.of_groups.get(effector.parent_group)
         if effector.parent_group == effector.group:
             ref = Reference(effector.group, f"end effector '{effector.name}'", effector.source, ("parent_group",))
             yield ref.report(OWN_PARENT_GROUP, group=effector.group)
@@ -95,7 +89,7 @@ def check_end_effectors(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
             yield ref.report(PARENT_LINK_OUTSIDE_GROUP, link=effector.parent_link, group=effector.parent_group)
 
 
-def check_arms_of_end_effectors(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+def check_arms_of_end_effectors(robot: Robot, unresolved: UnresolvedNames, links: LinkSets) -> Iterator[Diagnostic]:
     """The parent link of an end effector is in a planning group: that of the arm which carries it.
 
     Otherwise MoveIt finds no parent group, writes that to its log, and does not know which arm to move for this hand.
@@ -103,8 +97,7 @@ def check_arms_of_end_effectors(robot: Robot, unresolved: UnresolvedNames) -> It
     """
     if unresolved or not robot.semantic.end_effectors:
         return
-    links = LinkSets(robot)
-    moving = group_links(robot, links)
+    moving = links.of_groups
     if len(moving) < len(robot.semantic.groups):
         return
     in_one, in_several = 0, 0
@@ -126,6 +119,7 @@ class LinkSets:
     """
 
     def __init__(self, robot: Robot) -> None:
+        self._robot = robot
         self._known = frozenset(robot.links.names)
         self._parents = {name: joint.parent for name, joint in parent_joints(robot.joints).items()}
         self._names = [*dict.fromkeys((*self._parents, *robot.links.names))]
@@ -167,6 +161,34 @@ class LinkSets:
         # With the link where they meet, as MoveIt does, unless the chain leads down from it.
         return below if meeting == chain.base_link else below | self.bit(meeting)
 
+    @cached_property
+    def moved(self) -> Mapping[str, str]:
+        """The link that each joint moves, the virtual ones among them."""
+        moved = {joint.name: joint.child_link for joint in self._robot.semantic.virtual_joints}
+        moved.update((joint.name, joint.child) for joint in self._robot.joints)
+        return moved
+
+    @cached_property
+    def of_groups(self) -> Mapping[str, int]:
+        """The set of links that each group moves, and with them its joints: a link hangs on one joint.
+
+        Groups with an unknown name are left out, and all groups while they contain one another in a circle.
+        """
+        groups = {group.name: group for group in reversed(tuple(self._robot.semantic.groups))}
+        try:
+            order = tuple(TopologicalSorter({name: group.subgroups for name, group in groups.items()}).static_order())
+        except CycleError:
+            return {}
+        moving: dict[str, int] = {}
+        for group in filter(None, map(groups.get, order)):
+            # Without its subgroups it moves these; None among them is for an unknown name.
+            named = self.of((*group.links, *(self.moved.get(joint, "") for joint in group.joints)))
+            sets = [named, *map(self.between, group.chains), *map(moving.get, group.subgroups)]
+            known = [links for links in sets if links is not None]
+            if len(known) == len(sets):
+                moving[group.name] = reduce(or_, known)
+        return moving
+
     def _way_up(self, link: str) -> int:
         """Return the set of a link and all those above it, of a cycle once; empty for one that is unknown."""
         new = takewhile(lambda each: each in self._known and each not in self._ways_up, walk_up(link, self._parents))
@@ -182,44 +204,3 @@ class LinkSets:
 def _key(links: int) -> bytes:
     # The hash of a number is its remainder by 2**61 - 1, which is the same for most of the ways up one chain.
     return links.to_bytes(links.bit_length() // 8 + 1, "little")
-
-
-def group_links(robot: Robot, links: LinkSets) -> Mapping[str, int]:
-    """Return the set of links that each group moves, and with them its joints: a link hangs on one joint.
-
-    Groups with an unknown name are left out, and all groups while they contain one another in a circle.
-    """
-    from graphlib import CycleError, TopologicalSorter
-
-    groups = {group.name: group for group in reversed(tuple(robot.semantic.groups))}
-    try:
-        order = tuple(TopologicalSorter({name: group.subgroups for name, group in groups.items()}).static_order())
-    except CycleError:
-        return {}
-    moved = moved_links(robot)
-    moving: dict[str, int] = {}
-    for name in order:
-        group = groups.get(name)
-        own = _own_links(group, links, moved) if group else None
-        if group and own is not None and moving.keys() >= set(group.subgroups):
-            moving[name] = _union((own, *(moving[subgroup] for subgroup in group.subgroups)))
-    return moving
-
-
-def moved_links(robot: Robot) -> Mapping[str, str]:
-    """Return the link that each joint moves, the virtual ones among them."""
-    moved = {joint.name: joint.child_link for joint in robot.semantic.virtual_joints}
-    moved.update((joint.name, joint.child) for joint in robot.joints)
-    return moved
-
-
-def _own_links(group: PlanningGroup, links: LinkSets, moved: Mapping[str, str]) -> int | None:
-    """Return what a group moves without its subgroups; None where it names something unknown."""
-    named = links.of((*group.links, *(moved.get(joint, "") for joint in group.joints)))
-    chains = [links.between(chain) for chain in group.chains]
-    known = [one for one in (named, *chains) if one is not None]
-    return _union(known) if len(known) == 1 + len(chains) else None
-
-
-def _union(sets: Iterable[int]) -> int:
-    return reduce(or_, sets, 0)

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Iterator
 
-from linkforge_compile.checks.references import Reference, report_cycles, report_unknown
+from linkforge_compile.checks.names import Reference, report_cycles, report_unknown
 from linkforge_compile.core.constants import UNKNOWN
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointMimic, JointSafetyController, JointType
 from linkforge_compile.core.models.robot import Robot

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-from linkforge_compile.checks.bounding import BoundingBox, BoundingVolume, bounding_volume
+from linkforge_compile.checks.bounding import BoundingBox, BoundingVolume, ScanBudget, bounding_volume, corners_of_scene
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
@@ -63,18 +63,6 @@ class MeshShape(NamedTuple):
     link: Link
     shape: Visual | Collision
     mesh: Mesh
-
-
-class ScanBudget:
-    """How many tags, nodes and corners of COLLADA scenes are scanned for one robot: half a million take a second."""
-
-    def __init__(self, limit: int = 500_000) -> None:
-        self._left = limit
-
-    def try_spend(self, count: int) -> bool:
-        """Count what is to be scanned; False if the budget is, or was, exceeded."""
-        self._left -= count
-        return self._left >= 0
 
 
 class RobotMeshes:
@@ -213,8 +201,6 @@ def scan_mesh(path: Path, budget: ScanBudget) -> MeshScan:
             if ending == ".obj" or (ending == ".stl" and start.lstrip().lower().startswith(b"solid")):
                 return MeshScan(box=_finite_box(_corners_in_text(stream, length)))
             if ending == ".dae" and length <= MAX_COLLADA_SIZE:
-                from linkforge_compile.checks.collada import corners_of_scene
-
                 stream.seek(0)
                 return MeshScan(box=_finite_box(corners_of_scene(stream.read(MAX_COLLADA_SIZE), budget)))
     except (OSError, struct.error):

@@ -1,14 +1,18 @@
-"""Names: unique within a kind, and accepted by ROS and Gazebo."""
+"""Names: unique within a kind, accepted by ROS and Gazebo, and known where others refer to them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import islice
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
-from linkforge_compile.checks.references import Reference, notes_at
+from linkforge_compile.core.models.graph import find_cycles
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
+from linkforge_compile.diagnostics import Code, Diagnostic, Note, UnresolvedNames, notes_of
 from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME, FRAME_WITH_SLASH, LINK_AND_JOINT, RESERVED_NAME
+from linkforge_compile.source import Key, SourceRef, Span
+from linkforge_compile.source.provenance import uses_in
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import GroupState
@@ -60,7 +64,7 @@ def check_link_and_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Dia
     """
     for joint in robot.joints:
         if link := robot.links.get(joint.name):
-            notes = notes_at(link.source, "the link stands here")
+            notes = notes_at(link.source, "the link is here")
             yield LINK_AND_JOINT.at(joint.source, name=joint.name, notes=notes)
 
 
@@ -105,3 +109,134 @@ def _report_duplicates(kind: str, parts: Iterable[NamedPart], user: str = "") ->
             yield Reference(part.name, user, part.source).report(DUPLICATE_NAME, kind=kind, name=part.name, notes=notes)
         else:
             first[part.name] = part
+
+
+class Reference(NamedTuple):
+    """A name, the part that refers to it ("joint 'elbow'", or ""), and where: a path below the source of that part."""
+
+    name: str
+    user: str
+    source: SourceRef | None
+    path: tuple[str | int, ...] = ()
+
+    def report(
+        self, code: Code, *, near: Iterable[str] = (), notes: Iterable[Note] = (), **facts: object
+    ) -> Diagnostic:
+        """Return the diagnostic about this reference; without a place its message begins with the user.
+
+        A robot built in Python has no places, and two users of one wrong name are two faults.
+        """
+        diagnostic = code.at(self.source, *self.path, near=near, notes=notes, **facts)
+        if diagnostic.span or not self.user:
+            return diagnostic
+        return replace(diagnostic, message=f"{self.user}: {diagnostic.message}")
+
+    @property
+    def prefix(self) -> str:
+        """The prefix that modules have put before the name as its file writes it.
+
+        A module imported twice under two prefixes has one wrong name in its file, which is reported in its words.
+        """
+        if not (self.source and self.source.trail):
+            return ""
+        span = self.source.at(*self.path)
+        end = span.end_column - 1 if span.line == span.end_line else None
+        written = span.file.line(span.line)[span.column - 1 : end].strip("'\"")
+        return self.name.removesuffix(written) if written and self.name.endswith(written) else ""
+
+    def key(self, name: str) -> Key:
+        """Return the key that the file of this reference writes for a name: without the prefix that both have."""
+        return Key(name.removeprefix(self.prefix))
+
+    @property
+    def place(self) -> Span | None:
+        """The place of the name, the same one for all imports of its file; None if it was not written in a file."""
+        return self.source.at(*self.path) if self.source else None
+
+    def note(self, message: str) -> Note:
+        return Note(message, self.place)
+
+    def notes(self, message: str) -> list[Note]:
+        """Return the note and where its file was imported, as two imports of a file share one place."""
+        imports = self.source.trail if self.source else ()
+        return [self.note(message), *notes_of(uses_in(imports))]
+
+
+def notes_at(source: SourceRef | None, message: str) -> list[Note]:
+    """Return the note at a part and where its file was imported; none for a part built in Python."""
+    return Reference("", "", source).notes(message) if source else []
+
+
+def own_positions(state: GroupState) -> dict[str, Key]:
+    """Return the joints that a state itself sets, with their keys; without positions taken from another state.
+
+    Those are checked once, where they are written. A state built in Python sets all its positions itself.
+    """
+    holder = Reference(state.name, "", state.source)
+    keys = {joint: holder.key(joint) for joint in state.joint_values}
+    if state.source is None:
+        return keys
+    return {joint: key for joint, key in keys.items() if state.source.node.child(key) is not None}
+
+
+MAX_SUGGESTIONS = 100
+"""After so many wrong names there are no more suggestions: each is compared with every known name."""
+
+
+def report_unknown(
+    references: Iterable[Reference],
+    code: Code,
+    known: Iterable[str],
+    unresolved: UnresolvedNames,
+    *,
+    offered: Iterable[str] | None = None,
+    **facts: object,
+) -> Iterator[Diagnostic]:
+    """Report each name that is neither known nor unresolved, as the file that refers to it writes it.
+
+    `offered` are the names to suggest, by default all known ones.
+    """
+    reported = 0
+    names = dict.fromkeys(known)
+    candidates = names if offered is None else dict.fromkeys(offered)
+    for ref in references:
+        if ref.name not in names and ref.name not in unresolved:
+            prefix = ref.prefix
+            notes = unresolved.deleted.notes(ref.name)
+            suggests = not notes and reported < MAX_SUGGESTIONS
+            near = [name.removeprefix(prefix) for name in candidates if name.startswith(prefix)] if suggests else []
+            yield ref.report(code, name=ref.name.removeprefix(prefix), near=near, notes=notes, **facts)
+            reported += 1
+
+
+SHOWN = 8
+"""How many names a message lists, and how many notes it has."""
+
+
+def join_names(names: Collection[str], count: int | None = None) -> str:
+    """Return "'a', 'b' and 'c'", or the first few and how many more; `count` is that of all names."""
+    quoted = [f"'{name}'" for name in islice(names, SHOWN)]
+    if (more := (count or len(names)) - SHOWN) > 0:
+        quoted[SHOWN - 1 :] = [f"{more + 1} more"]
+    return " and ".join(filter(None, (", ".join(quoted[:-1]), quoted[-1])))
+
+
+Graph: TypeAlias = Mapping[str, Sequence[Reference]]
+"""The references of each name."""
+
+
+def find_reference_cycles(graph: Graph) -> Iterator[list[Reference]]:
+    """Yield every cycle once, as its references; the last one closes it."""
+    for cycle in find_cycles({name: [ref.name for ref in references] for name, references in graph.items()}):
+        yield [graph[name][place] for name, place in cycle]
+
+
+def report_cycles(graph: Graph, code: Code) -> Iterator[Diagnostic]:
+    """Report each cycle once, at the reference that closes it, with the others as notes."""
+    for cycle in find_reference_cycles(graph):
+        closing = cycle[-1]
+        notes = [ref.note(f"{ref.user} leads to '{ref.name}'") for ref in cycle[:-1][:SHOWN]]
+        names = [closing.name, *(ref.name for ref in cycle)]
+        if len(names) > SHOWN:
+            names = [*names[: SHOWN - 3], "…", *names[-2:]]
+        yield closing.report(code, path=" → ".join(names), notes=notes)

@@ -7,10 +7,11 @@ from collections.abc import Iterator, Mapping, Sized
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.checks.joints import WITHIN_LIMITS, missed_range
-from linkforge_compile.checks.references import Reference, report_unknown
+from linkforge_compile.checks.names import Reference, report_unknown
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Code, Diagnostic, UnresolvedNames
+from linkforge_compile.diagnostics.codes.model import PASSIVE_COMMANDED
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT
 from linkforge_compile.diagnostics.codes.physics import (
     COMMANDED_TWICE,
@@ -85,6 +86,24 @@ def check_interface_claims(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnos
     """
     yield from _claimed_twice(robot, COMMANDS, COMMANDED_TWICE)
     yield from _claimed_twice(robot, STATES, READ_TWICE)
+
+
+def check_passive_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A passive joint has no command interface.
+
+    MoveIt never plans for a passive joint, so its command interface in ros2_control waits for ever. Drop the
+    command interface, or the joint from `passive_joints`.
+    """
+    passive = {joint.name: joint for joint in robot.semantic.passive_joints}
+    for control in robot.ros2_controls if passive else ():
+        for driven in control.joints:
+            joint = passive.get(driven.name)
+            if joint and driven.command_interfaces:
+                command = Reference(
+                    joint.name, f"ros2_control '{control.name}'", driven.source, ("command_interfaces",)
+                )
+                notes = [command.note(f"{command.user} commands it")]
+                yield PASSIVE_COMMANDED.at(joint.source, joint=joint.name, control=control.name, notes=notes)
 
 
 def _driven_joints(robot: Robot) -> Iterator[Reference]:

@@ -7,7 +7,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from linkforge_compile.checks.references import Reference, report_unknown
+from linkforge_compile.checks.names import Reference, report_unknown
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import (
@@ -95,9 +95,9 @@ def check_topics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
 def _refusal(topic: str) -> str | None:
     plain = _SUBSTITUTION.sub("x", topic)
     if strange := _STRANGE.search(topic) or _BRACE.search(plain):
-        return f"'{strange[0]}' may not stand in one" if strange[0] not in "{}" else "its braces hold no name"
+        return f"'{strange[0]}' is not allowed" if strange[0] not in "{}" else "its braces hold no name"
     if "~" in plain[1:] or (plain[0] == "~" and plain[1:2] not in {"", "/"}):
-        return "'~' stands at its very start, before '/'"
+        return "'~' is allowed only at the start, before '/'"
     if "//" in plain:
         return "there is no name between '//'"
     if plain.endswith("/"):

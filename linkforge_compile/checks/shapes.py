@@ -7,11 +7,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from linkforge_compile.checks.mesh_files import MAX_WIDTH, MeshFinder, MeshShape, RobotMeshes
-from linkforge_compile.checks.references import SHOWN, join_names
+from linkforge_compile.checks.names import SHOWN, join_names
 from linkforge_compile.core.models.geometry import Mesh, Vector3
 from linkforge_compile.core.models.link import Collision, Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Code, Diagnostic, Note, UnresolvedNames
+from linkforge_compile.diagnostics.codes.modules import UNSEEN_MESHES, UNSOUGHT_MESHES
 from linkforge_compile.diagnostics.codes.physics import (
     CAD_MESH,
     FINE_COLLISIONS,
@@ -22,7 +23,6 @@ from linkforge_compile.diagnostics.codes.physics import (
     UNTOUCHED_VISUALS,
     WIDE_MESH,
 )
-from linkforge_compile.diagnostics.codes.roots import UNSEEN_MESHES, UNSOUGHT_MESHES
 from linkforge_compile.roots import is_folder
 from linkforge_compile.source import Key
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkforge_compile.checks.references import (
+from linkforge_compile.checks.names import (
     SHOWN,
     Graph,
     Reference,
@@ -65,7 +65,7 @@ def check_second_parents(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
     closing = {cycle[-1].user for cycle in find_reference_cycles(joint_graph(robot))} if shared else set()
     for joints in shared:
         first, *others = [joint for joint in joints if child_reference(joint).user not in closing] or joints[:1]
-        note = child_reference(first).note(f"joint '{first.name}' hangs '{first.child}' on '{first.parent}'")
+        note = child_reference(first).note(f"joint '{first.name}' attaches '{first.child}' to '{first.parent}'")
         for joint in others:
             facts = {"link": joint.child, "joint": joint.name, "parent": joint.parent, "first": first.name}
             facts |= {"other": first.parent, "way_out": _way_to_one_parent(joint, first)}
@@ -75,7 +75,7 @@ def check_second_parents(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
 def _way_to_one_parent(joint: Joint, first: Joint) -> str:
     source, other = joint.source, first.source
     if source and other and source.key is not None and (source.span, source.trail) == (other.span, other.trail):
-        return "'child' must name what 'for' counts, to be another each time"
+        return "'child' must contain what 'for' counts, to be unique in each round"
     return "correct the 'child' of one"
 
 
@@ -135,11 +135,11 @@ def _base_by_omission(stray: Link, root: Link) -> Iterator[Note]:
     of_stray = stray.source.trail if stray.source else ()
     uses = [use for use in (root.source.trail if root.source else ()) if use not in of_stray]
     if uses:
-        yield Note(f"or hang this module, which has no 'parent' and so is the base: 'parent: {stray.name}'", uses[-1])
+        yield Note(f"or attach this module, which has no 'parent' and so is the base: 'parent: {stray.name}'", uses[-1])
 
 
 def _describe_tree(link: Link, links_below: int) -> Note:
-    what = f"'{link.name}' begins a tree of {links_below + 1} links" if links_below else f"'{link.name}' stands alone"
+    what = f"'{link.name}' begins a tree of {links_below + 1} links" if links_below else f"'{link.name}' has no joints"
     return Note(what, link.source.span if link.source else None)
 
 

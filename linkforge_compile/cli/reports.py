@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from linkforge_compile.diagnostics import Diagnostic, Severity
-from linkforge_compile.diagnostics.render import FORMS
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
@@ -29,7 +28,7 @@ def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = Fa
     group.add_argument(
         "--diagnostics",
         *(["--format"] if is_product else []),
-        choices=FORMS,
+        choices=("text", "json", "github", "sarif"),
         default="text",
         help="the form of diagnostics: text (default), json, github (annotations) or sarif",
     )
@@ -64,7 +63,7 @@ def select(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> 
     diagnostics = tuple(diagnostics)
     if not diagnostics:
         return ()
-    from linkforge_compile.diagnostics.selection import Selection
+    from linkforge_compile.diagnostics.reports import Selection
 
     selection = Selection(tuple(arguments.select), tuple(arguments.ignore), arguments.werror, arguments.quiet)
     return selection.of(diagnostics)
@@ -110,16 +109,16 @@ def format_diagnostics(diagnostics: tuple[Diagnostic, ...], arguments: argparse.
     root = Path(os.environ.get("GITHUB_WORKSPACE") or Path.cwd()).absolute()
     match arguments.diagnostics:
         case "json":
-            from linkforge_compile.diagnostics.render.json import render_json
+            from linkforge_compile.diagnostics.render_forms import render_json
 
             return render_json(diagnostics)
         case "github":
-            from linkforge_compile.diagnostics.render.github import render_github
+            from linkforge_compile.diagnostics.render_forms import render_github
 
             return render_github(diagnostics, root=root)
         case "sarif":
             from linkforge_compile._version import __version__
-            from linkforge_compile.diagnostics.render.sarif import render_sarif
+            from linkforge_compile.diagnostics.render_forms import render_sarif
 
             return render_sarif(diagnostics, root=root, version=__version__, manual=_page)
     return _format_text(diagnostics, arguments.color)
@@ -128,7 +127,7 @@ def format_diagnostics(diagnostics: tuple[Diagnostic, ...], arguments: argparse.
 def _format_text(diagnostics: tuple[Diagnostic, ...], color: str) -> str:
     if not diagnostics:
         return ""
-    from linkforge_compile.diagnostics.render.text import render_first
+    from linkforge_compile.diagnostics.render_text import render_first
 
     text = render_first(diagnostics, colour=is_colored(sys.stderr, color))
     if sys.stderr is None or not sys.stderr.isatty():
@@ -155,7 +154,7 @@ def is_colored(stream: TextIO | None, when: str = "auto") -> bool:
 
 def place_lines(what: str, place: Span) -> Iterator[str]:
     """Yield `WHAT at FILE:LINE:COLUMN`, the source line and a caret under the place."""
-    from linkforge_compile.diagnostics.render.text import snippet
+    from linkforge_compile.diagnostics.render_text import snippet
 
     yield on_one_line(f"{what} at {place}")
     yield from snippet(place)

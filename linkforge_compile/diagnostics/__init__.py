@@ -1,4 +1,4 @@
-"""What went wrong, as values: a code, a sentence, a place, and the way out."""
+"""Diagnostics as values: a code, a sentence, a place and notes; each code has a manual page."""
 
 from linkforge_compile.diagnostics.diagnostic import (
     Code,
@@ -8,11 +8,11 @@ from linkforge_compile.diagnostics.diagnostic import (
     Where,
     notes_of,
 )
-from linkforge_compile.diagnostics.sink import MAX_TOLD, BeyondLimitError, Diagnostics, too_many_errors
+from linkforge_compile.diagnostics.sink import MAX_KEPT, BeyondLimitError, Diagnostics, too_many_errors
 from linkforge_compile.diagnostics.unresolved import DeletedNames, UnresolvedNames
 
 __all__ = [
-    "MAX_TOLD",
+    "MAX_KEPT",
     "BeyondLimitError",
     "Code",
     "DeletedNames",

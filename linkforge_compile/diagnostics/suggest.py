@@ -1,4 +1,4 @@
-"""The name that was probably meant."""
+"""Suggest the valid name that is most like a misspelled one."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from itertools import islice
 
 _MOST_COMPARED = 500
 _LONGEST = 200
-"""Letters of a name that is still compared: of a longer one nobody sees what is wrong by the other beside it."""
+"""Characters of a name that is still compared."""
 
 _LEAST_LIKENESS = 0.7
 
 _STEPS_OF_A_NAME = 100_000
 _STEPS_OF_A_COMPILE = 4_000_000
-"""A step looks at a letter or a name and takes some tenths of a microsecond."""
+"""A step looks at one letter or name and needs some tenths of a microsecond."""
 
 _STEPS_OF_A_COUNT = 10
-"""What counting the letters of a name takes beside the letters."""
+"""What counting the letters of a name costs, in addition to one step a letter."""
 
 
 class _Steps:
-    """What a compile may still spend on names that were probably meant."""
+    """The steps that a compile may still spend on suggestions."""
 
     def __init__(self) -> None:
         self.left = _STEPS_OF_A_COMPILE
@@ -33,8 +33,8 @@ _SHARED: ContextVar[_Steps | None] = ContextVar("_SHARED", default=None)
 
 
 @contextmanager
-def suggesting() -> Iterator[None]:
-    """Have all names within share the steps of one compile: when they are spent, nothing more is suggested."""
+def suggestion_budget() -> Iterator[None]:
+    """Let all suggestions within share the steps of one compile; without steps left, there are no more."""
     token = _SHARED.set(_Steps())
     try:
         yield
@@ -43,14 +43,14 @@ def suggesting() -> Iterator[None]:
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate most like `name`, None where none is like it or that would take too long to find."""
+    """Return the candidate most like `name`; None if none is, or if no steps are left."""
     steps = _SHARED.get() or _Steps()
     if not 0 < len(name) <= _LONGEST or steps.left <= 0:
         return None
     pool = dict.fromkeys(candidates)
     steps.left -= len(pool)
     if len(pool) > _MOST_COMPARED:
-        # Each comparison takes some microseconds; a misspelling mostly keeps the length and the first letter.
+        # A misspelling mostly keeps the length and the first letter.
         like = (one for one in pool if abs(len(one) - len(name)) < 3 and one[:1].casefold() == name[:1].casefold())
         pool = dict.fromkeys(islice(like, _MOST_COMPARED))
     near = [candidate for candidate in pool if len(candidate) <= _LONGEST]
@@ -61,10 +61,10 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
 
 
 def _most_like(name: str, candidates: Iterable[str], steps: _Steps) -> str | None:
-    """Return what difflib's `get_close_matches` does, without the comparisons that cannot change it.
+    """Return the best of difflib's `get_close_matches`, without the comparisons that cannot change it.
 
-    Two names are never more alike than their letters are in any order, which is cheap to count: with those that may be
-    most alike first, nearly always one or two are compared, also where all names of a robot differ by a number.
+    The ratio of two names is at most that of their letters in any order, which is cheap to count; the candidates are
+    compared in the order of that bound.
     """
     counts = Counter(name)
     possible = []
@@ -94,18 +94,18 @@ def _most_like(name: str, candidates: Iterable[str], steps: _Steps) -> str | Non
 
 
 def _with_letters_swapped(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate that is `name` but for two neighbours: in short names that makes all the difference."""
+    """Return the candidate that differs by two swapped neighbours, which in short names is a low ratio."""
     swapped = {f"{name[:at]}{name[at + 1]}{name[at]}{name[at + 2 :]}" for at in range(len(name) - 1)}
     return next((other for other in candidates if other in swapped), None) if len(name) > 2 else None
 
 
 def _without_prefix(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate that is `name` but for a prefix that one of them has, the one with the shortest."""
+    """Return the candidate that differs by a prefix of one of the two, the one with the shortest prefix."""
     same = [other for other in candidates if other.endswith(f"_{name}") or name.endswith(f"_{other}")]
     return min(same, key=lambda other: abs(len(other) - len(name))) if same else None
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str:
-    """Return "; did you mean 'forearm'?", or nothing where no candidate is near."""
-    meant = nearest(name, candidates)
-    return f"; did you mean '{meant}'?" if meant is not None and meant != name else ""
+    """Return such as "; did you mean 'forearm'?"; "" if no candidate is like the name."""
+    candidate = nearest(name, candidates)
+    return f"; did you mean '{candidate}'?" if candidate is not None and candidate != name else ""

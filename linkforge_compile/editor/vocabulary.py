@@ -9,7 +9,7 @@ from pathlib import Path
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
-from linkforge_compile.diagnostics.suggest import suggesting
+from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import (
     Arguments,
     Instance,
@@ -56,7 +56,7 @@ def read_vocabulary(
     return on_fresh_stack(lambda: _read_vocabulary(path, root, packages or {}, runs_xacro=runs_xacro))
 
 
-@suggesting()
+@suggestion_budget()
 def _read_vocabulary(path: Path, root: Path, packages: Mapping[str, Path], *, runs_xacro: bool) -> Vocabulary:
     found = Vocabulary((_relative(path, root),), is_whole=False)
     sink, loader = Diagnostics(), Loader(packages, Roots.around(path, (root, *packages.values())))

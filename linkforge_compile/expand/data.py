@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.files import DATA_NOT_PATH, TAG_NOT_NUMBER
+from linkforge_compile.diagnostics.codes.modules import DATA_NOT_PATH, TAG_NOT_NUMBER
 from linkforge_compile.expand.loader import Loader
 from linkforge_compile.expand.uses import PathSite, locate
 from linkforge_compile.expressions import FAULT, Fault, Scope, Value, as_text, evaluate, kind_name, parse_template

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.repetition import REPEATED_DEFAULT
+from linkforge_compile.diagnostics.codes.modules import REPEATED_DEFAULT
 from linkforge_compile.diagnostics.codes.schema import WRONG_KIND
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.evaluate import Evaluator

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.expressions import UNKNOWN_NAME
-from linkforge_compile.diagnostics.codes.repetition import COMPUTED_REPETITION
+from linkforge_compile.diagnostics.codes.modules import COMPUTED_REPETITION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.evaluate import Evaluator, report_interpolated_number
 from linkforge_compile.expand.repeat import occurrences, without_words

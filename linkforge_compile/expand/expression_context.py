@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.files import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
+from linkforge_compile.diagnostics.codes.modules import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
 from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
 from linkforge_compile.expand.syntax_markers import CONTEXT_PATTERN
 from linkforge_compile.expressions import Expression, parse_template

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.files import (
+from linkforge_compile.diagnostics.codes.modules import (
     ENTRY_IN_TWO_FILES,
     INCLUDE_CIRCLE,
     INCLUDE_NOT_PLAIN,

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, UNREADABLE_FILE
-from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
+from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
 from linkforge_compile.expand.annotating_sink import AnnotatingSink, with_use_trace
 from linkforge_compile.expand.file_text import UnreadableError, read_spec, read_utf8, read_xml
 from linkforge_compile.expand.includes import ComposedFile, compose, follow_includes
@@ -21,10 +20,10 @@ from linkforge_compile.roots import ANYWHERE, Roots, identity
 from linkforge_compile.source import SourceFile, Span, place_of_byte
 from linkforge_compile.source.characters import begins_xml
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
-from linkforge_compile.syntax.parser import IGNORE_WORDS, ignore_comments
+from linkforge_compile.syntax.parser import IGNORE_WORDS, suppressions_in
 
 if TYPE_CHECKING:
-    from linkforge_compile.diagnostics.ignores import Ignore
+    from linkforge_compile.diagnostics.reports import Suppression
     from linkforge_compile.expand.packages import NearbyPackages, Package
 
 _PACKAGE_SCHEME = "package://"
@@ -117,10 +116,10 @@ class Loader:
         return tuple(dict.fromkeys(self._unread))
 
     @property
-    def ignores(self) -> tuple[Ignore, ...]:
+    def suppressions(self) -> tuple[Suppression, ...]:
         """The comments that suppress codes, of all files read."""
         commented = [file for file in self.sources if IGNORE_WORDS.search(file.text)]
-        return tuple(one for file in commented for one in ignore_comments(file, self.budget))
+        return tuple(one for file in commented for one in suppressions_in(file, self.budget))
 
     def parse(self, text: str, name: str, folder: Path | None, sink: Diagnostics) -> SpecFile | None:
         """Read a spec or URDF given as text; `folder` is where its relative paths start, None for none."""

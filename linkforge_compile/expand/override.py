@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from linkforge_compile.diagnostics import Code, DeletedNames, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.repetition import (
+from linkforge_compile.diagnostics.codes.modules import (
     EMPTY_OVERRIDE,
     MOUNT_IS_NO_JOINT,
     NO_SUCH_POSITION,

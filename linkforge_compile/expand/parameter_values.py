@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics, Note
-from linkforge_compile.diagnostics.codes.files import FILE_OUTSIDE_PACKAGE
-from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
+from linkforge_compile.diagnostics.codes.modules import FILE_OUTSIDE_PACKAGE, PARAMETER_NOT_SET, UNKNOWN_PARAMETER
 from linkforge_compile.expand.annotating_sink import AnnotatingSink
 from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_number

@@ -7,14 +7,15 @@ from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT
-from linkforge_compile.diagnostics.codes.modules import INVALID_VARIABLE_NAME, RESERVED_NAME
-from linkforge_compile.diagnostics.codes.repetition import (
+from linkforge_compile.diagnostics.codes.modules import (
     CONDITION_KIND,
     FOR_KIND,
     FOR_NAME_TAKEN,
+    INVALID_VARIABLE_NAME,
     KEY_WITHOUT_NAME,
     LONG_FORM,
     RESERVED_KEY,
+    RESERVED_NAME,
 )
 from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.origins import Setting
@@ -36,8 +37,8 @@ _NAMES_ITS_JOINT = frozenset({"a frame", "a module"})
 """The titles of entries that have a joint named after them, unless `joint` gives it a name."""
 
 _HINTS = {
-    "for": "; it stands inside what it repeats: '{name}: {{for: …}}'",
-    "when": "; it stands inside what it is about: '{name}: {{when: …}}'",
+    "for": "; it goes inside what it repeats: '{name}: {{for: …}}'",
+    "when": "; it goes inside what it applies to: '{name}: {{when: …}}'",
 }
 
 

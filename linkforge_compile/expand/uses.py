@@ -61,7 +61,7 @@ def open_use(site: PathSite, loader: Loader, sink: Diagnostics) -> SpecFile | No
 
 def _hint_for(path: str) -> str:
     if path.lower().endswith(".srdf"):
-        return f"; write 'srdf: {path}' beside the 'use' of its robot"
+        return f"; write 'srdf: {path}' next to the 'use' of its robot"
     return "" if "." in path.rpartition("/")[2] else f"; write '{path}.robot.yaml'"
 
 

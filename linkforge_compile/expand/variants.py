@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
-from linkforge_compile.diagnostics.codes.files import UNKNOWN_VARIANT
+from linkforge_compile.diagnostics.codes.modules import UNKNOWN_VARIANT
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.arguments import COMMAND_LINE
 from linkforge_compile.expand.loader import Loader, SpecFile

@@ -94,7 +94,7 @@ class XacroReporter:
         where, declared = self.use.used.where, self._declaration(arguments, name)
         remedy = f"with: {{{name}: VALUE}}" if where else f"{name}:=VALUE"
         if declared and place:
-            notes = [Note("its default stands here", declared)]
+            notes = [Note("its default is here", declared)]
             self.inside.report(XACRO_ARGUMENT_TOO_EARLY.at(place, name=name, remedy=remedy, notes=notes))
         else:
             what = f"parameter '{name}' has"

@@ -152,7 +152,7 @@ def check_raw_names(robot: Robot) -> Iterator[Diagnostic]:
                 taken[tag, name] = place
                 continue
             first = taken[tag, name]
-            notes = [Note("the other stands here", first)] if first else []
+            notes = [Note("the other is here", first)] if first else []
             yield RAW_NAME_IS_TAKEN.at(source, *path, tag=tag, name=name, notes=notes)
 
 

@@ -18,7 +18,7 @@ from linkforge_compile.source.xml_tree import Places, XmlElement, document_of
 _BEGIN, _END = "<raw-xml-of-a-spec>", "</raw-xml-of-a-spec>"
 """Stand around raw XML, so that any number of elements is one document and a DOCTYPE is a fault.
 
-No author writes this name, so that an `</extra>` too many closes nothing that is open.
+No author writes this name, so that an `</extra>` too many closes no open element.
 """
 
 _BLANK = re.compile(r"(?:\s|&#(?:9|10|13|32|x9|x[Aa]|x[Dd]|x20);)*")
@@ -128,7 +128,7 @@ def _refused(reason: str, places: Places, at: int, piece: re.Match[str]) -> Exce
 def _malformed(text: str, fault: MalformedXmlError) -> RawXmlError:
     at = min(fault.at, len(text.rstrip()))
     if text.startswith("<!DOCTYPE", at - len("<!")):
-        reason = "raw XML has a document type, whose entities can hold and fetch anything; delete that"
+        reason = "raw XML has a document type, whose entities can read other files; delete it"
         return RawXmlError(reason, text, at - len("<!"))
     if text.startswith(("<?xml ", "<?xml?"), at):
         reason = "raw XML is part of a file, which has its '<?xml'; delete this one"

@@ -15,8 +15,7 @@ from jinja2.filters import FILTERS as JINJA_FILTERS
 from jinja2.tests import TESTS as JINJA_TESTS
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Note
-from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
-from linkforge_compile.diagnostics.codes.templates import (
+from linkforge_compile.diagnostics.codes.formats import (
     NO_SUCH_TEMPLATE,
     REFUSED_IN_TEMPLATE,
     TEMPLATE_FAILS,
@@ -24,6 +23,7 @@ from linkforge_compile.diagnostics.codes.templates import (
     UNDEFINED_IN_TEMPLATE,
     UNREADABLE_TEMPLATE,
 )
+from linkforge_compile.diagnostics.codes.modules import OUTSIDE_ROOTS
 from linkforge_compile.diagnostics.suggest import did_you_mean
 from linkforge_compile.formats.environment import FILTERS
 from linkforge_compile.formats.template_loader import FolderLoader, OutsideError, UnreadableError, span_of_line

@@ -10,7 +10,7 @@ from jinja2.loaders import split_template_path
 from jinja2.meta import find_referenced_templates
 
 from linkforge_compile.diagnostics import Diagnostic
-from linkforge_compile.diagnostics.codes.templates import UNUSED_TEMPLATE
+from linkforge_compile.diagnostics.codes.formats import UNUSED_TEMPLATE
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.formats.sandbox import FolderEnvironment
 from linkforge_compile.formats.template_loader import FolderLoader, OutsideError, UnreadableError

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.diagnostics.codes.bounds import BEYOND_LIMIT
-from linkforge_compile.diagnostics.codes.templates import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
+from linkforge_compile.diagnostics.codes.formats import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
+from linkforge_compile.diagnostics.codes.modules import BEYOND_LIMIT
 from linkforge_compile.formats.xml_text import harmless_in_comment
 from linkforge_compile.limits import Budget
 from linkforge_compile.resources import templates_folder

@@ -151,7 +151,7 @@ class ElementReader:
         if child and node is None:
             note = Note(f"this <{self.element.tag}> needs it", self.span)
             kept_raw = self.draft.diagnostics[-1]
-            self.draft.diagnostics[-1] = replace(kept_raw, taken_for=Severity.ERROR, notes=(note,))
+            self.draft.diagnostics[-1] = replace(kept_raw, severity_override=Severity.ERROR, notes=(note,))
             return YamlFault(child.span)
         return node
 

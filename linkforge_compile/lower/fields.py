@@ -243,7 +243,7 @@ class Fields(ObjectContext):
             return False
         wrong = next((character for character in name if not is_valid_name(character)), None)
         shown = repr(wrong) if wrong is None or wrong.isprintable() else code_point(wrong)
-        reason = "it is empty" if wrong is None else f"{shown} may not stand in one"
+        reason = "it is empty" if wrong is None else f"{shown} is not allowed"
         self.report(INVALID_NAME, where, name=name, kind=kind, reason=reason)
         return False
 

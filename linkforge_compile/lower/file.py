@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -13,29 +13,24 @@ from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.lower.elements import lower_pose
-from linkforge_compile.lower.extra import outer_extras_of
+from linkforge_compile.lower.elements import lower_pose, outer_extras_of
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.file_scope import FileScope
 from linkforge_compile.lower.joint import JointEnds, joint_between, lower_joints
 from linkforge_compile.lower.link import lower_links
-from linkforge_compile.lower.material import lower_materials
 from linkforge_compile.lower.mesh_solids import MeshReader
+from linkforge_compile.lower.mount import ModuleJoint, lower_mounts
 from linkforge_compile.lower.object_context import has_fault, report_duplicate
+from linkforge_compile.lower.shapes import FileScope, lower_materials
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
 from linkforge_compile.units import Quantity, number_text
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.gazebo import GazeboElement
-    from linkforge_compile.core.models.ros2_control import Ros2Control
-    from linkforge_compile.core.models.sensor import Sensor
-    from linkforge_compile.core.models.transmission import Transmission
-    from linkforge_compile.lower.group_states import WrittenState
-    from linkforge_compile.lower.mount import ModuleJoint
-    from linkforge_compile.lower.srdf import LoweredSemantic
+    from linkforge_compile.lower.devices import Devices
+    from linkforge_compile.lower.semantic import LoweredSemantic, WrittenState
 
 _SECTIONS_OF_NAMES = ("links", "joints", "frames", "mount", "modules", "semantic", "include")
+_DEVICE_SECTIONS = frozenset({"sensors", "transmissions", "ros2_control"})
 _SECTIONS_OF_MATERIALS = ("materials", "include")
 _SECTIONS_OF_SEMANTIC_NAMES = ("virtual_joints", "groups", "group_states", "end_effectors")
 
@@ -71,10 +66,7 @@ def lower_file(
         metadata=_metadata(tree),
         links=[link for link in links.values() if link],
         joints=[joint for joint in joints.values() if joint],
-        sensors=sensors_of(file),
-        transmissions=_transmissions(file),
-        ros2_controls=_ros2_controls(file),
-        gazebo_elements=gazebo_elements_of(file),
+        **_devices_of(file),
         semantic=semantic.description if semantic else None,
         source=SourceRef(tree, tree.get("name"), trail),
         **outer_extras_of(file),
@@ -83,7 +75,7 @@ def lower_file(
     unresolved = _unresolved_names(tree, faulty)
     if semantic:
         unresolved |= unresolved_of(semantic.faulty_names)
-    return LoweredFile(robot, semantic.states if semantic else (), unresolved, tuple(_mounts(file)))
+    return LoweredFile(robot, semantic.states if semantic else (), unresolved, tuple(lower_mounts(file)))
 
 
 def _scope_of(file: Fields, mesh_bases: Mapping[SourceFile, str], meshes: MeshReader) -> FileScope:
@@ -199,59 +191,23 @@ def _add_frame(
 # Other sections. The classes of one that a file does not have are not imported, which a command's start-up would pay.
 
 
-def _mounts(file: Fields) -> Iterable[ModuleJoint]:
-    if file.node.get("mount") is None:
-        return ()
-    from linkforge_compile.lower.mount import lower_mounts
+def _devices_of(file: Fields) -> Devices:
+    """Lower the sensors, transmissions, ros2_control systems and Gazebo blocks of a file."""
+    parts = [
+        entry.value for node in map(file.node.get, ("links", "joints")) if isinstance(node, YamlMap) for entry in node
+    ]
+    has_gazebo = any(isinstance(node, YamlMap) and "gazebo" in node.entries for node in (file.node, *parts))
+    if not has_gazebo and _DEVICE_SECTIONS.isdisjoint(file.node.entries):
+        return {}
+    from linkforge_compile.lower.devices import lower_devices
 
-    return lower_mounts(file)
-
-
-def sensors_of(file: Fields) -> tuple[Sensor, ...]:
-    """Lower the sensors of a file."""
-    if file.node.get("sensors") is None:
-        return ()
-    from linkforge_compile.lower.sensor import lower_sensors
-
-    return tuple(lower_sensors(file))
-
-
-def _transmissions(file: Fields) -> tuple[Transmission, ...]:
-    if file.node.get("transmissions") is None:
-        return ()
-    from linkforge_compile.lower.transmission import lower_transmissions
-
-    return tuple(lower_transmissions(file))
-
-
-def _ros2_controls(file: Fields) -> tuple[Ros2Control, ...]:
-    if file.node.get("ros2_control") is None:
-        return ()
-    from linkforge_compile.lower.ros2_control import lower_ros2_controls
-
-    return tuple(lower_ros2_controls(file))
-
-
-def gazebo_elements_of(file: Fields) -> tuple[GazeboElement, ...]:
-    """Lower the Gazebo blocks of a file, of its links and of its joints."""
-    if not any(
-        isinstance(node, YamlMap) and "gazebo" in node.entries for node in (file.node, *_links_and_joints(file))
-    ):
-        return ()
-    from linkforge_compile.lower.gazebo import lower_gazebo_elements
-
-    return tuple(lower_gazebo_elements(file))
-
-
-def _links_and_joints(file: Fields) -> Iterator[YamlNode]:
-    for section in (file.node.get("links"), file.node.get("joints")):
-        yield from (entry.value for entry in section) if isinstance(section, YamlMap) else ()
+    return lower_devices(file)
 
 
 def _semantic(file: Fields) -> LoweredSemantic | None:
     if file.node.get("semantic") is None:
         return None
-    from linkforge_compile.lower.srdf import lower_semantic
+    from linkforge_compile.lower.semantic import lower_semantic
 
     return lower_semantic(file)
 

@@ -1,9 +1,9 @@
-"""Joints: their type decides which parts they have, and in which units."""
+"""Joints: their type decides which parts they have, and the units of their positions and limits."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from linkforge_compile.core.constants import EPSILON, UNKNOWN
@@ -16,12 +16,20 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_AXIS,
     ZERO_AXIS,
 )
-from linkforge_compile.lower.elements import lower_element, lower_fields, lower_pose
-from linkforge_compile.lower.extra import common_kwargs
-from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.numbers import BARE, describe_node
+from linkforge_compile.lower.elements import common_kwargs, lower_element, lower_fields, lower_pose
+from linkforge_compile.lower.fields import Fields, by_word
+from linkforge_compile.lower.numbers import (
+    ANGLE_OR_LENGTH,
+    BARE,
+    NumberType,
+    Refusal,
+    describe_node,
+    number_type,
+    si_number,
+)
+from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
-from linkforge_compile.units import Motion
+from linkforge_compile.units import POSITION, Motion
 
 _LIMITS_EXAMPLE = {
     JointType.REVOLUTE: "{lower: -90 deg, upper: 90 deg, effort: 50 N*m, velocity: 90 deg/s}",
@@ -164,3 +172,68 @@ def _refuse(fields: Fields, key: str, joint_type: JointType) -> None:
     node = fields.node.get(key)
     if node is not None and not isinstance(node, YamlFault):
         fields.report(NOT_OF_THIS_TYPE, node, owner=fields.title, field=key, type=joint_type)
+
+
+def joints_of(file: YamlMap) -> Mapping[str, YamlMap]:
+    """Return the joints that a file itself writes, by name: its `joints` and its `mount`."""
+    sections = [section for name in ("joints", "mount") if isinstance(section := file.get(name), YamlMap)]
+    entries = (entry for section in sections for entry in section)
+    return {entry.name: entry.value for entry in entries if isinstance(entry.value, YamlMap)}
+
+
+def position_type(joint: Joint | None) -> NumberType:
+    """Return what a position of a joint may be: an angle, a length, or either for a joint of unknown type."""
+    if joint is None or joint.limits == SUBSTITUTE_LIMITS:
+        return ANGLE_OR_LENGTH
+    return _position_type(joint.type)
+
+
+def position_type_of_node(joint: Located | None) -> NumberType:
+    """Return what a position may be of the joint that is written at a node."""
+    node = joint.child("type") if joint else None
+    return _position_type(by_word(JointType).get(node.text) if isinstance(node, YamlScalar) else None)
+
+
+def _position_type(joint_type: JointType | None) -> NumberType:
+    motion = joint_type.motion if joint_type else Motion.UNKNOWN
+    return number_type(POSITION, None, Motion.UNKNOWN if motion is Motion.OTHER else motion)
+
+
+class _Position(NamedTuple):
+    """A position under a key of an object that belongs to a joint."""
+
+    joint: str
+    fields: Fields
+    key: str
+
+
+def check_positions_of_module_joints(file: Fields, joints: Mapping[str, Joint | None]) -> None:
+    """Report positions in a file that are in a wrong unit for a joint of a module.
+
+    They were read as angles or lengths, because the joint was not known yet. `joints` are those of the whole robot.
+    """
+    own = joints_of(file.node)
+    for joint_name, fields, key in (*_in_transmissions(file), *_in_gazebo_blocks(file)):
+        node, joint = fields.node.get(key), joints.get(joint_name)
+        if node is None or joint is None or joint_name in own:
+            continue
+        if not isinstance(si_number(node, ANGLE_OR_LENGTH), Refusal):
+            fields.number_at(node, key, position_type(joint))
+
+
+def _in_transmissions(file: Fields) -> Iterator[_Position]:
+    transmissions = file.node.get("transmissions")
+    for transmission in transmissions if isinstance(transmissions, YamlMap) else ():
+        joints = transmission.value.child("joints")
+        for entry in joints if isinstance(joints, YamlMap) else ():
+            if isinstance(entry.value, YamlMap):
+                owner = f"transmission joint '{entry.name}'"
+                yield _Position(entry.name, Fields(entry.value, owner, file.sink, file.trail, entry.key), "offset")
+
+
+def _in_gazebo_blocks(file: Fields) -> Iterator[_Position]:
+    for node in file.items("gazebo"):
+        reference = node.get("reference") if isinstance(node, YamlMap) else None
+        if isinstance(node, YamlMap) and isinstance(reference, YamlScalar):
+            block = Fields(node, file.owner, file.sink, file.trail, path="gazebo")
+            yield _Position(reference.text, block, "springReference")

@@ -30,13 +30,10 @@ from linkforge_compile.diagnostics.codes.model import (
     SHAPE_ORDER_COUNT,
     UNKNOWN_CHOICE,
 )
-from linkforge_compile.lower.elements import lower_element, lower_pose
-from linkforge_compile.lower.extra import common_kwargs, outer_extras_of
+from linkforge_compile.lower.elements import common_kwargs, lower_element, lower_pose, outer_extras_of
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.file_scope import FileScope
-from linkforge_compile.lower.geometry import lower_geometry
-from linkforge_compile.lower.material import lower_visual_material
 from linkforge_compile.lower.numbers import NumberType
+from linkforge_compile.lower.shapes import FileScope, lower_geometry, lower_visual_material
 from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.source.provenance import join_links, overrides_of
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar

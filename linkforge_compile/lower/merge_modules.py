@@ -22,6 +22,7 @@ from linkforge_compile.lower.mount import (
     lower_module_joint,
     module_fields,
     single_mount,
+    without_virtual_joint,
 )
 from linkforge_compile.lower.object_context import report_duplicate
 from linkforge_compile.source import SourceRef
@@ -211,8 +212,6 @@ class ModuleMerger:
         for joint in component.semantic.virtual_joints:
             if joint.child_link != root:
                 continue
-            from linkforge_compile.lower.without_virtual_joint import without_virtual_joint
-
             without = without_virtual_joint(component.semantic, joint.name, prefix)
             component.semantic = without.semantic
             name, link = joint.name.removeprefix(prefix), root.removeprefix(prefix)
@@ -262,10 +261,10 @@ def report_name_clashes(module: Instance, clashes: Iterable[NameClash], sink: Di
         part, more, first = group[0].part, len(group) - 1, group[0].first
         parts = f"{part} and {more} more" if more else part
         if owner is None:
-            notes = [Note(f"{part} stands here", first.span)] if first else []
+            notes = [Note(f"{part} is here", first.span)] if first else []
             sink.report(NAMES_OF_THIS_FILE.at(module.entry, "prefix", module=module.name, parts=parts, notes=notes))
         else:
-            notes = [Note(f"module '{owner.name}' stands here", owner.entry.at("prefix"))] if owner.entry else []
+            notes = [Note(f"module '{owner.name}' is here", owner.entry.at("prefix"))] if owner.entry else []
             facts = {"first": owner.name, "second": module.name, "parts": parts}
             sink.report(MODULES_SHARE_NAMES.at(module.entry, "prefix", notes=notes, **facts))
 

@@ -38,7 +38,7 @@ def report_duplicate(
     """Report two things of one name at the second, with the first and the files that use it as notes."""
     notes = []
     if first:
-        notes = [Note("the first stands here", first.span), *notes_of(uses_in(first.trail))]
+        notes = [Note("the first is here", first.span), *notes_of(uses_in(first.trail))]
     sink.report(DUPLICATE_NAME.at(second, kind=kind, name=name, notes=notes))
 
 

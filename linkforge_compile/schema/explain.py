@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from jsonschema import Draft7Validator
 
-from linkforge_compile.diagnostics import MAX_TOLD, Diagnostic, Diagnostics, notes_of, too_many_errors
+from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics, notes_of, too_many_errors
 from linkforge_compile.diagnostics.codes import schema as codes
 from linkforge_compile.diagnostics.codes import syntax
 from linkforge_compile.diagnostics.suggest import nearest
@@ -62,7 +62,7 @@ def report_mismatches(tree: YamlMap, sink: Diagnostics, *, is_included: bool) ->
     """Report each node of a file that does not match the schema; return the file without them."""
     errors = (error for error in _errors(tree, is_included) if not _is_under_reserved_name(error))
     # A hostile file has a hundred thousand errors; explaining more than are shown would take long.
-    return _report(tree, list(islice(_findings(errors, tree), MAX_TOLD + 1)), sink)
+    return _report(tree, list(islice(_findings(errors, tree), MAX_KEPT + 1)), sink)
 
 
 def report_computed_mismatches(
@@ -134,7 +134,7 @@ def _report(tree: YamlMap, findings: Sequence[Finding], sink: Diagnostics) -> Ya
     for diagnostic, aliases in sorted(found, key=lambda one: (one[0].order, [alias.span.start for alias in one[1]])):
         notes = (*diagnostic.notes, *notes_of(aliases))
         sink.report(replace(diagnostic, notes=notes) if aliases else diagnostic)
-    if sum(1 + len(finding.also) for finding in findings) > MAX_TOLD:
+    if sum(1 + len(finding.also) for finding in findings) > MAX_KEPT:
         raise too_many_errors(findings[-1].diagnostic.span)
     return _prune(tree, findings)
 

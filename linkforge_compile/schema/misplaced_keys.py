@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence, Set
 from itertools import chain, islice
 
-from linkforge_compile.diagnostics import MAX_TOLD, Diagnostic, Diagnostics
+from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.schema import SECTION_LINE_INDENTED, SECTION_LINE_LOST
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.hint_rules import number_hint
@@ -48,7 +48,7 @@ def group_unknown_keys(node: YamlMap, schema: Schema) -> Iterator[tuple[Sequence
         and not any(re.search(pattern, entry.name) for pattern in patterns)
     )
     groups: dict[str, list[YamlEntry]] = {}
-    for before, entry in islice(unknown, MAX_TOLD + 1):  # a hostile map has a hundred thousand
+    for before, entry in islice(unknown, MAX_KEPT + 1):  # a hostile map has a hundred thousand
         if before and (hint := _decimal_comma_hint(before.value, entry)):
             yield [entry], hint, ()
         else:

@@ -13,7 +13,7 @@ _CONFLICT = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 _REFERENCE = re.compile(r"&[\w.-]*\Z")
 _NAME = re.compile(r"[^\s/<>\"']+")
 _MOST_SHOWN = 40
-_BARE_AMPERSAND = "'&' by itself is written '&amp;'"
+_BARE_AMPERSAND = "write '&amp;' for the character '&'"
 _BEFORE_VALUE = re.compile(r"<[^\s<>!?/][^<>]*=\s*")
 
 
@@ -88,7 +88,7 @@ def _explain(known: str, text: str, at: int, tag: str, begun: tuple[int, int]) -
         return MalformedXmlError("this CDATA is not closed; it ends with ']]>'", begin)
     closing = _NAME.match(text, at) if known == errors.XML_ERROR_TAG_MISMATCH else None
     if closing and not tag:
-        return MalformedXmlError(f"</{_shown(closing[0])}> closes nothing that is open", at)
+        return MalformedXmlError(f"</{_shown(closing[0])}> closes no open element", at)
     if tag and known in (errors.XML_ERROR_NO_ELEMENTS, errors.XML_ERROR_TAG_MISMATCH):
         end = f"</{_shown(tag)}>"
         problem = f"expected {end}, found </{_shown(closing[0])}>" if closing else f"it ends before {end}"
@@ -96,7 +96,7 @@ def _explain(known: str, text: str, at: int, tag: str, begun: tuple[int, int]) -
     if known == errors.XML_ERROR_NO_ELEMENTS:
         return MalformedXmlError("there is no element in it", at)
     if known == errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
-        return MalformedXmlError("it has one element, behind which nothing but comments may stand", at)
+        return MalformedXmlError("only comments may follow the root element", at)
     return MalformedXmlError("invalid token" if known == errors.XML_ERROR_INVALID_TOKEN else known, at)
 
 
@@ -104,22 +104,20 @@ def _of_invalid_token(text: str, at: int) -> MalformedXmlError | None:
     before = text[:at]
     line = before.rfind("\n") + 1
     if _CONFLICT.match(text, line):
-        return MalformedXmlError(
-            "this line is one that git leaves of a merge conflict; keep one of the two sides", line
-        )
+        return MalformedXmlError("this line belongs to a git merge conflict; keep one of the two sides", line)
     if before.rfind("<!--") > before.rfind("-->"):
         is_second = before.endswith("--")
-        return MalformedXmlError("a comment holds no '--'", at - 2) if is_second else None
+        return MalformedXmlError("'--' is not allowed in a comment", at - 2) if is_second else None
     if reference := _REFERENCE.search(before, line):
         return MalformedXmlError(_BARE_AMPERSAND, reference.start())
     tag = before[max(before.rfind("<"), 0) :]
     if tag.count('"') % 2:
-        found = "the value of an attribute holds no '<'; close its quote, or write '&lt;'"
+        found = "'<' is not allowed in an attribute value; close its quote, or write '&lt;'"
         return MalformedXmlError(found, at) if text.startswith("<", at) else None
     value = _NAME.match(text, at)
     if value and _BEFORE_VALUE.fullmatch(tag):
         return MalformedXmlError(
-            f"the value of an attribute stands in quotes; write '\"{_shown(value[0].strip('“”‘’'))}\"'", at
+            f"an attribute value must be in quotes; write '\"{_shown(value[0].strip('“”‘’'))}\"'", at
         )
     return None
 

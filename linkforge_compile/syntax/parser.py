@@ -10,7 +10,7 @@ from typing import TypeAlias
 import yaml
 from yaml.events import Event, NodeEvent, ScalarEvent
 
-from linkforge_compile.diagnostics.ignores import Ignore
+from linkforge_compile.diagnostics.reports import Suppression
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile, Span
 
@@ -87,7 +87,7 @@ _CODE = re.compile(r"LF\w+", re.IGNORECASE)
 _NOTHING_BUT_COMMENT = re.compile(r"\s*(#.*)?")
 
 
-def ignore_comments(file: SourceFile, budget: Budget | None = None) -> Iterator[Ignore]:
+def suppressions_in(file: SourceFile, budget: Budget | None = None) -> Iterator[Suppression]:
     """Yield the comments that name codes to ignore, on their own line or, if alone on it, on the next.
 
     The text after the codes is the author's reason. Comments that are spelled otherwise, such as
@@ -110,7 +110,7 @@ def ignore_comments(file: SourceFile, budget: Budget | None = None) -> Iterator[
         codes = (
             (code[0], marks.part(code.start(), len(code[0]))) for code in _CODE.finditer(marks.text, *comment.span())
         )
-        yield Ignore(span, line_of(span.line), tuple(codes), is_understood)
+        yield Suppression(span, line_of(span.line), tuple(codes), is_understood)
 
 
 def _find_lines(file: SourceFile) -> Callable[[int], int]:

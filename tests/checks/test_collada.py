@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from linkforge_compile import compile_file
-from linkforge_compile.checks.collada import corners_of_scene
-from linkforge_compile.checks.mesh_files import MeshScan, ScanBudget, scan_mesh
+from linkforge_compile.checks.bounding import ScanBudget, corners_of_scene
+from linkforge_compile.checks.mesh_files import MeshScan, scan_mesh
 from linkforge_compile.core.meshes.collada import collada_triangles
 from tests.meshes import GEOMETRY, block, collada
 

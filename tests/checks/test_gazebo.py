@@ -78,7 +78,7 @@ def test_masses_that_are_fixed_to_one_another_count_together():
     assert messages_of(subject) == []
     subject.links = (body("base"), body("a", 0.5e-6), body("b", 0.4e-6))
     assert messages_of(subject) == [
-        "LF6005 joint 'turn' moves link 'a' of 9e-07 kg, which Gazebo takes for no mass and leaves out"
+        "LF6005 joint 'turn' moves link 'a' of 9e-07 kg, which Gazebo leaves out as massless"
     ]
 
 
@@ -98,7 +98,7 @@ def test_a_plugin_may_speak_of_links_that_stay_and_of_frames():
     subject.add_gazebo_element(GazeboElement(plugins=[plugin]))
     assert messages_of(subject) == [
         "LF6041 plugin 'p': Gazebo merges 'hand' into 'base', so this plugin finds no such link; "
-        "say `preserveFixedJoint: true` in the `gazebo` of joint 'wrist'"
+        "set `preserveFixedJoint: true` in the `gazebo` of joint 'wrist'"
     ]
 
 

@@ -11,7 +11,7 @@ HAND = PlanningGroup("hand", links=("left_hand",))
 def test_groups_that_contain_one_another_are_reported_once():
     groups = (LEFT, PlanningGroup("a", subgroups=("left", "b")), PlanningGroup("b", subgroups=("a",)))
     assert messages_of(two_arms(groups=groups)) == [
-        "LF5601 planning group 'b': planning groups contain one another in a circle: a → b → a"
+        "LF5601 planning group 'b': planning groups contain each other in a circle: a → b → a"
     ]
 
 
@@ -30,15 +30,14 @@ def test_a_chain_of_one_link_makes_a_group_without_joints():
 
 def test_a_chain_with_its_ends_swapped_is_an_error():
     assert messages_of(two_arms(groups=(chain("g", "left_hand", "torso"),))) == [
-        "LF5602 planning group 'g': no chain leads from 'left_hand' down to 'torso'; "
-        "'left_hand' hangs below 'torso': swap them"
+        "LF5602 planning group 'g': no chain leads from 'left_hand' down to 'torso', "
+        "because 'left_hand' is below 'torso'; swap them"
     ]
 
 
 def test_a_chain_from_hand_to_hand_is_a_warning():
     assert messages_of(two_arms(groups=(chain("g", "left_hand", "right_hand"),))) == [
-        "LF5603 planning group 'g': 'right_hand' does not hang below 'left_hand'; "
-        "MoveIt goes up to 'torso' and down again"
+        "LF5603 planning group 'g': 'right_hand' is not below 'left_hand'; MoveIt goes up to 'torso' and down again"
     ]
 
 

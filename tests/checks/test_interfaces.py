@@ -44,7 +44,7 @@ def test_ranges_that_agree_with_the_joint(parameters: dict[str, str]):
         ({"min": "0.5", "max": "-0.5"}, "LF6109 {}min must not be above max, found 0.5 and -0.5"),
         (
             {"min": "1.5", "max": "2"},
-            "LF6110 {}joint 'shoulder' goes from -1 to 1 rad, which leaves nothing from 1.5 to 2",
+            "LF6110 {}joint 'shoulder' goes from -1 to 1 rad, which has nothing in common with 1.5 to 2",
         ),
         ({"initial_value": "-1.5"}, "LF6111 {}joint 'shoulder' goes from -1 to 1 rad, but starts at -1.5"),
     ],

@@ -6,7 +6,8 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.checks import check, mesh_files
-from linkforge_compile.checks.mesh_files import MAX_SAMPLES, MeshScan, ScanBudget, scan_mesh
+from linkforge_compile.checks.bounding import ScanBudget
+from linkforge_compile.checks.mesh_files import MAX_SAMPLES, MeshScan, scan_mesh
 from linkforge_compile.checks.shapes import MAX_SINGLE_FILES
 from linkforge_compile.core import Collision, FileSystemResolver, Link, Mesh, Robot, Vector3, Visual
 from linkforge_compile.diagnostics import UnresolvedNames
@@ -117,7 +118,7 @@ def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looke
     subject = Robot("r", links=links, resource_resolver=resolver)
     codes = [one.code.id for one in check(subject, UnresolvedNames()) if one.code.id in ("LF6021", "LF3403")]
     assert codes == ["LF6021"] * 4 + ["LF3403"]
-    assert "in 2 packages that nobody looked for" in next(one for one in messages_of(subject) if "LF3403" in one)
+    assert "in 2 packages that were not searched for" in next(one for one in messages_of(subject) if "LF3403" in one)
 
 
 @pytest.mark.parametrize(
@@ -170,7 +171,7 @@ def test_collisions_as_fine_as_what_is_seen_are_reported_together(meshes: Path):
     names = [f"package://arm/meshes/{name}.stl" for name in ("fine", "coarse")]
     assert messages_of(of(meshes, *names)) == []
     assert messages_of(of(meshes, *names, as_collision=True)) == [
-        "LF6025 collisions of 'a' are the meshes that are seen, of 12,000 triangles; contacts will be slow"
+        "LF6025 collisions of 'a' are the visual meshes, with 12,000 triangles; contacts will be slow"
     ]
 
 

@@ -67,16 +67,16 @@ def test_a_joint_may_not_be_named_as_a_link():
 def test_names_that_gazebo_keeps_for_itself():
     subject = robot("base __model__ ____", turning("world", "base", "__model__"), turning("__", "base", "____"))
     assert messages_of(subject) == [
-        "LF4002 Gazebo refuses a link named '__model__': that is a name of its own; choose another",
-        "LF4002 Gazebo refuses a link named '____': that is a name of its own; choose another",
-        "LF4002 Gazebo refuses a joint named 'world': that is a name of its own; choose another",
+        "LF4002 Gazebo refuses a link named '__model__', which it reserves; choose another name",
+        "LF4002 Gazebo refuses a link named '____', which it reserves; choose another name",
+        "LF4002 Gazebo refuses a joint named 'world', which it reserves; choose another name",
     ]
 
 
 def test_world_is_the_root_and_nothing_else():
     assert messages_of(robot("world base", turning("stand", "world", "base"))) == []
     assert messages_of(robot("base world", turning("stand", "base", "world"))) == [
-        "LF4002 Gazebo refuses a link named 'world': that is a name of its own; choose another"
+        "LF4002 Gazebo refuses a link named 'world', which it reserves; choose another name"
     ]
 
 

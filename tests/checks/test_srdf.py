@@ -107,7 +107,7 @@ def test_a_passive_joint_may_be_read():
 
 def test_a_virtual_joint_has_a_name_of_its_own():
     assert messages_of(arm(virtual_joints=(VirtualJoint("wrist", "fixed", "world", "base"),))) == [
-        "LF5615 virtual joint 'wrist' bears the name of a joint, and MoveIt takes one for the other; rename it"
+        "LF5615 virtual joint 'wrist' has the name of another joint, and MoveIt confuses the two; rename it"
     ]
 
 
@@ -115,12 +115,12 @@ def test_an_enabled_pair_is_an_exception():
     pair = CollisionPair("base", "hand")
     assert messages_of(arm(no_default_collision_links=("hand",), enabled_collisions=(pair,))) == []
     assert messages_of(arm(enabled_collisions=(pair,))) == [
-        "LF5618 the pair of 'base' and 'hand' is looked at anyway: neither is in 'no_default_collision_links'"
+        "LF5618 the pair of 'base' and 'hand' is checked anyway: neither is in 'no_default_collision_links'"
     ]
 
 
 def test_a_pair_is_not_enabled_and_disabled():
     pair, other = CollisionPair("base", "hand"), CollisionPair("hand", "base", "Never")
     assert messages_of(arm(enabled_collisions=(pair,), disabled_collisions=(other,))) == [
-        "LF5612 the pair of 'base' and 'hand' is disabled as well, and MoveIt leaves it so; remove one"
+        "LF5612 the pair of 'base' and 'hand' is also disabled, which MoveIt keeps; remove one"
     ]

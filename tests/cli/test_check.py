@@ -129,7 +129,7 @@ def test_a_link_out_of_the_repository_that_is_found_by_searching_is_told_and_not
     (repository / "evil.robot.yaml").symlink_to("../far/secret.yaml")
     run = linkforge("check", cwd=repository)
     assert run.returncode == 1
-    assert "error: 'evil.robot.yaml' leads out of the folders that may be read" in run.stderr
+    assert "error: 'evil.robot.yaml' is outside of the folders that may be read" in run.stderr
     assert "[LF3401]\nnote: the link 'evil.robot.yaml' leads out\nnote: what may be read lies in" in run.stderr
     assert run.stderr.endswith("checked 1 spec: 1 error\n")
     schema = linkforge("schema", "--workspace", cwd=repository)

@@ -134,14 +134,14 @@ def test_meshes_beside_the_spec_are_told_where_the_urdf_goes_elsewhere(pendulum:
     (pendulum / "rod.robot.yaml").write_text(f"linkforge: 1\nname: rod\nlinks:\n{mesh}")
     told = linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
     expected = (
-        "'meshes/rod.stl' leads nowhere from 'build', where the URDF goes, for it lies beside this file; "
+        "mesh path 'meshes/rod.stl' is relative to this file and cannot be found from 'build', the URDF's folder; "
         "write 'package://NAME/PATH', or the URDF into '.' [LF7006]"
     )
     assert f"rod.robot.yaml:4:24: warning: {expected}" in told
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "robot.urdf", cwd=pendulum).stderr
     words = ("compile", "rod.robot.yaml", "-o", "build/", "--installed-in")
     assert "LF7006" not in linkforge(*words, ".", cwd=pendulum).stderr
-    assert "leads nowhere from 'urdf', where the URDF goes" in linkforge(*words, "urdf", cwd=pendulum).stderr
+    assert "cannot be found from 'urdf', the URDF's folder" in linkforge(*words, "urdf", cwd=pendulum).stderr
     (pendulum / "build" / "meshes").symlink_to(pendulum / "meshes")
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
 
@@ -158,7 +158,7 @@ def test_a_mesh_is_found_or_not_whether_or_not_the_output_folder_is_there_alread
     )
     words = ("compile", "specs/rod.robot.yaml", "-o", "build/")
     first, again = (linkforge(*words, cwd=pendulum).stderr.splitlines()[:-1] for _ in range(2))
-    assert "'rod.stl' leads nowhere from 'build'" in "".join(first)
+    assert "mesh path 'rod.stl' is relative to this file and cannot be found from 'build'" in "".join(first)
     assert "'../rod.stl'" not in "".join(first)
     assert again == first
 
@@ -197,7 +197,7 @@ def test_a_urdf_comes_from_standard_input(tmp_path: Path):
     wrong = linkforge(
         "check", "-", cwd=tmp_path, stdin=urdf.replace("</robot>", '<xacro:arm xmlns:xacro="x"/></robot>')
     )
-    assert "<stdin>:2:38: error: <xacro:arm> is xacro's" in wrong.stderr
+    assert "<stdin>:2:38: error: <xacro:arm> is xacro syntax" in wrong.stderr
 
 
 def test_a_merge_key_begins_no_urdf(tmp_path: Path):

@@ -83,7 +83,7 @@ def test_a_spec_whose_urdf_does_not_read_back_is_said_to_be_compared_as_written(
     linkforge("compile", "r.robot.yaml", "-o", "r.urdf", cwd=tmp_path)
     declared = 'extra_attributes: {"xmlns:xacro": "http://x"}\nextra: ["<xacro:foo/>"]\n'
     (tmp_path / "r.robot.yaml").write_text(spec + declared)
-    reason = "<xacro:foo> is xacro's; it is expanded in a file named 'NAME.urdf.xacro'"
+    reason = "<xacro:foo> is xacro syntax, which is expanded only in a file named 'NAME.urdf.xacro'"
     run = linkforge("diff", "r.urdf", "r.robot.yaml", cwd=tmp_path)
     line = f"r.robot.yaml is compared as written, since its URDF does not read back: {reason}"
     assert (run.returncode, line in run.stdout.splitlines()) == (1, True)

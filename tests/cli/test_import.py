@@ -42,12 +42,12 @@ def test_a_loss_is_told_and_is_a_failure_if_strict(arm, tmp_path: Path, capfd: p
     spec = tmp_path / "arm.robot.yaml"
     urdf = arm('some text<link name="base"/>')
     assert main(["import", urdf, "-o", str(spec)]) == 0
-    assert "warning: <robot> holds no text; 'some text' is left out [LF8101]" in capfd.readouterr().err
+    assert "warning: text is not allowed in <robot>; 'some text' is left out [LF8101]" in capfd.readouterr().err
     spec.unlink()
     assert main(["import", urdf, "-o", str(spec), "--strict"]) == 1
     told = capfd.readouterr().err
     assert not spec.exists()
-    assert "error: <robot> holds no text; 'some text' is left out [LF8101]" in told
+    assert "error: text is not allowed in <robot>; 'some text' is left out [LF8101]" in told
     assert "warning: <link> is kept as raw XML" in told
     assert told.endswith("\nnothing written: 1 loss (LF8101)\n")
 
@@ -131,7 +131,7 @@ def test_a_mesh_beside_the_urdf_and_not_beside_the_spec_is_told(arm, tmp_path: P
     assert (beside.returncode, "LF8130" in beside.stderr) == (0, False)
     away = linkforge("import", urdf, "-o", "specs", cwd=tmp_path)
     assert away.returncode == 0
-    assert "'rod.stl' leads nowhere from 'specs', where the spec goes, for it lies beside the URDF" in away.stderr
+    assert "mesh path 'rod.stl' is relative to the URDF and cannot be found from 'specs'" in away.stderr
     assert "or the spec into '.' [LF8130]" in away.stderr
 
 
@@ -169,7 +169,7 @@ def test_the_xacro_on_standard_input_is_told_as_no_file_of_that_name(tmp_path: P
     xacro = '<robot name="arm"><xacro:include filename="x"/></robot>'
     run = linkforge("import", "-", cwd=tmp_path, stdin=xacro)
     assert (run.returncode, run.stdout) == (1, "")
-    assert "it is expanded in a file named 'NAME.urdf.xacro'" in run.stderr
+    assert "expanded only in a file named 'NAME.urdf.xacro'" in run.stderr
 
 
 def test_a_spec_is_named_after_an_xml_file_without_its_ending(tmp_path: Path):

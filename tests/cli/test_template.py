@@ -144,7 +144,7 @@ def test_a_fault_leaves_all_documents_as_they_were(folder: Path):
     (folder / "t" / "notes.md.j2").write_text("changed")
     (folder / "t" / "z.txt.j2").write_text("\n{{ robot.nam }}")
     _, told = compile_by(folder, "-o", "out/", expect=1)
-    assert told.startswith("t/z.txt.j2:2:1: error: this template names what is not there: a Robot has no 'nam'")
+    assert told.startswith("t/z.txt.j2:2:1: error: this template uses an undefined name: a Robot has no 'nam'")
     assert "\n     2 | {{ robot.nam }}\n       | ^^^^^^^^^^^^^^^\n" in told
     assert (folder / "out" / "notes.md").read_text() == f"# {BANNER}\n2 links\n"
 

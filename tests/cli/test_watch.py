@@ -144,7 +144,7 @@ def test_a_template_that_is_new_is_rendered_and_a_fault_in_it_waited_for(cell: P
     told = watch(
         sets("t/b.md.j2", "{{ nosuch }}"), nothing, sets("t/b.md.j2", "right"), nothing, words=("--template", "t")
     )
-    assert "t/b.md.j2:1:1: error: this template names what is not there: 'nosuch' is not defined [LF7202]" in told
+    assert "t/b.md.j2:1:1: error: this template uses an undefined name: 'nosuch' is not defined [LF7202]" in told
     assert (cell / "out" / "b.md").read_text() == "right"
 
 

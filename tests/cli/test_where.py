@@ -59,11 +59,12 @@ def test_a_document_and_a_spec_that_changed_are_told(build: Path):
     (build / "arm.robot.yaml").write_text("# new\n" + ARM)
     run = linkforge("where", "build/cell.urdf", "left_elbow", cwd=build)
     assert run.returncode == 0
-    assert "build/cell.urdf:1:1: warning: this file changed since its map was written" in run.stderr
-    assert "arm.robot.yaml:1:1: warning: this file changed since it was compiled" in run.stderr
+    changed = "warning: the source map is out of date, as this file changed since"
+    assert f"build/cell.urdf:1:1: {changed} its map was written" in run.stderr
+    assert f"arm.robot.yaml:1:1: {changed} it was compiled" in run.stderr
     (build / "arm.robot.yaml").unlink()
     run = linkforge("where", "build/cell.urdf", "left_elbow", cwd=build)
-    assert "arm.robot.yaml:1:1: warning: what is written here cannot be shown: there is no file" in run.stderr
+    assert "arm.robot.yaml:1:1: warning: the source cannot be shown: there is no file" in run.stderr
 
 
 @pytest.mark.parametrize(

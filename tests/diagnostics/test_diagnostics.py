@@ -7,8 +7,8 @@ import pytest
 
 from linkforge_compile import import_urdf
 from linkforge_compile.diagnostics import Code, Diagnostics, Note, Severity, UnresolvedNames, suggest
-from linkforge_compile.diagnostics.render.text import render_text, summary
-from linkforge_compile.diagnostics.runs import told_once
+from linkforge_compile.diagnostics.render_text import render_text, summary
+from linkforge_compile.diagnostics.reports import merge_reports
 from linkforge_compile.diagnostics.suggest import did_you_mean, nearest
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlScalar
@@ -53,7 +53,7 @@ def test_the_nearest_name_is_that_of_difflib(name: str):
 
 def test_nothing_is_suggested_when_a_compile_has_looked_for_long(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(suggest, "_STEPS_OF_A_COMPILE", 100)
-    with suggest.suggesting():
+    with suggest.suggestion_budget():
         asked = [nearest("hnad", ["hand", "base"]) for _ in range(20)]
     assert asked[0] == "hand"
     assert asked[-1] is None
@@ -100,7 +100,7 @@ def test_two_faults_that_differ_where_their_messages_leave_words_out_are_two():
     sink = Diagnostics()
     sink.report_all(told)
     assert len(sink.sorted()) == 2
-    assert len(told_once({"the defaults": told[:1], "variant 'sim'": told[1:]})) == 2
+    assert len(merge_reports({"the defaults": told[:1], "variant 'sim'": told[1:]})) == 2
 
 
 def test_a_fault_in_a_module_tells_where_the_module_is_used():

@@ -4,10 +4,10 @@ import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Code, Diagnostics, Severity
 from linkforge_compile.diagnostics import sink as flood
-from linkforge_compile.diagnostics.codes.bounds import MORE_WARNINGS, TOO_MANY_ERRORS
+from linkforge_compile.diagnostics.codes.modules import MORE_WARNINGS, TOO_MANY_ERRORS
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
-from linkforge_compile.diagnostics.render.text import MOST_SHOWN, render_first, summary
-from linkforge_compile.diagnostics.sink import MAX_TOLD
+from linkforge_compile.diagnostics.render_text import MOST_SHOWN, render_first, summary
+from linkforge_compile.diagnostics.sink import MAX_KEPT
 from linkforge_compile.source import SourceFile, Span
 
 ERROR = Code("LF1000", Severity.ERROR, "no {name}")
@@ -51,11 +51,11 @@ def test_text_tells_three_times_of_a_name_that_a_file_has_nowhere_and_counts_the
 
 def test_behind_a_thousand_errors_the_compile_ends():
     sink = Diagnostics()
-    sink.report_all(ERROR.at(at(line), name="x") for line in range(MAX_TOLD))
+    sink.report_all(ERROR.at(at(line), name="x") for line in range(MAX_KEPT))
     with pytest.raises(BeyondLimitError) as beyond:
-        sink.report(ERROR.at(at(MAX_TOLD), name="x"))
-    sink.end(beyond.value)
-    assert (len(sink), sink.sorted()[-1].code) == (MAX_TOLD + 1, TOO_MANY_ERRORS)
+        sink.report(ERROR.at(at(MAX_KEPT), name="x"))
+    sink.abort(beyond.value)
+    assert (len(sink), sink.sorted()[-1].code) == (MAX_KEPT + 1, TOO_MANY_ERRORS)
 
 
 @pytest.mark.parametrize("words", ["same", "{}"])
@@ -69,7 +69,7 @@ def test_behind_very_many_errors_of_one_place_what_is_new_is_told_and_one_more_o
     sink.report(ERROR.at(at(4), name="other"))
     with pytest.raises(BeyondLimitError) as beyond:
         sink.report(ERROR.at(at(2), name=words.format(1)))
-    sink.end(beyond.value)
+    sink.abort(beyond.value)
     errors = [one for one in sink.sorted() if one.severity is Severity.ERROR]
     assert errors[-2].message == "no other"
     assert errors[-1] == sink.sorted()[-1]
@@ -77,31 +77,31 @@ def test_behind_very_many_errors_of_one_place_what_is_new_is_told_and_one_more_o
 
 
 def test_behind_very_many_warnings_that_are_not_told_the_compile_ends(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(flood, "MAX_WARNED", 50)
+    monkeypatch.setattr(flood, "MAX_COUNTED", 50)
     sink = Diagnostics()
-    sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_TOLD + 50))
+    sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_KEPT + 50))
     sink.report(ERROR.at(at(2), name="x"))
-    with pytest.raises(BeyondLimitError, match="behind so many warnings and notes") as beyond:
+    with pytest.raises(BeyondLimitError, match="too many warnings and notes") as beyond:
         sink.report(WARNING.at(at(9999), name="x"))
-    sink.end(beyond.value)
+    sink.abort(beyond.value)
     assert [one.code for one in sink.sorted()[-2:]] == [MORE_WARNINGS, TOO_MANY_ERRORS]
 
 
 @pytest.mark.parametrize("words", ["same", "{}"])
 def test_very_many_warnings_of_one_place_end_nothing(words: str, monkeypatch: pytest.MonkeyPatch):
     """As the rounds of a `for` give them."""
-    monkeypatch.setattr(flood, "MAX_WARNED", 50)
+    monkeypatch.setattr(flood, "MAX_COUNTED", 50)
     sink = Diagnostics()
-    sink.report_all(WARNING.at(at(1), name=words.format(number)) for number in range(MAX_TOLD + 60))
+    sink.report_all(WARNING.at(at(1), name=words.format(number)) for number in range(MAX_KEPT + 60))
     assert len(sink.sorted()) == (1 if words == "same" else 3)
 
 
 def test_warnings_beyond_a_thousand_are_counted_and_end_nothing():
     sink = Diagnostics()
-    sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_TOLD + 5))
+    sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_KEPT + 5))
     sink.report(ERROR.at(at(9999), name="y"))
     told = sink.sorted()
-    assert (told[-1].code, told[-1].message) == (MORE_WARNINGS, "5 more warnings and notes are not told")
+    assert (told[-1].code, told[-1].message) == (MORE_WARNINGS, "5 more warnings and notes are not shown")
     assert told[-2].message == "no y"
 
 

@@ -10,10 +10,8 @@ import pytest
 from jsonschema import Draft7Validator
 
 from linkforge_compile.diagnostics import Code, Diagnostic, Note, Severity
-from linkforge_compile.diagnostics.render.github import render_github
-from linkforge_compile.diagnostics.render.json import render_json
-from linkforge_compile.diagnostics.render.sarif import render_sarif
-from linkforge_compile.diagnostics.render.text import render_text
+from linkforge_compile.diagnostics.render_forms import render_github, render_json, render_sarif
+from linkforge_compile.diagnostics.render_text import render_text
 from linkforge_compile.resources import matcher_file
 from linkforge_compile.source import SourceFile, Span
 from tests.conftest import ROOT

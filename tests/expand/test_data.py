@@ -48,7 +48,10 @@ def test_the_tags_of_xacro_make_bare_radians(tmp_path, text, angle):
 def test_a_tag_stands_before_a_number(tmp_path, text):
     (tmp_path / "table.yaml").write_text(f'a: !degrees "{text}"\n')
     found = assemble("data: {table: table.yaml}\nmetadata: {a: $(table.a)}\n", folder=tmp_path)
-    assert (found.told, found.metadata) == ([f"'!degrees' stands before a number, found '{text}'"], {"a": "FAULT"})
+    assert (found.told, found.metadata) == (
+        [f"'!degrees' must be followed by a number, found '{text}'"],
+        {"a": "FAULT"},
+    )
 
 
 def test_the_path_is_relative_to_the_file_that_writes_it(tmp_path):

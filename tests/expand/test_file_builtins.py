@@ -93,16 +93,16 @@ def test_a_path_is_absolute_and_belongs_to_the_file_that_writes_it(tmp_path: Pat
     ("text", "told"),
     [
         ("metadata: {a: \"$(path('package://nowhere/x'))\"}", "no package named 'nowhere'"),
-        ("metadata: {a: \"$(path('https://x/y'))\"}", "'https://x/y' leads nowhere"),
+        ("metadata: {a: \"$(path('https://x/y'))\"}", "'https://x/y' cannot be found"),
         ("variables: {p: $(prefix)}\nlinks: {base: {visual: {box: [1, 1, '$(path(1))']}}}", "path() takes text"),
-        ('links: {"$(prefix)base": }', "'$(prefix)base' takes the prefix by itself"),
-        ("modules: {arm: {use: a.robot.yaml, prefix: $(prefix)a_}}", "'prefix' takes the prefix by itself"),
-        ("modules: {arm: {use: a.robot.yaml, with: {a: $(link('x'))}}}", "link() stands in free parts"),
-        ("parameters: {a: {default: $(joint('x'))}}", "joint() stands in free parts"),
-        ("links: {a_$(x): {for: {x: $(link('x'))}}}", "link() stands in free parts"),
+        ('links: {"$(prefix)base": }', "'$(prefix)base' gets the prefix automatically"),
+        ("modules: {arm: {use: a.robot.yaml, prefix: $(prefix)a_}}", "'prefix' gets the prefix automatically"),
+        ("modules: {arm: {use: a.robot.yaml, with: {a: $(link('x'))}}}", "link() is allowed only in free parts"),
+        ("parameters: {a: {default: $(joint('x'))}}", "joint() is allowed only in free parts"),
+        ("links: {a_$(x): {for: {x: $(link('x'))}}}", "link() is allowed only in free parts"),
         (
             "semantic: {passive_joints: [{for: {i: 1}, value: $(prefix)$(i)}]}",
-            "'value' takes the prefix by itself",
+            "'value' gets the prefix automatically",
         ),
         (
             "packages: {a: \"$(path('package://b/c'))\"}\nmetadata: {a: \"$(path('package://a/x'))\"}",

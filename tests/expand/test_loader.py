@@ -84,7 +84,7 @@ def test_text_in_no_folder_uses_absolute_paths_only(tmp_path):
     text = f"linkforge: 1\nname: a\nmodules: {{a: {{use: arm.robot.yaml}}, b: {{use: {absolute}}}}}\n"
     instance = expand(loader.parse(text, "<text>", None, sink), arguments_from_text((), sink), loader, sink)
     assert [diagnostic.message for diagnostic in sink] == [
-        "'arm.robot.yaml' leads nowhere: it is relative, and this text lies in no folder"
+        "'arm.robot.yaml' cannot be found: it is relative, and this text lies in no folder"
     ]
     assert bases(instance) == {"b": f"{tmp_path.as_posix()}/"}
 

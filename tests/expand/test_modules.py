@@ -124,7 +124,7 @@ def test_a_required_parameter_of_a_module_is_an_error_even_where_the_robot_s_own
     )
     compiled(tmp_path, sink, unset=Unset.NOTE)
     assert messages(sink) == [
-        "nothing sets 'reach' here, so what depends on it is not judged",
+        "nothing sets 'reach' here, so what depends on it is not checked",
         "parameter 'reach' has no default and must be set; write 'with: {reach: LENGTH}'",
     ]
 

@@ -189,9 +189,9 @@ def test_a_missing_name_that_a_when_took_out_is_shown(change):
     [
         ("links: {bse: {}}", "there is no 'bse' among the links to override; did you mean 'base'?"),
         ("links: {base: {visual: {3: null}}}", "there is no item 3 in 'visual', which has 3 items; the first is 0"),
-        ("joints: {wrist: {axis: x}}", "'axis' is so already: this overrides nothing"),
-        ("joints: {wrist: {mimic: null}}", "'mimic' says nothing that could be deleted"),
-        ("joints: {wrist: {axis: }}", "'axis' is overridden with nothing; write what it is to be, or 'null' to delete"),
+        ("joints: {wrist: {axis: x}}", "'axis' already has this value, so the override changes nothing"),
+        ("joints: {wrist: {mimic: null}}", "'mimic' is not set, so there is nothing to delete"),
+        ("joints: {wrist: {axis: }}", "the override of 'axis' is empty; write a value, or 'null' to delete it"),
     ],
 )
 def test_what_changes_nothing_is_told(change, override: str, message: str):
@@ -292,7 +292,9 @@ def test_a_position_reaches_lists_of_interfaces(tmp_path: Path):
 )
 def test_what_is_there_already_is_told_in_whatever_form(change, patch: str, is_same: bool):
     found = change(f"joints: {{wrist: {{{patch}}}}}")
-    assert [one for one in found.told if one.endswith("is so already: this overrides nothing")] == found.told
+    assert [
+        one for one in found.told if one.endswith("already has this value, so the override changes nothing")
+    ] == found.told
     assert bool(found.told) is is_same
 
 
@@ -347,4 +349,4 @@ def test_what_goes_wrong_because_of_an_override_names_it(tmp_path: Path, patch: 
 @pytest.mark.parametrize(("mass", "is_same"), [("1000 g", True), ("1 m", False), ("1", True)])
 def test_a_number_without_a_unit_is_as_much_in_the_unit_of_its_field_only(change, mass: str, is_same: bool):
     found = change(f"links: {{base: {{inertial: {{mass: {mass}}}}}}}")
-    assert found.told == (["'mass' is so already: this overrides nothing"] if is_same else [])
+    assert found.told == (["'mass' already has this value, so the override changes nothing"] if is_same else [])

@@ -129,7 +129,7 @@ def test_a_fault_inside_a_for_is_told_once():
 
 def test_copies_with_one_name_are_told():
     made = assemble('links: {"a_$(min(i, 1))": {for: {i: 3}}}')
-    assert made.told == ["the key 'a_1' comes twice once the expressions are computed"]
+    assert made.told == ["the expressions give the key 'a_1' twice"]
 
 
 @pytest.mark.parametrize(

@@ -142,7 +142,7 @@ def test_a_xacro_on_standard_input_is_told_as_that_and_not_by_its_arguments(arm:
         "<stdin>", text=(arm / "arm.urdf.xacro").read_text("utf-8"), arguments=["reach:=1"]
     ).diagnostics
     assert told.code.id == "LF8013"
-    assert "it is expanded in a file named 'NAME.urdf.xacro'" in told.message
+    assert "expanded only in a file named 'NAME.urdf.xacro'" in told.message
 
 
 def test_a_default_that_comes_too_late_is_told_where_xacro_needs_it(tmp_path: Path):
@@ -153,7 +153,7 @@ def test_a_default_that_comes_too_late_is_told_where_xacro_needs_it(tmp_path: Pa
     )
     [told] = import_urdf(file).diagnostics
     assert (told.code.id, told.span.line, told.notes[0].span.line) == ("LF8062", 1, 3)
-    assert told.message == "xacro needs 'name' here, before it comes to its default; write 'name:=VALUE'"
+    assert told.message == "xacro uses 'name' here, before it reads its default; write 'name:=VALUE'"
     assert import_urdf(file, arguments=["name:=b"]).diagnostics == ()
 
 

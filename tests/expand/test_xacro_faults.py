@@ -81,7 +81,7 @@ def test_a_file_that_is_not_there_is_told_with_the_one_that_is_like_it(tmp_path:
     code, message, [(_, line)] = told(tmp_path, "<link name=\"${xacro.load_yaml('limit.yaml')}\"/>")
     assert (code, line) == ("LF8064", 2)
     assert message.startswith("xacro needs the file '")
-    assert message.endswith("limit.yaml', which is not there; did you mean 'limits.yaml'?")
+    assert message.endswith("limit.yaml', which does not exist; did you mean 'limits.yaml'?")
 
 
 def test_a_fault_inside_a_macro_that_another_one_calls_is_told_in_the_macro(tmp_path: Path):

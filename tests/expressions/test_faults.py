@@ -10,7 +10,7 @@ from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.units import Dimension, Quantity
 from tests.expressions.compute import compute, whole
 
-CANNOT = "cannot stand in an expression"
+CANNOT = "is not allowed in an expression"
 
 NAMES: dict[str, Value] = {
     "reach": Quantity(0.5, Dimension.LENGTH),
@@ -53,7 +53,7 @@ def test_habits_from_elsewhere_are_reported_what_is_written_here(text: str, plac
 @pytest.mark.parametrize(
     ("text", "place", "sentence"),
     [
-        ("a $(side", "$(", "'$(' has no closing ')'; text that means it is written '$$('"),
+        ("a $(side", "$(", "'$(' has no closing ')'; write '$$(' for the text '$('"),
         ("$(f('a)", "'", "no closing quote for the text that begins here"),
         ("$( )", "$( )", "expected an expression between '$(' and ')', found nothing"),
         ("$(2 ^ 3)", "^", f"'^' {CANNOT}; write '**' for powers"),
@@ -102,8 +102,8 @@ def test_habits_from_elsewhere_are_reported_what_is_written_here(text: str, plac
         ("$(sizes[1.0])", "1.0", "a list takes a whole number in its brackets, found a number"),
         ("$(side.x)", "side.x", "'.x' takes a map or a vector's x, y, z, found the text 'left'"),
         ("$(count.__class__)", "count.__class__", "'.__class__' takes a map or a vector's x, y, z, found a number"),
-        ("arm_$(sizes)", "sizes", "a list cannot stand inside text"),
-        ("arm_$(nothing)", "nothing", "null cannot stand inside text"),
+        ("arm_$(sizes)", "sizes", "a list cannot be inserted into text"),
+        ("arm_$(nothing)", "nothing", "null cannot be inserted into text"),
     ],
 )
 def test_a_fault_is_reported_at_its_own_characters(text: str, place: str, sentence: str):
@@ -144,7 +144,7 @@ def test_what_the_language_has_not_is_refused_with_what_to_write_instead(express
     result = compute(f"$({expression})", dict(NAMES))
     assert result.value is FAULT
     assert result.reported
-    assert all("cannot stand in an expression; " in sentence for _, sentence in result.reported)
+    assert all("is not allowed in an expression; " in sentence for _, sentence in result.reported)
 
 
 @pytest.mark.parametrize("expression", ["open('x')", "__import__('os')", "eval('1')", "print(1)"])

@@ -142,7 +142,7 @@ def test_a_template_goes_before_ours(tmp_path: Path):
 
 SYNTAX, NAME, FAILS = (
     "Jinja2 cannot read this template: ",
-    "this template names what is not there: ",
+    "this template uses an undefined name: ",
     "this template fails here: ",
 )
 
@@ -444,7 +444,7 @@ BLOCK = "{% set y %}{{ n.x }}{{ n.x }}{% endset %}{% set n.x = y %}"
             GROWING.replace("GROWN", "n.x * n.x").replace("'a'", "3"),
             "this template fails here: this number has more than 4096 bits",
         ),
-        ("{{ lipsum(10**9) }}", "this template names what is not there: 'lipsum' is not defined"),
+        ("{{ lipsum(10**9) }}", "this template uses an undefined name: 'lipsum' is not defined"),
     ],
 )
 def test_what_takes_too_much_is_refused(text: str, message: str, tmp_path: Path):

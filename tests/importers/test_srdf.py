@@ -142,7 +142,7 @@ def test_groups_in_a_circle_come_apart_where_it_closes(tmp_path: Path):
     )
     whole = imported(tmp_path, f'<robot name="r">{one}{other}</robot>')
     assert [fault.message for fault in whole.diagnostics] == [
-        "<group> is kept as raw XML: planning group 'a' contains the one that it stands in"
+        "<group> is kept as raw XML: planning group 'a' contains the group that it is in"
     ]
     assert whole.text is not None
     semantic = compile_text(whole.text).result().semantic

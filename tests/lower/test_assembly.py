@@ -226,7 +226,7 @@ def test_a_prefix_that_no_name_may_begin_with_is_told_at_the_prefix():
             modules:
               left:
                 parent: torso
-                prefix: "left "   # E[LF4001]:13 'left ' is no name for a prefix: ' ' may not stand in one
+                prefix: "left "   # E[LF4001]:13 'left ' is not a valid name for a prefix: ' ' is not allowed
             """,
             {"left": HAND},
         )
@@ -238,7 +238,9 @@ STANDING = """
 name: stand
 links: {foot: }
 semantic: {virtual_joints: {ground: {type: fixed, parent_frame: world, child_link: foot}}}"""
-LEFT_OUT = "   # N[LF5302]:29 virtual joint 'ground' is left out: 'foot' hangs on another link where this file is used"
+LEFT_OUT = (
+    "   # N[LF5302]:29 virtual joint 'ground' is left out: the file that uses this one attaches 'foot' to another link"
+)
 
 
 def test_a_virtual_joint_of_a_module_that_hangs_is_left_out_with_a_note():

@@ -35,5 +35,5 @@ def test_what_is_brought_in_is_told_with_its_use(line: int, used: str, code: str
     lines[line - 1] = lines[line - 1].replace("links: {a: ,", used).replace("two: {", used + " ")
     told = [one for one in compile_text("\n".join(lines), name="r").diagnostics if one.code.id == code]
     assert [(note.message, str(note.span)) for note in told[0].notes] == [
-        (f"brought in here{owner}", f"r:{place}") for place, owner in notes
+        (f"inserted here{owner}", f"r:{place}") for place, owner in notes
     ]

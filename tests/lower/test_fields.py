@@ -104,7 +104,7 @@ def test_a_name_with_a_space_is_told_at_the_name():
     fields = fields_of("joint: left mount")
     assert fields.name("joint", "joint") is None
     assert told(fields) == [
-        "spec.yaml:1:8: error: 'left mount' is no name for a joint: ' ' may not stand in one [LF4001]"
+        "spec.yaml:1:8: error: 'left mount' is not a valid name for a joint: ' ' is not allowed [LF4001]"
     ]
 
 

@@ -2,7 +2,7 @@
 
 from linkforge_compile import compile_text
 from linkforge_compile.core import LinkPhysics, Robot
-from linkforge_compile.lower import gazebo
+from linkforge_compile.lower import devices
 from tests.lower.specs import Spec, lowered, robot_of
 
 ARM = """
@@ -123,8 +123,8 @@ def test_blocks_that_name_their_joint_look_through_the_joints_once(monkeypatch):
         looked.append(file)
         return original(file)
 
-    original = gazebo.joints_of
-    monkeypatch.setattr(gazebo, "joints_of", joints_of)
+    original = devices.joints_of
+    monkeypatch.setattr(devices, "joints_of", joints_of)
     blocks = ", ".join("{reference: base, kp: 1}" for _ in range(5))
     robot = compile_text(f"linkforge: 1\nname: case\nlinks: {{base: }}\ngazebo: [{blocks}]\n").result()
     assert (len(robot.gazebo_elements), len(looked)) == (5, 1)

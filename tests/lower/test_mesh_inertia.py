@@ -102,7 +102,7 @@ def test_a_mesh_is_found_by_an_absolute_path_and_by_file_uri(tmp_path):
 def test_a_relative_mesh_of_a_text_that_lies_nowhere_is_nowhere():
     compilation = compile_text(f"linkforge: 1\nname: arm\n{link('{mesh: cube.stl}')}")
     assert messages(compilation) == [
-        "LF3006: 'cube.stl' leads nowhere: it is relative, and this text lies in no folder"
+        "LF3006: 'cube.stl' cannot be found: it is relative, and this text lies in no folder"
     ]
 
 
@@ -133,7 +133,7 @@ def test_without_trimesh_it_is_told_once_what_to_install(tmp_path, monkeypatch):
     for name in ["trimesh", *(name for name in sys.modules if name.startswith("trimesh."))]:
         monkeypatch.setitem(sys.modules, name, None)
     assert messages(check_file(path)) == [
-        "LF6010: the inertia of mesh 'cube.stl' takes the Python package trimesh; "
+        "LF6010: the inertia of mesh 'cube.stl' needs the Python package trimesh; "
         "run \"pip install 'linkforge-compile[mesh]'\", or give 'inertia'"
     ]
 

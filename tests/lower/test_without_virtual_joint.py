@@ -2,7 +2,7 @@
 
 from linkforge_compile.core import EndEffector, JointProperty, PassiveJoint, PlanningGroup, VirtualJoint
 from linkforge_compile.core.models.srdf import GroupState, SemanticRobotDescription
-from linkforge_compile.lower.without_virtual_joint import without_virtual_joint
+from linkforge_compile.lower.mount import without_virtual_joint
 
 WHOLE = SemanticRobotDescription(
     virtual_joints=(VirtualJoint("ground", "fixed", "world", "base"),),

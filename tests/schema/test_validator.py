@@ -182,7 +182,7 @@ def test_what_an_alias_brings_in_is_reported_with_the_place_that_uses_it(use: st
     validate(tree, sink)
     [reported] = sink
     assert str(reported.span) == "r:3:14"
-    assert [(note.message, str(note.span)) for note in reported.notes] == [("brought in here", f"r:{place}")]
+    assert [(note.message, str(note.span)) for note in reported.notes] == [("inserted here", f"r:{place}")]
 
 
 def test_of_several_uses_that_do_not_fit_the_first_in_the_file_is_reported():

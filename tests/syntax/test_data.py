@@ -29,7 +29,7 @@ def test_a_known_tag_makes_what_the_caller_says():
 
 def test_other_tags_and_tags_on_maps_are_reported_where_they_stand():
     _, reported = read("a: !half 3\nb: !twice {c: 1}\n")
-    known = "of YAML's tags only !twice before a number are read here"
+    known = "the only YAML tags allowed here are !twice before a number"
     assert reported == [
         f"table.yaml:1:4: error: {known}, found '!half' [LF1113]",
         f"table.yaml:2:4: error: {known}, found '!twice' [LF1113]",
@@ -38,7 +38,10 @@ def test_other_tags_and_tags_on_maps_are_reported_where_they_stand():
 
 @pytest.mark.parametrize("text", ["", "# nothing\n", "---\n", "null"])
 def test_an_empty_file_is_reported(text):
-    assert read(text) == (None, ["table.yaml:1:1: error: the file is empty, so there is nothing to name [LF1114]"])
+    assert read(text) == (
+        None,
+        ["table.yaml:1:1: error: the data file is empty; write the values that it is to hold [LF1114]"],
+    )
 
 
 def test_values_are_counted():

@@ -53,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.diagnostics.render.text import summary
+    from linkforge_compile.diagnostics.render_text import summary
 
     words, assignments = split_assignments(arguments.words)
     unread: list[Diagnostic] = []
@@ -86,8 +86,7 @@ def _find_specs(word: str, arguments: argparse.Namespace, report: Callable[[Diag
     if not os.path.isdir(word):  # noqa: PTH112
         return (word,)
     from linkforge_compile.diagnostics import Note
-    from linkforge_compile.diagnostics.codes.modules import UNREADABLE_FILE
-    from linkforge_compile.diagnostics.codes.roots import OUTSIDE_ROOTS
+    from linkforge_compile.diagnostics.codes.modules import OUTSIDE_ROOTS, UNREADABLE_FILE
     from linkforge_compile.editor.spec_files import TooManyFilesError, find_specs
     from linkforge_compile.roots import ANYWHERE, Roots
 
@@ -144,7 +143,7 @@ class _Report(NamedTuple):
 
 def _merge_runs(compilations: _Compilations) -> _Report:
     """Return the report of a spec, with the diagnostics of all its variants merged."""
-    from linkforge_compile.diagnostics.runs import told_once
+    from linkforge_compile.diagnostics.reports import merge_reports
 
     checked = {variant: one for variant, one in compilations.items() if one is not None}
     runs = {
@@ -152,7 +151,7 @@ def _merge_runs(compilations: _Compilations) -> _Report:
         for variant, one in checked.items()
     }
     files = frozenset(os.path.realpath(file) for one in checked.values() for file in one.files)
-    return _Report(told_once(runs), len(checked) - 1, len(compilations) - len(checked), files)
+    return _Report(merge_reports(runs), len(checked) - 1, len(compilations) - len(checked), files)
 
 
 def _variants_summary(reports: Collection[_Report]) -> str:

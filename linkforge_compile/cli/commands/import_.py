@@ -94,13 +94,15 @@ def run(arguments: argparse.Namespace) -> int:
 def _with_losses_as_errors(imported: Import) -> list[Diagnostic]:
     from linkforge_compile.diagnostics.codes.importing import LOSSES
 
-    return [replace(one, taken_for=Severity.ERROR) if one.code in LOSSES else one for one in imported.diagnostics]
+    return [
+        replace(one, severity_override=Severity.ERROR) if one.code in LOSSES else one for one in imported.diagnostics
+    ]
 
 
 def _reason(losses: tuple[Diagnostic, ...]) -> str:
     if not losses:
         return "there are errors"
-    count = sum(1 + loss.untold for loss in losses)
+    count = sum(1 + loss.omitted for loss in losses)
     codes = sorted({loss.code.id for loss in losses})
     return f"{count} {'loss' if count == 1 else 'losses'} ({', '.join(codes)})"
 

@@ -62,7 +62,7 @@ def collada_triangles(content: bytes, limit: int) -> Numbers:
     # Entities stay unresolved, and the limits of libxml2 stay on.
     root = etree.fromstring(content, safe_parser(remove_comments=True))
     if root.getroottree().docinfo.internalDTD is not None:
-        reason = "it has a document type, whose entities can hold and fetch anything; delete that"
+        reason = "it has a document type, whose entities can read other files; delete it"
         raise MeshError(MeshFault.UNREADABLE, reason)
     if root.find(".//{*}instance_controller") is not None:
         raise MeshError(MeshFault.UNREADABLE, "its scene has an 'instance_controller', whose shape is not fixed")

@@ -5,30 +5,21 @@ LF6 physics and interfaces, LF7 output formats, LF8 import.
 """
 
 from linkforge_compile.diagnostics.codes import (
-    bounds,
     expressions,
-    files,
     formats,
-    ignoring,
     importing,
     model,
     modules,
     names,
     physics,
-    repetition,
-    roots,
     schema,
     syntax,
-    templates,
 )
 from linkforge_compile.diagnostics.diagnostic import Code
 
 REGISTER: dict[str, Code] = {
     code.id: code
-    for family in (
-        *(syntax, ignoring, schema, modules, files, repetition, bounds, roots, expressions),
-        *(names, model, physics, formats, templates, importing),
-    )
+    for family in (syntax, schema, modules, expressions, names, model, physics, formats, importing)
     for code in vars(family).values()
     if isinstance(code, Code)
 }

@@ -1,37 +1,35 @@
-"""LF7xxx: what an output format cannot say, and what output on disk is not."""
+"""LF70xx and LF71xx: what an output format cannot express, and outdated outputs; LF72xx: user templates."""
 
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
 
-UNWRITABLE = Code("LF7001", Severity.ERROR, "this cannot be written as XML: {reason}")
+_E, _W = Severity.ERROR, Severity.WARNING
+
+UNWRITABLE = Code("LF7001", _E, "this cannot be written as XML: {reason}")
 NEW_GEOMETRY = Code(
-    "LF7002",
-    Severity.WARNING,
-    "a capsule needs a reader of URDF 1.1, such as urdfdom 6 or MuJoCo; older ones refuse the whole file",
+    "LF7002", _W, "a capsule needs a reader of URDF 1.1, such as urdfdom 6 or MuJoCo; older ones refuse the whole file"
 )
 OLD_VERSION = Code(
     "LF7003",
-    Severity.WARNING,
+    _W,
     "a robot with a capsule is URDF 1.1 or later, found version '{version}'; leave `version` out to have the right one",
 )
 UNKNOWN_VERSION = Code(
-    "LF7004",
-    Severity.WARNING,
-    "urdfdom reads the versions 1.0, 1.1 and 1.2 of URDF and refuses any other, found '{version}'",
+    "LF7004", _W, "urdfdom reads the versions 1.0, 1.1 and 1.2 of URDF and refuses any other, found '{version}'"
 )
 TWO_MATERIALS = Code(
     "LF7005",
-    Severity.WARNING,
+    _W,
     "there are different materials named '{name}', and most viewers show them all as the first; give each its name",
 )
 MESH_BESIDE_THE_SPEC = Code(
     "LF7006",
-    Severity.WARNING,
-    "'{path}' leads nowhere from '{folder}', where the URDF goes, for it lies beside this file; "
-    "write 'package://NAME/PATH', or the URDF into '{back}'",
+    _W,
+    "mesh path '{path}' is relative to this file and cannot be found from '{folder}', the URDF's "
+    "folder; write 'package://NAME/PATH', or the URDF into '{back}'",
 )
 UNDECLARED_PREFIX = Code(
     "LF7007",
-    Severity.WARNING,
+    _W,
     "no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into the robot's 'extra_attributes'",
     in_xml="no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into <robot>",
 )
@@ -39,60 +37,61 @@ UNDECLARED_PREFIX = Code(
 # LF714x: what stands twice in what is written
 SECOND_OF_ONE = Code(
     "LF7145",
-    Severity.WARNING,
-    "another <{tag}> stands before this one: readers take one of the two, mostly the first, or refuse the file; "
-    "leave one out",
+    _W,
+    "this is a second <{tag}>, and readers use only one of the two, mostly the first, or refuse the "
+    "file; leave one out",
 )
 
 RAW_NAME_IS_TAKEN = Code(
     "LF7160",
-    Severity.ERROR,
+    _E,
     "there is a {tag} '{name}' already, and readers of URDF refuse a robot with two; leave this one out, or rename it",
 )
 
 # LF708x, LF709x: what a command asks of an output
 NO_SEMANTIC_PART = Code(
     "LF7085",
-    Severity.ERROR,
+    _E,
     "robot '{robot}' has no 'semantic' part, so there is no SRDF to write; add one, or compile to URDF",
     in_xml="a URDF has no planning groups, so there is no SRDF to write of robot '{robot}'; compile to URDF, or a spec "
     "with 'use' of it and 'srdf'",
 )
-CHANGED_SINCE = Code(
-    "LF7086", Severity.WARNING, "this file changed since {when}, so what is told of it may be off; compile it again"
-)
-SOURCE_NOT_SHOWN = Code("LF7087", Severity.WARNING, "what is written here cannot be shown: {reason}")
+CHANGED_SINCE = Code("LF7086", _W, "the source map is out of date, as this file changed since {when}; compile it again")
+SOURCE_NOT_SHOWN = Code("LF7087", _W, "the source cannot be shown: {reason}")
 STALE_OUTPUT = Code(
-    "LF7095",
-    Severity.ERROR,
-    "here '{spec}' compiles to {expected}; compile it again, and edit it rather than this file",
+    "LF7095", _E, "here '{spec}' compiles to {expected}; compile it again, and edit it rather than this file"
 )
-MISSING_OUTPUT = Code("LF7096", Severity.ERROR, "there is no '{path}', which '{spec}' compiles to; compile it again")
+MISSING_OUTPUT = Code("LF7096", _E, "there is no '{path}', which '{spec}' compiles to; compile it again")
 
 # LF715x: what readers of newer URDF make of it
 OTHER_QUATERNION = Code(
     "LF7154",
-    Severity.ERROR,
-    "quat_xyzw turns otherwise than rpy, here {rpy}; readers of URDF 1.1 go by the one, others by the other: "
-    "leave it out",
+    _E,
+    "quat_xyzw differs from rpy, which is {rpy}; readers of URDF 1.1 use the first, others the second: leave it out",
 )
 
 # LF710x: sensors in Gazebo
 NO_JOINT_TO_SENSE = Code(
-    "LF7101",
-    Severity.WARNING,
-    "Gazebo senses forces in the joint above a link, and there is none above '{link}'",
+    "LF7101", _W, "Gazebo senses forces in the joint above a link, and there is none above '{link}'"
 )
 SENSOR_ON_MERGED_JOINT = Code(
     "LF7102",
-    Severity.WARNING,
-    "Gazebo merges the links of the fixed joint '{joint}' and drops its sensor; "
-    "say `preserveFixedJoint: true` in the joint's `gazebo`",
+    _W,
+    "Gazebo merges the links of the fixed joint '{joint}' and drops its sensor; set "
+    "`preserveFixedJoint: true` in the joint's `gazebo`",
 )
-NOISELESS_CONTACT = Code("LF7103", Severity.WARNING, "Gazebo's contact sensors have no noise; this one is left out")
-FRAME_OF_PLUGIN = Code(
-    "LF7104",
-    Severity.WARNING,
-    "in Gazebo Classic a sensor's frame is its plugin's affair; '{frame}' is left out",
+NOISELESS_CONTACT = Code("LF7103", _W, "Gazebo's contact sensors have no noise; this one is left out")
+FRAME_OF_PLUGIN = Code("LF7104", _W, "in Gazebo Classic the plugin sets the frame of a sensor; '{frame}' is left out")
+FOREIGN_INFO = Code("LF7105", _W, "a sensor of type {type} has no '{info}'; it is left out")
+
+# LF72xx: templates of users
+TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
+UNDEFINED_IN_TEMPLATE = Code("LF7202", _E, "this template uses an undefined name: {reason}")
+NO_SUCH_TEMPLATE = Code("LF7203", _E, "no template '{name}' in '{folder}'")
+REFUSED_IN_TEMPLATE = Code("LF7204", _E, "a template may only read the robot: {reason}")
+TEMPLATE_FAILS = Code("LF7205", _E, "this template fails here: {reason}")
+NOT_XML_FROM_TEMPLATE = Code("LF7206", _E, "this template makes XML that is not well-formed: {problem}")
+UNREADABLE_TEMPLATE = Code("LF7207", _E, "template '{path}' cannot be read: {reason}")
+UNUSED_TEMPLATE = Code(
+    "LF7208", _W, "'{name}' is unused: linkforge has no template of that name to replace, and no template includes it"
 )
-FOREIGN_INFO = Code("LF7105", Severity.WARNING, "a sensor of type {type} has no '{info}'; it is left out")

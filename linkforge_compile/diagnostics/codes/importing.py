@@ -1,13 +1,13 @@
-"""LF8xxx: what an imported file is not, and what of it does not come in as it was."""
+"""LF8xxx: what an imported file lacks, and what the import changes or keeps as raw XML."""
 
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
 
-_E, _W = Severity.ERROR, Severity.WARNING
+_E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
 
 # LF800x: XML
 MALFORMED_XML = Code("LF8001", _E, "this is not XML: {problem}")
 DOCUMENT_TYPE = Code(
-    "LF8002", _E, "a document type is refused, for its entities can hold and fetch anything; delete it"
+    "LF8002", _E, "a document type is not allowed, because its entities can read other files; delete it"
 )
 TOO_DEEP = Code("LF8003", _E, "elements are nested more than {limit} deep")
 TOO_MANY_ELEMENTS = Code("LF8004", _E, "the file has more than {limit} elements and comments")
@@ -17,7 +17,7 @@ NO_CHARACTER_OF_A_SPEC = Code("LF8005", _E, "a spec cannot hold the character {c
 # LF801x: URDF
 NOT_A_ROBOT = Code("LF8011", _E, "expected <robot>, found <{tag}>")
 ROBOT_WITHOUT_NAME = Code("LF8012", _E, "the robot has no name; write <robot name='...'>")
-STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro's; it is expanded in a file named '{name}'")
+STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro syntax, which is expanded only in a file named '{name}'")
 
 # What no reader of URDF takes
 NO_NUMBERS = Code("LF8060", _E, "'{name}' of <{tag}> takes {expected}, found '{text}'{way_out}")
@@ -33,81 +33,77 @@ NOTHING_EXPANDED = Code(
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML: {reason}")
 
 ENDS_KEPT_RAW = Code(
-    "LF8090",
-    _W,
-    "lower is {lower} and upper is {upper}: they are kept as raw attributes; a lower limit is not above its upper one",
+    "LF8090", _W, "lower must not be above upper, found {lower} and {upper}; they are kept as raw attributes"
 )
 
 # LF803x: xacro
 XACRO_NOT_INSTALLED = Code(
-    "LF8031",
-    _E,
-    "'{path}' needs the xacro package, which runs its expressions: pip install 'linkforge-compile[xacro]'",
+    "LF8031", _E, "'{path}' needs the xacro package, which runs its expressions: pip install 'linkforge-compile[xacro]'"
 )
 XACRO_FAILED = Code("LF8032", _E, "xacro gives up here: {problem}")
 XACRO_ARGUMENT = Code("LF8033", _E, "'{name}' of a xacro file takes a text, a number, or true or false")
 XACRO_FORBIDDEN = Code("LF8035", _E, "'{path}' is not expanded: the environment sets {variable}")
 XACRO_WARNS = Code("LF8034", _W, "xacro says: {text}")
 
-XACRO_ARGUMENT_TOO_EARLY = Code(
-    "LF8062", _E, "xacro needs '{name}' here, before it comes to its default; write '{remedy}'"
-)
+XACRO_ARGUMENT_TOO_EARLY = Code("LF8062", _E, "xacro uses '{name}' here, before it reads its default; write '{remedy}'")
 XACRO_UNKNOWN_NAME = Code("LF8063", _E, "xacro knows no {kind} named '{name}' here")
-XACRO_FILE_MISSING = Code("LF8064", _E, "xacro needs the file '{path}', which is not there")
-ARGUMENTS_NOT_LISTED = Code("LF8061", Severity.NOTE, "the arguments that '{path}' declares are not listed: {reason}")
+XACRO_FILE_MISSING = Code("LF8064", _E, "xacro needs the file '{path}', which does not exist")
+ARGUMENTS_NOT_LISTED = Code("LF8061", _N, "the arguments that '{path}' declares are not listed: {reason}")
 
 # LF813x: which file goes where
 URDF_FOR_SRDF = Code(
-    "LF8132", _E, "this is a URDF, not an SRDF, for it has a <{tag}> of its own; give the robot's SRDF"
+    "LF8132", _E, "this is a URDF, not an SRDF, because it has a <{tag}> of its own; give the robot's SRDF"
 )
 SRDF_FOR_URDF = Code(
     "LF8145",
     _E,
-    "this is an SRDF, not a URDF, for it has a <{tag}> and no <link>; give the robot's URDF, and this file as its "
-    "'srdf', in a 'use' or to 'linkforge import'",
+    "this is an SRDF, not a URDF, because it has a <{tag}> and no <link>; give the robot's URDF, and "
+    "this file as its 'srdf', in a 'use' or to 'linkforge import'",
 )
 SRDF_OF_ANOTHER = Code(
     "LF8154",
     _W,
-    "none of the links and joints that this SRDF names is in '{robot}', '{name}' the first of {count}; give the SRDF "
-    "of this robot, for all of this one is kept as raw XML",
+    "'{robot}' has none of the {count} links and joints in this SRDF, such as '{name}', so all of it "
+    "is kept as raw XML; give the SRDF of this robot",
 )
 MESH_BESIDE_THE_URDF = Code(
     "LF8130",
     _W,
-    "'{path}' leads nowhere from '{folder}', where the spec goes, for it lies beside the URDF; "
+    "mesh path '{path}' is relative to the URDF and cannot be found from '{folder}', the spec's folder; "
     "write 'package://NAME/PATH', or the spec into '{back}'",
 )
 
 # LF813x: what is said in addition, and loses nothing
 VERSION_FOR_CAPSULE = Code(
     "LF8131",
-    Severity.NOTE,
+    _N,
     '<capsule> came with URDF 1.1, and this file states no version, so what is compiled says version="1.1"; '
     'write <robot version="1.1" ...> here',
 )
 
 # LF81xx: losses
-TEXT_LEFT_OUT = Code("LF8101", _W, "<{tag}> holds no text; '{text}' is left out")
+TEXT_LEFT_OUT = Code("LF8101", _W, "text is not allowed in <{tag}>; '{text}' is left out")
 INSTRUCTION_LEFT_OUT = Code("LF8102", _W, "the processing instruction '{target}' is left out")
 OTHER_ROBOT = Code(
-    "LF8103", _W, "this SRDF is of robot '{name}', the URDF of '{robot}', and a spec has one name; it becomes '{robot}'"
+    "LF8103",
+    _W,
+    "this SRDF names the robot '{name}', the URDF '{robot}', and a spec has one name; it becomes '{robot}'",
 )
-DOES_NOT_COME_OUT = Code("LF8190", _W, "{what} does not come out of the spec")
-BECOMES_OTHER = Code("LF8191", _W, "{what} is '{was}' here, and '{now}' as it comes out of the spec")
+DOES_NOT_COME_OUT = Code("LF8190", _W, "the spec does not reproduce {what}")
+BECOMES_OTHER = Code("LF8191", _W, "{what} is '{was}' here, but the spec compiles to '{now}'")
 SHAPES_REORDERED = Code(
     "LF8140",
     _W,
-    "visuals and collisions of link '{link}' come out of the spec in another order, so MuJoCo shows this one in the "
-    "color of another visual",
+    "visuals and collisions of link '{link}' are in another order in what the spec compiles to, so "
+    "MuJoCo shows this one in the color of another visual",
 )
 COLORS_REORDERED = Code(
     "LF8141",
     _W,
-    "MuJoCo shows this in another of the colors named '{name}' in what comes out of the spec, for it takes the first "
-    "in a file for all that only name it",
+    "MuJoCo shows this in another of the colors named '{name}' in what the spec compiles to, because "
+    "it uses the first one in a file",
 )
-COMES_IN_ADDITION = Code("LF8192", _W, "{what} comes out of the spec, and does not stand here")
+COMES_IN_ADDITION = Code("LF8192", _W, "the spec adds {what}, which is not in this file")
 
 LOSSES = frozenset(
     {

@@ -48,7 +48,8 @@ ORIGIN_WITHOUT_INERTIA = Code(
 SHAPE_ORDER_COUNT = Code(
     "LF5140",
     _E,
-    "shape_order of {owner} lists each shape once, {expected}, found {found}; 'pairs' goes with any number of them",
+    "shape_order of {owner} must list each shape once, {expected}, found {found}; or write 'pairs', "
+    "for any number of them",
 )
 INERTIA_OF_NOTHING = Code("LF5111", _E, "{owner} cannot be computed without a collision or visual; give 'inertia'")
 
@@ -61,52 +62,51 @@ JOINT_TO_ITSELF = Code("LF5205", _E, "{owner} joins link '{link}' to itself")
 
 # LF53xx: modules and the semantic part
 JOINT_WITHOUT_PARENT = Code(
-    "LF5301", _E, "{owner} has '{field}' but no 'parent'; name the link that it hangs on, or leave '{field}' out"
+    "LF5301", _E, "{owner} has '{field}' but no 'parent'; name its parent link, or leave '{field}' out"
 )
 VIRTUAL_JOINT_LEFT_OUT = Code(
-    "LF5302", _N, "virtual joint '{joint}' is left out{others}: '{link}' hangs on another link where this file is used"
+    "LF5302",
+    _N,
+    "virtual joint '{joint}' is left out{others}: the file that uses this one attaches '{link}' to another link",
 )
 EMPTY_GROUP = Code("LF5303", _E, "planning group '{group}' has no chain, links, joints or subgroups")
 PAIR_WITH_ITSELF = Code("LF5304", _E, "a collision pair takes two links, found '{link}' twice")
 UNKNOWN_STATE = Code("LF5305", _E, "group '{group}' has no state '{name}'; it has {states}")
-STATE_CIRCLE = Code("LF5306", _E, "group states take their values from one another in a circle: {path}")
+STATE_CIRCLE = Code("LF5306", _E, "group states take their values from each other in a circle: {path}")
 STATE_VALUE_TWICE = Code("LF5307", _E, "joint '{joint}' has two values in state '{state}' of group '{group}'")
 
 MOUNT_SAYS_ENDS = Code(
-    "LF5321", _E, "{owner} is a mount and has no '{field}': whoever uses this file says where it hangs"
+    "LF5321", _E, "{owner} is a mount and must not set '{field}'; the file that uses this one sets it"
 )
-MOUNT_NOT_AT_ROOT = Code("LF5322", _E, "mount '{joint}' holds '{link}', but the root of this file is '{root}'")
-TWO_MOUNTS = Code("LF5323", _E, "a robot hangs by one joint, and '{joint}' is a second mount beside '{first}'")
+MOUNT_NOT_AT_ROOT = Code(
+    "LF5322", _E, "the child of mount '{joint}' is '{link}', but the root of this file is '{root}'"
+)
+TWO_MOUNTS = Code("LF5323", _E, "a robot has only one mount, and '{joint}' is a second one after '{first}'; remove one")
 MOUNT_AND_JOINT = Code(
     "LF5324",
     _E,
-    "{owner} hangs by its own mount '{joint}'; leave 'joint' out, or write 'override: {{mount: {{{joint}: …}}}}'",
+    "{owner} has its own mount '{joint}'; leave 'joint' out, or write 'override: {{mount: {{{joint}: …}}}}'",
 )
 
 # LF54xx: the tree of links
 NO_LINKS = Code("LF5401", _E, "robot '{robot}' has no links; a robot has at least one")
-SECOND_PARENT = Code(
-    "LF5402",
-    _E,
-    "link '{link}' has two parents: joint '{joint}' hangs it on '{parent}', joint '{first}' on '{other}' already; "
-    "{way_out}",
-)
-LINK_CIRCLE = Code("LF5403", _E, "links hang on one another in a circle: {path}")
+SECOND_PARENT = Code("LF5402", _E, "link '{link}' is the child of two joints, '{first}' and '{joint}'; {way_out}")
+LINK_CIRCLE = Code("LF5403", _E, "links are each other's parents in a circle: {path}")
 SEVERAL_ROOTS = Code(
-    "LF5404", _E, "{count} links are no joint's child: {roots}; only one may be the root, so hang {strays} on '{root}'"
+    "LF5404", _E, "{count} links have no parent: {roots}; only one may be the root, so attach {strays} to '{root}'"
 )
 
 # LF55xx: how far joints go, and joints that follow others
-MIMIC_CIRCLE = Code("LF5501", _E, "joints mimic one another in a circle: {path}")
+MIMIC_CIRCLE = Code("LF5501", _E, "joints mimic each other in a circle: {path}")
 MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis")
-NO_RANGE = Code("LF5503", _W, "joint '{joint}' cannot move: its limits do not say {unsaid}, which URDF takes for 0")
+NO_RANGE = Code("LF5503", _W, "joint '{joint}' cannot move: its limits do not set {unsaid}, which URDF reads as 0")
 EMPTY_RANGE = Code("LF5504", _W, "joint '{joint}' cannot move: its lower and upper limit are both {found}")
 RANGE_OF_ENDLESS_JOINT = Code(
     "LF5505", _W, "joint '{joint}' is continuous and turns beyond its {said}; make it revolute, or leave them out"
 )
 POWERLESS_JOINT = Code("LF5506", _W, "joint '{joint}' cannot be moved: its limit of {fields} is 0")
 SOFT_LIMITS_CROSSED = Code(
-    "LF5507", _W, "joint '{joint}' is held everywhere: its soft limits go from {lower} to {upper}"
+    "LF5507", _W, "soft limits of joint '{joint}' are reversed, from {lower} to {upper}, so it cannot move"
 )
 IDLE_SOFT_LIMIT = Code(
     "LF5508", _W, "joint '{joint}' stops at its {side} limit {hard}, before soft_{side}_limit {soft}"
@@ -121,11 +121,11 @@ MIMIC_STANDS_STILL = Code("LF5509", _W, "joint '{joint}' mimics '{leader}' with 
 MIMIC_OUTSIDE_LIMITS = Code("LF5575", _W, "joint '{joint}' goes {range}, but its leader '{leader}' drives it {found}")
 
 # LF56xx: groups, states and end effectors
-GROUP_CIRCLE = Code("LF5601", _E, "planning groups contain one another in a circle: {path}")
+GROUP_CIRCLE = Code("LF5601", _E, "planning groups contain each other in a circle: {path}")
 CHAIN_UPWARD = Code(
-    "LF5602", _E, "no chain leads from '{base}' down to '{tip}'; '{base}' hangs below '{tip}': swap them"
+    "LF5602", _E, "no chain leads from '{base}' down to '{tip}', because '{base}' is below '{tip}'; swap them"
 )
-CHAIN_ACROSS = Code("LF5603", _W, "'{tip}' does not hang below '{base}'; MoveIt goes up to '{meeting}' and down again")
+CHAIN_ACROSS = Code("LF5603", _W, "'{tip}' is not below '{base}'; MoveIt goes up to '{meeting}' and down again")
 STATE_OUTSIDE_GROUP = Code("LF5604", _W, "joint '{joint}' is not in group '{group}', so state '{state}' cannot set it")
 STATE_VALUE_COUNT = Code("LF5605", _W, "state of {type} joint '{joint}' takes {expected}, found {found}")
 STATE_OUTSIDE_LIMITS = Code("LF5606", _W, "joint '{joint}' goes {range}, found {found}")
@@ -137,25 +137,25 @@ VIRTUAL_JOINT_NOT_AT_ROOT = Code(
 PAIR_TWICE = Code("LF5610", _W, "the pair of '{link1}' and '{link2}' is listed twice")
 PASSIVE_COMMANDED = Code("LF5611", _W, "passive joint '{joint}' is commanded by ros2_control '{control}'")
 PAIR_BOTH_WAYS = Code(
-    "LF5612", _W, "the pair of '{link1}' and '{link2}' is disabled as well, and MoveIt leaves it so; remove one"
+    "LF5612", _W, "the pair of '{link1}' and '{link2}' is also disabled, which MoveIt keeps; remove one"
 )
 STATE_INCOMPLETE = Code("LF5613", _N, "state '{state}' of group '{group}' does not place {joints}")
 STATE_AGAINST_MIMIC = Code(
     "LF5614", _W, "joint '{joint}' mimics '{leader}', which puts it at {expected} in this state, found {found}"
 )
 VIRTUAL_NAME_TAKEN = Code(
-    "LF5615", _W, "virtual joint '{name}' bears the name of a joint, and MoveIt takes one for the other; rename it"
+    "LF5615", _W, "virtual joint '{name}' has the name of another joint, and MoveIt confuses the two; rename it"
 )
 NO_ARM = Code("LF5616", _N, "no planning group holds parent link '{link}', so MoveIt knows no arm for it")
 GROUP_WITHOUT_JOINT = Code("LF5617", _W, "planning group '{group}' has no joint, so MoveIt leaves it out")
 ENABLED_ANYWAY = Code(
     "LF5618",
     _N,
-    "the pair of '{link1}' and '{link2}' is looked at anyway: neither is in 'no_default_collision_links'",
-    in_xml="the pair of '{link1}' and '{link2}' is looked at anyway: neither has a <disable_default_collisions>",
+    "the pair of '{link1}' and '{link2}' is checked anyway: neither is in 'no_default_collision_links'",
+    in_xml="the pair of '{link1}' and '{link2}' is checked anyway: neither has a <disable_default_collisions>",
 )
 STATE_TAKES_OTHERS_ALONG = Code(
-    "LF5680", _W, "state '{state}' takes over {joints} from another group, not in '{group}', and cannot set {them}"
+    "LF5680", _W, "state '{state}' takes {joints} from another group, but '{group}' does not contain {them}"
 )
 
 # LF57xx: sensors, hardware, simulators and raw XML
@@ -163,11 +163,9 @@ ATTRIBUTE_OF_OWNER = Code(
     "LF5701", _E, "'{name}' is an attribute of the element around it; those of {owner} go into 'extra_attributes'"
 )
 LIST_IN_LIST = Code("LF5702", _E, "a list repeats the tag '{field}', so it cannot hold another list")
-TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is said twice; leave one out, in an override by 'null'")
+TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is set twice; remove one, in an override with 'null'")
 TAG_OF_TWO_BLOCKS = Code(
-    "LF5780",
-    _W,
-    "Gazebo's tag '{tag}' of '{owner}' is {found} here, {first} in another block; Gazebo takes the last",
+    "LF5780", _W, "Gazebo's tag '{tag}' of '{owner}' is {found} here, {first} in another block; Gazebo takes the last"
 )
 UNPREFIXED_NAME = Code("LF5704", _W, "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}")
 ABSOLUTE_TOPIC = Code(

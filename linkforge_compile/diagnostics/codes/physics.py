@@ -21,16 +21,14 @@ MASSLESS_BODY = Code(
     "LF6004", _N, "joint '{joint}' moves link '{link}', which has no mass: Gazebo leaves it out with all below it{also}"
 )
 MASSLESS_ROOT = Code("LF6006", _N, "root link '{link}' has no mass: Gazebo leaves it out with all below it{also}")
-TINY_MASS = Code(
-    "LF6005", _W, "joint '{joint}' moves link '{link}' of {mass} kg, which Gazebo takes for no mass and leaves out"
-)
+TINY_MASS = Code("LF6005", _W, "joint '{joint}' moves link '{link}' of {mass} kg, which Gazebo leaves out as massless")
 
 # LF601x: meshes whose inertia is to be computed
 NO_MESH_LIBRARY = Code(
     "LF6010",
     _E,
-    "the inertia of mesh '{path}' takes the Python package {library}; "
-    "run \"pip install 'linkforge-compile[mesh]'\", or give 'inertia'",
+    "the inertia of mesh '{path}' needs the Python package {library}; run \"pip install "
+    "'linkforge-compile[mesh]'\", or give 'inertia'",
 )
 NO_SUCH_MESH = Code("LF6011", _E, "there is no mesh '{path}', so no inertia can be computed from it", _VALUE)
 UNREADABLE_MESH = Code("LF6012", _E, "mesh '{path}' cannot be read, so no inertia can be computed from it: {reason}")
@@ -60,7 +58,7 @@ MIRRORED_COLLISIONS = Code(
     "LF6024", _N, "collision meshes of {links} are mirrored by their scale, and Gazebo Sim makes no collision of them"
 )
 FINE_COLLISIONS = Code(
-    "LF6025", _N, "collisions of {links} are the meshes that are seen, of {triangles} triangles; contacts will be slow"
+    "LF6025", _N, "collisions of {links} are the visual meshes, with {triangles} triangles; contacts will be slow"
 )
 
 # LF603x: mass and inertia against the shapes
@@ -86,29 +84,29 @@ FAR_CENTRE = Code(
 TURNED_PRODUCTS = Code(
     "LF6036",
     _W,
-    "inertia of link '{link}' is that of its shapes with the signs of ixy, ixz and iyz turned; turn all three",
+    "inertia of link '{link}' is that of its shapes with the opposite signs of ixy, ixz and iyz; change all three",
 )
 
 # LF604x: links that Gazebo merges
 BLOCK_OF_MERGED_JOINT = Code(
     "LF6040",
     _N,
-    "Gazebo merges the links of fixed joint '{joint}' and drops this; say `preserveFixedJoint: true` in it",
-    in_xml="Gazebo merges the links of fixed joint '{joint}' and drops this; "
-    "say <preserveFixedJoint>true</preserveFixedJoint> in it",
+    "Gazebo merges the links of fixed joint '{joint}' and drops this; set `preserveFixedJoint: true` in it",
+    in_xml="Gazebo merges the links of fixed joint '{joint}' and drops this; write "
+    "<preserveFixedJoint>true</preserveFixedJoint> in it",
 )
 MERGED_LINK_NAMED = Code(
     "LF6041",
     _N,
-    "Gazebo merges '{link}' into '{parent}', so this plugin finds no such link; "
-    "say `preserveFixedJoint: true` in the `gazebo` of joint '{joint}'",
-    in_xml="Gazebo merges '{link}' into '{parent}', so this plugin finds no such link; "
-    "say <preserveFixedJoint>true</preserveFixedJoint> in the <gazebo> of joint '{joint}'",
+    "Gazebo merges '{link}' into '{parent}', so this plugin finds no such link; set "
+    "`preserveFixedJoint: true` in the `gazebo` of joint '{joint}'",
+    in_xml="Gazebo merges '{link}' into '{parent}', so this plugin finds no such link; write "
+    "<preserveFixedJoint>true</preserveFixedJoint> in the <gazebo> of joint '{joint}'",
 )
 
 # LF605x: shapes to see and to touch
 UNTOUCHED_VISUALS = Code("LF6050", _N, "{links} a visual and no collision, so everything passes through")
-UNSEEN_COLLISIONS = Code("LF6051", _N, "{links} a collision and no visual, so nobody sees what is touched")
+UNSEEN_COLLISIONS = Code("LF6051", _N, "{links} a collision and no visual, so what others touch is invisible")
 
 # LF61xx: ros2_control
 COMMANDED_TWICE = Code("LF6101", _E, "interface '{interface}' is commanded by {first} already")
@@ -124,7 +122,9 @@ NO_MIMIC = Code("LF6106", _W, "joint '{joint}' is to mimic another in ros2_contr
 UNKNOWN_INTERFACE = Code("LF6107", _W, "ros2_control has no interface '{name}' of its own")
 PARAMETER_NO_NUMBER = Code("LF6108", _W, "{parameter} is a number in SI units to ros2_control, found '{found}'")
 RANGE_CROSSED = Code("LF6109", _W, "min must not be above max, found {min} and {max}")
-RANGE_OUTSIDE_LIMITS = Code("LF6110", _W, "joint '{joint}' goes {range}, which leaves nothing from {min} to {max}")
+RANGE_OUTSIDE_LIMITS = Code(
+    "LF6110", _W, "joint '{joint}' goes {range}, which has nothing in common with {min} to {max}"
+)
 STARTS_OUTSIDE_LIMITS = Code("LF6111", _W, "joint '{joint}' goes {range}, but starts at {found}")
 NO_INTERFACE = Code("LF6112", _N, "{owner} has no interface, so no controller can use it")
 RANGE_FAR_BEYOND = Code(

@@ -115,7 +115,7 @@ def _read_references(
     def read(reader: ElementReader) -> YamlNode:
         if kind == "group" and reader.element.get(attribute) in names.unread_groups:
             reference = reader.attribute(attribute)
-            reason = f"planning group '{reference.value}' contains the one that it stands in"
+            reason = f"planning group '{reference.value}' contains the group that it is in"
             raise CannotRepresentError(reason, reference.span)
         node = read_reference(reader, attribute, kind, names.by_kind)
         reader.require_used_up()
@@ -256,7 +256,7 @@ def _read_nested(
             raise part.cannot_represent(f"it lacks '{keys[0]}' or '{keys[1]}'")
         _, group = groups.setdefault(outer.value, (outer, {}))
         if inner.value in group:
-            raise CannotRepresentError(f"'{outer.value}' and '{inner.value}' stand there already", inner.span)
+            raise CannotRepresentError(f"'{outer.value}' and '{inner.value}' are there already", inner.span)
         group[inner.value] = inner, node
         first_elements.setdefault(outer.value, part.element)
         return node

@@ -96,7 +96,7 @@ def _in_name(element: XmlElement, names: dict[tuple[str, str], XmlElement]) -> I
         return
     first = names.setdefault((element.tag, name), element)
     if first is not element:
-        notes = [Note("the other stands here", first.span)]
+        notes = [Note("the other is here", first.span)]
         where = element.attributes["name"].span
         yield Refusal(NAME_IS_TAKEN.at(where, tag=element.tag, name=name, notes=notes), ())
 

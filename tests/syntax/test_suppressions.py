@@ -6,16 +6,16 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file, compile_text
-from linkforge_compile.diagnostics.runs import told_once
+from linkforge_compile.diagnostics.reports import merge_reports
 from linkforge_compile.limits import Limit
 from linkforge_compile.pipeline import check_variants
 from linkforge_compile.source import SourceFile
-from linkforge_compile.syntax.parser import ignore_comments
+from linkforge_compile.syntax.parser import suppressions_in
 from tests.yaml_case import compile_yaml
 
 
 def found(text: str) -> list[tuple[int, list[str]]]:
-    return [(one.line, [code for code, _ in one.codes]) for one in ignore_comments(SourceFile("a.robot.yaml", text))]
+    return [(one.line, [code for code, _ in one.codes]) for one in suppressions_in(SourceFile("a.robot.yaml", text))]
 
 
 @pytest.mark.parametrize(
@@ -43,7 +43,7 @@ def test_a_comment_is_found_where_yaml_sees_one(text: str, ignores: list[tuple[i
 
 
 def test_a_comment_is_placed_at_its_codes():
-    (ignore,) = ignore_comments(SourceFile("a.robot.yaml", "é: 1  # linkforge: ignore LF6003, LF6004"))
+    (ignore,) = suppressions_in(SourceFile("a.robot.yaml", "é: 1  # linkforge: ignore LF6003, LF6004"))
     assert str(ignore.span) == "a.robot.yaml:1:7"
     assert [(span.column, span.text) for _, span in ignore.codes] == [(27, "LF6003"), (35, "LF6004")]
 
@@ -87,8 +87,8 @@ joints: {weld: {type: fixed, parent: base, child: tool}}
     (tmp_path / "arm.robot.yaml").write_text(text)
     runs = {str(name): one.diagnostics for name, one in check_variants(tmp_path / "arm.robot.yaml").items()}
     assert [one.code.id for one in runs["None"]] == ["LF1204", "LF1204"]
-    (reported,) = told_once(runs)
-    assert reported.message == "LF6004 is not told on line 9, so there is nothing to ignore"
+    (reported,) = merge_reports(runs)
+    assert reported.message == "LF6004 is not reported on line 9; remove it from this comment"
 
 
 def test_comments_are_counted_by_their_codes_and_end_the_compile_beyond_the_bound(monkeypatch: pytest.MonkeyPatch):

@@ -1,9 +1,10 @@
-"""What of a report is told, and how seriously it is taken."""
+"""Which diagnostics a report shows, with which severity, and the report of several runs."""
 
 import pytest
 
 from linkforge_compile.diagnostics import Code, Severity
-from linkforge_compile.diagnostics.selection import Selection
+from linkforge_compile.diagnostics.reports import Selection, merge_reports
+from linkforge_compile.source import SourceFile, Span
 
 ERROR = Code("LF5001", Severity.ERROR, "wrong").at(None)
 HEAVY = Code("LF6001", Severity.WARNING, "heavy").at(None)
@@ -40,3 +41,29 @@ def test_warnings_are_errors_where_that_is_asked_for_and_notes_are_not():
 def test_quiet_keeps_the_warnings_that_are_errors():
     told = Selection(warnings_are_errors=True, errors_only=True).of(REPORT)
     assert [one.code.id for one in told] == ["LF6001", "LF5001", "LF5606"]
+
+
+FAULT = Code("LF0001", Severity.ERROR, "{what} is wrong")
+
+
+def fault(what: str, line: int):
+    """Make a fault of a file that was read for it alone."""
+    return FAULT.at(Span(SourceFile("arm.yaml", ""), line, 1, line, 2), what=what)
+
+
+def test_each_fault_is_told_once_and_says_where_it_shows():
+    runs = {
+        "the defaults": [fault("all", 3)],
+        "variant 'a'": [fault("some", 2), fault("all", 3)],
+        "variant 'b'": [fault("all", 3), fault("one", 1), fault("some", 2)],
+    }
+    told = merge_reports(runs)
+    assert [(one.message, [note.message for note in one.notes]) for one in told] == [
+        ("one is wrong", ["with variant 'b' only"]),
+        ("some is wrong", ["with variant 'a' and variant 'b'"]),
+        ("all is wrong", []),
+    ]
+
+
+def test_the_faults_of_one_run_need_no_note():
+    assert merge_reports({"the defaults": [fault("it", 1)]})[0].notes == ()

@@ -18,19 +18,18 @@ _WIDEST_LINE = 160
 _CONTEXT_BEFORE = 60
 
 MOST_OF_ONE_NAME = 3
-"""In how many places text tells that a name is declared nowhere; it may be one slip where it should be."""
+"""How many uses of one undeclared name the text shows; all of them may have one cause, in the declaration."""
 
 MOST_SHOWN = 100
-"""How many diagnostics one screenful of text tells: behind so many nobody reads on, and the first may be the cause."""
+"""How many diagnostics the text shows; the first ones may be the cause of the others."""
 
 
 def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> str:
-    """Return as `render_text` does the first errors, the first others where there is room, and how many more.
+    """Return the first diagnostics, errors before others, as `render_text` does, and how many more there are.
 
-    Of a name that a file has nowhere the first places are told, and how many more there are. What says that the report
-    is not the whole one is always among them.
+    Of each undeclared name only the first uses are shown. Diagnostics that end the report are always shown.
     """
-    diagnostics = tuple(_each_name_thrice(diagnostics))
+    diagnostics = tuple(_shorten_floods(diagnostics))
     errors = [one for one in diagnostics if one.severity is Severity.ERROR][:MOST_SHOWN]
     others = [one for one in diagnostics if one.severity is not Severity.ERROR][: MOST_SHOWN - len(errors)]
     ends = [one for one in diagnostics if one.code.ends_report]
@@ -40,20 +39,20 @@ def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> 
     return text + f"… and {_counts(rest, Severity)} more\n" if rest else text
 
 
-def _each_name_thrice(told: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
-    """Yield diagnostics in their order; of one name that a file has nowhere, the first three, and how many more."""
+def _shorten_floods(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+    """Yield diagnostics in their order; of each undeclared name the first MOST_OF_ONE_NAME, and how many more."""
     of_a_name = defaultdict[tuple[str, str, int, str], list[Diagnostic]](list)
-    for one in told:
-        if one.code.is_of_a_name and one.span:
-            of_a_name[one.code.id, one.message, one.left_out, one.span.file.name].append(one)
+    for one in diagnostics:
+        if one.code.is_unknown_name and one.span:
+            of_a_name[one.code.id, one.message, one.full_text_hash, one.span.file.name].append(one)
     floods = [same for same in of_a_name.values() if len(same) > MOST_OF_ONE_NAME]
     left_out = {id(one) for same in floods for one in same[MOST_OF_ONE_NAME:]}
     lasts = {id(same[MOST_OF_ONE_NAME - 1]): same for same in floods}
-    for one in told:
+    for one in diagnostics:
         if id(one) in lasts:
             following = lasts[id(one)][MOST_OF_ONE_NAME:]
             note = Note(f"and {len(following):,} more like this, the next one here", following[0].span)
-            yield replace(one, notes=(*one.notes, note), untold=one.untold + len(following))
+            yield replace(one, notes=(*one.notes, note), omitted=one.omitted + len(following))
         elif id(one) not in left_out:
             yield one
 
@@ -64,15 +63,15 @@ def render_text(diagnostics: Iterable[Diagnostic], *, colour: bool = False) -> s
 
 
 def summary(diagnostics: Iterable[Diagnostic]) -> str:
-    """Return "2 errors, 1 warning", or "no errors" where there is neither."""
+    """Return such as "2 errors, 1 warning"; "no errors" if there is neither."""
     return _counts(diagnostics, (Severity.ERROR, Severity.WARNING)) or "no errors"
 
 
 def _counts(diagnostics: Iterable[Diagnostic], severities: Iterable[Severity]) -> str:
-    """Return "2 errors, 1 warning", with those that are only counted; empty for none of either."""
+    """Return such as "2 errors, 1 warning", with those that are omitted; empty for none."""
     found = Counter[Severity]()
     for diagnostic in diagnostics:
-        found[diagnostic.severity] += 1 + diagnostic.untold
+        found[diagnostic.severity] += 1 + diagnostic.omitted
     counts = [(found[severity], severity) for severity in severities]
     return ", ".join(f"{count:,} {severity}{'s' if count > 1 else ''}" for count, severity in counts if count)
 
@@ -96,7 +95,7 @@ def _headline(span: Span | None, severity: Severity, message: str, colour: bool)
 def snippet(span: Span | None, colour: str = "") -> Iterator[str]:
     """Yield the first line of the span and a caret line in the colour, an ANSI sequence or "" for none.
 
-    Nothing where the file has no such line, or one of spaces.
+    Yield nothing if the file has no such line, or if it is blank.
     """
     if span is None or not (line := span.file.line(span.line)).strip(" "):
         return
@@ -115,14 +114,14 @@ def snippet(span: Span | None, colour: str = "") -> Iterator[str]:
 
 
 def _cells(char: str) -> int:
-    """Return how many columns of a terminal a character takes; an accent that stands alone goes onto the one before."""
+    """Return how many columns of a terminal a character fills; 0 for a combining accent."""
     if combining(char):
         return 0
     return 2 if east_asian_width(char) in "WF" else 1
 
 
 def _padding(text: str) -> str:
-    """Return white space as wide as `text`: tabs stay tabs, as wide characters take two columns."""
+    """Return white space as wide as `text`; tabs stay tabs, and a wide character gives two spaces."""
     return "".join("\t" if char == "\t" else " " * _cells(char) for char in text)
 
 
