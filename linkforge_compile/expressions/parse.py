@@ -79,7 +79,11 @@ def _parse_expression(text: str, offset: int, place: TextPlace, sink: Diagnostic
         return None
     text = _STRINGS_AND_SPACES.sub(lambda found: found[0] if found[0][0] in "'\"" else " ", text)
     try:
-        tree = _parse_python(text)
+        with warnings.catch_warnings():
+            # Python warns on standard error of `1if` and of unknown escapes, in a file that does not exist.
+            warnings.simplefilter("ignore")
+            # The parentheses make leading spaces valid.
+            tree = ast.parse(f"({text})", mode="eval").body
     except (SyntaxError, MemoryError, RecursionError, ValueError) as error:
         if isinstance(error, SyntaxError) and error.msg != "too many nested parentheses":
             start, length, problem = explain_syntax_error(text, error)
@@ -91,14 +95,6 @@ def _parse_expression(text: str, offset: int, place: TextPlace, sink: Diagnostic
     faults = tuple(refusals(expression))
     sink.report_all(faults)
     return None if faults else with_names(expression)
-
-
-def _parse_python(text: str) -> ast.expr:
-    with warnings.catch_warnings():
-        # Python warns on standard error of `1if` and of unknown escapes, in a file that does not exist.
-        warnings.simplefilter("ignore")
-        # The parentheses make leading spaces valid.
-        return ast.parse(f"({text})", mode="eval").body
 
 
 # Text in which `$( )` was forgotten
@@ -124,13 +120,12 @@ def as_one_expression(text: str, where: Span, names: Container[str]) -> str | No
     """Return text around expressions as one expression: "$(track / 2)" for "$(track) / 2"; None if that fails."""
     template = parse_template(text, where, Diagnostics())
     parts = template.parts if template else ()
-    inside = "".join(part if isinstance(part, str) else _as_operand(part) for part in parts)
+    inside = ""
+    for part in parts:
+        text = part if isinstance(part, str) else part.text.strip()
+        needs_none = isinstance(part, str) or isinstance(part.tree, _NEEDS_NO_PARENTHESES)
+        inside += text if needs_none else f"({text})"
     return forgotten_expression(inside, where, names) if len(parts) > 1 else None
-
-
-def _as_operand(expression: Expression) -> str:
-    text = expression.text.strip()
-    return text if isinstance(expression.tree, _NEEDS_NO_PARENTHESES) else f"({text})"
 
 
 def _is_literal(tree: ast.expr) -> bool:
@@ -220,8 +215,11 @@ def _fault(node: ast.expr, expression: Expression) -> Diagnostic | None:
     match node:
         case ast.Constant(value=value):
             return _constant_fault(node, value, expression)
+        case ast.Name(id=name) if name in SIGNATURES:
+            signature = SIGNATURES[name].signature
+            return codes.FUNCTION_NOT_CALLED.at(expression.span(node), function=name, signature=signature)
         case ast.Name():
-            return _name_fault(node, expression)
+            return None
         case ast.Call():
             return _call_fault(node, expression)
         case ast.BinOp(left=left, op=operator, right=right) if type(operator) not in ARITHMETIC:
@@ -279,13 +277,6 @@ def _constant_fault(node: ast.Constant, value: object, expression: Expression) -
         what=f"'{expression.written(node)}'",
         instead="values are numbers, text, true, false and null",
     )
-
-
-def _name_fault(node: ast.Name, expression: Expression) -> Diagnostic | None:
-    if node.id not in SIGNATURES:
-        return None
-    signature = SIGNATURES[node.id].signature
-    return codes.FUNCTION_NOT_CALLED.at(expression.span(node), function=node.id, signature=signature)
 
 
 def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:

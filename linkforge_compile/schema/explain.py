@@ -13,7 +13,7 @@ from jsonschema import Draft7Validator
 
 from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics, notes_of, too_many_errors
 from linkforge_compile.diagnostics.codes import schema as codes
-from linkforge_compile.diagnostics.codes import syntax
+from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, TAB_INDENTATION, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.hint_rules import is_row, value_hint, word_hint
 from linkforge_compile.schema.json_schema import LinkedSchema, Schema, linked_part, mapping
@@ -60,7 +60,9 @@ _LEVEL_HINT = "; so are all entries here: is a line with a name missing above, o
 
 def report_mismatches(tree: YamlMap, sink: Diagnostics, *, is_included: bool) -> YamlMap:
     """Report each node of a file that does not match the schema; return the file without them."""
-    errors = (error for error in _errors(tree, is_included) if not _is_under_reserved_name(error))
+    absent = {name for name in HEADER if tree.get(name) is None}
+    data = {entry.name: plain(entry.value) for entry in tree if entry.name not in absent}
+    errors = (error for error in _validator(is_included).iter_errors(data) if not _is_under_reserved_name(error))
     # A hostile file has a hundred thousand errors; explaining more than are shown would take long.
     return _report(tree, list(islice(_findings(errors, tree), MAX_KEPT + 1)), sink)
 
@@ -79,14 +81,6 @@ def report_computed_mismatches(
     errors = Draft7Validator(whole).iter_errors({key: plain(written)})
     findings = [finding for finding in _findings(errors, shown) if len(finding.path) > 1]
     return _report(tree, findings, sink).entries[key].value
-
-
-def _errors(tree: YamlMap, is_included: bool) -> Iterator[ValidationError]:
-    data = {entry.name: plain(entry.value) for entry in tree}
-    for name in HEADER:
-        if tree.get(name) is None:
-            data.pop(name, None)
-    return _validator(is_included).iter_errors(data)
 
 
 @cache
@@ -231,10 +225,10 @@ def _explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
             if inner.schema_path[0] == branch:
                 yield from _explain(inner, tree)
     elif isinstance(node, YamlScalar) and _lacks_space(node, mismatch.schema):
-        yield Finding(syntax.SPACE_AFTER_COLON.at(node.span, text=node.text), path)
+        yield Finding(SPACE_AFTER_COLON.at(node.span, text=node.text), path)
     elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
         for one in facts:
-            yield Finding(syntax.XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
+            yield Finding(XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
     else:
         yield from _EXPLAIN[str(error.validator)](mismatch)
 
@@ -254,9 +248,7 @@ def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
         hinted = f"; {hint}" if hint else ""
         fault = codes.UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
         if space_like := find_like_space(first):
-            fault = syntax.TAB_INDENTATION.at(
-                space_like, found=f"{code_point(space_like.text or '')}, which looks like one"
-            )
+            fault = TAB_INDENTATION.at(space_like, found=f"{code_point(space_like.text or '')}, which looks like one")
         yield Finding(fault, (*path, first.name), tuple((*path, other.name) for other in others))
 
 
@@ -310,9 +302,8 @@ def _wrong_length(mismatch: SchemaMismatch) -> Iterator[Finding]:
     # A row of numbers without commas is reported at its item.
     if isinstance(node, YamlList) and not any(map(is_row, node)):
         actual = f"{len(node)}{value_hint(mismatch)}"
-        yield Finding(
-            codes.WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=actual), path
-        )
+        fault = codes.WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=actual)
+        yield Finding(fault, path)
 
 
 def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:
@@ -326,10 +317,8 @@ def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:
             known = next(one for one in node if one.name in entry.keys)
             name = "NAME" if first is known else first.name
             actual = f"the keys of a single one; write '{field}: {{{name}: {{{known.name}: …}}}}'"
-            where = known.key.span
-            return Finding(
-                codes.WRONG_KIND.at(where, field=f"'{field}'", expected=shape.title, found=actual), path[:length]
-            )
+            fault = codes.WRONG_KIND.at(known.key.span, field=f"'{field}'", expected=shape.title, found=actual)
+            return Finding(fault, path[:length])
         inner = node.child(key)
         if not isinstance(inner, YamlMap):
             return None

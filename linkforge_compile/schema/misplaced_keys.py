@@ -10,7 +10,14 @@ from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.schema import SECTION_LINE_INDENTED, SECTION_LINE_LOST
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.hint_rules import number_hint
-from linkforge_compile.schema.hints import known_key_hint, number_of_list_hint, other_key_hint
+from linkforge_compile.schema.hints import (
+    ESSENTIAL_KEYS,
+    MAY_BE_EMPTY,
+    OF_ANY_VALUE,
+    known_key_hint,
+    number_of_list_hint,
+    other_key_hint,
+)
 from linkforge_compile.schema.json_schema import Json, Schema, branches, has_names, mapping
 from linkforge_compile.schema.registry import accepts
 from linkforge_compile.schema.shapes import (
@@ -192,9 +199,8 @@ def restore_sections(tree: YamlMap, sink: Diagnostics) -> YamlMap:
     if semantic is None or not isinstance(semantic.value, YamlMap):
         return tree
     part = _restore_in(semantic.value, shapes().under("semantic"), sink)
-    if part is semantic.value:
-        return tree
-    return YamlMap({**tree.entries, "semantic": YamlEntry(semantic.key, part)}, tree.span)
+    entries = {**tree.entries, "semantic": YamlEntry(semantic.key, part)}
+    return tree if part is semantic.value else YamlMap(entries, tree.span)
 
 
 def _restore_in(node: YamlMap, shape: Shape, sink: Diagnostics) -> YamlMap:
@@ -255,11 +261,11 @@ def _is_indented(line: YamlEntry, below: Sequence[YamlEntry], name: str, around:
     """Whether an entry without a value is the indented line of the section whose entries follow it."""
     if not is_null(line.value) or line.name in around.keys or not all(_may_be_of(section, entry) for entry in below):
         return False
-    if name in _OF_ANY_VALUE:
+    if name in OF_ANY_VALUE:
         known, keyed = _keys_of_entries(section), [entry for entry in below if isinstance(entry.value, YamlMap)]
         if not any(section.is_object or (_may_contain(section, entry) and _keys(entry) & known) for entry in keyed):
             return False
-    return around.things not in _MAY_BE_EMPTY or not all(_may_contain(around, entry) for entry in below)
+    return around.things not in MAY_BE_EMPTY or not all(_may_contain(around, entry) for entry in below)
 
 
 def _may_be_of(section: Shape, entry: YamlEntry) -> bool:
@@ -293,7 +299,7 @@ def _begin(inner: Sequence[YamlEntry], around: Shape, name: str, section: Shape)
     tail = inner[at:]
     is_whole = any(not is_null(entry.value) and not _lacks_essential_key(entry, section) for entry in tail)
     # A joint with few fields may be a link as well.
-    is_clear = section.things in _ESSENTIAL or not all(_is_valid_in(around, entry) for entry in tail)
+    is_clear = section.things in ESSENTIAL_KEYS or not all(_is_valid_in(around, entry) for entry in tail)
     return at if is_whole and is_clear else 0
 
 
@@ -314,7 +320,7 @@ def _belongs(entry: YamlEntry, around: Shape, name: str, section: Shape) -> bool
 def _may_contain(section: Shape, entry: YamlEntry) -> bool:
     """Whether an entry may be one of a section: it is valid there and has the essential key."""
     if is_null(entry.value):
-        return section.things in _MAY_BE_EMPTY
+        return section.things in MAY_BE_EMPTY
     return _is_valid_in(section, entry) and not _lacks_essential_key(entry, section)
 
 
@@ -324,7 +330,7 @@ def _is_valid_in(section: Shape, entry: YamlEntry) -> bool:
 
 def _lacks_essential_key(entry: YamlEntry, section: Shape) -> bool:
     """Whether an entry has no key that all entries of the section have."""
-    essential = _ESSENTIAL.get(section.things)
+    essential = ESSENTIAL_KEYS.get(section.things)
     return essential is not None and isinstance(entry.value, YamlMap) and essential not in entry.value.entries
 
 
@@ -337,22 +343,3 @@ def _keys_of_entries(section: Shape) -> Set[str]:
     entry = section.schema.get("additionalProperties")
     kinds = branches(entry) if isinstance(entry, dict) else []
     return {key for kind in kinds for key in mapping(kind.get("properties", {}))} - COMMON_KEYS
-
-
-_MAY_BE_EMPTY = {"links"}
-"""Sections whose entries may be empty: a link may, and have any name."""
-
-_OF_ANY_VALUE = {"metadata", "variables"}
-"""Sections whose entries may have any value, or none."""
-
-_ESSENTIAL = {
-    "joints": "child",
-    "frames": "parent",
-    "modules": "use",
-    "sensors": "link",
-    "transmissions": "joints",
-    "ros2_control blocks": "hardware_plugin",
-    "virtual joints": "child_link",
-    "end effectors": "parent_link",
-}
-"""The key that every entry of a section has."""

@@ -151,7 +151,7 @@ class Span(NamedTuple):
 
     @property
     def origin(self) -> Origin | None:
-        """Where an expression here takes its value from; None for a value that is written or made here."""
+        """Where an expression here gets its value from; None for a value that is written or made here."""
         return None
 
     @property
@@ -197,7 +197,7 @@ class Trace(Protocol):
 class TracedSpan(Span):
     """The place of a value that an expression computes, or in which overrides changed something.
 
-    `trace` follows the value of the expression, and `path` leads from its whole value to the part that stands here.
+    `trace` follows the value of the expression, and `path` leads from its whole value to the part that is here.
     """
 
     trace: Trace | None
