@@ -101,19 +101,16 @@ def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagn
         instead = "write constants and functions without a module: pi"
         return codes.NOT_IN_EXPRESSIONS.at(expression.span(name), what=f"'{name.id}'", instead=instead)
     near = [*scope, *CONSTANTS]
-    is_text = _is_compared(name, expression.tree) and nearest(name.id, near) is None
+    # Users often intend text on one side of a comparison.
+    comparisons = (node for node in ast.walk(expression.tree) if isinstance(node, ast.Compare))
+    is_compared = any(name is side for node in comparisons for side in (node.left, *node.comparators))
+    is_text = is_compared and nearest(name.id, near) is None
     hint = f"; write text in quotes: '{name.id}'" if is_text else ""
     return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, hint=hint, near=near)
 
 
 _PYTHON_MODULES = ("math", "numpy", "np")
 """Modules that Python programs use pi and sin from."""
-
-
-def _is_compared(name: ast.Name, tree: ast.expr) -> bool:
-    """Whether a name is one side of a comparison, where users often intend text."""
-    comparisons = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
-    return any(name is side for node in comparisons for side in (node.left, *node.comparators))
 
 
 class _FaultError(Exception):

@@ -152,10 +152,10 @@ def has_names(schema: Schema) -> bool:
 
 def is_short_form(schema: Schema) -> bool:
     """Whether a schema describes a text, a number or a list in place of an object, but not an expression."""
-    return "object" not in str(schema.get("type")) and schema.get("pattern") != _EXPRESSION and "type" in schema
+    return "object" not in str(schema.get("type")) and schema.get("pattern") != EXPRESSION and "type" in schema
 
 
-_EXPRESSION = r"\$\("
+EXPRESSION = r"\$\("
 """The pattern of a text that must be an expression."""
 
 
@@ -253,8 +253,8 @@ class _PatchForms:
             form["additionalProperties"] = self._form(mapping(form["additionalProperties"]))
         if not is_list(schema):
             return form
-        union: list[Json] = [form, self._positions(schema)]
-        return {"anyOf": union, **_descriptions(schema)}
+        descriptions = {key: value for key, value in schema.items() if key.endswith(("escription", "examples"))}
+        return {"anyOf": [form, self._positions(schema)], **descriptions}
 
     def _union(self, parts: list[Schema]) -> list[Schema]:
         """Return the branches of a union; next to a list of objects, a map may patch the object or the list."""
@@ -298,7 +298,3 @@ class _PatchForms:
         if isinstance(words := schema.get("enum"), list):
             form["enum"] = [*words, None]
         return form
-
-
-def _descriptions(schema: Schema) -> Schema:
-    return {key: value for key, value in schema.items() if key.endswith(("escription", "examples"))}

@@ -115,15 +115,11 @@ def _with_local_references(node: Json) -> Json:
         return [_with_local_references(item) for item in node]
     if not isinstance(node, dict):
         return node
-    return {
-        key: _with_local_references(value) if key != "$ref" else _local_reference(str(value))
-        for key, value in node.items()
-    }
-
-
-def _local_reference(reference: str) -> str:
-    file, _, pointer = reference.partition("#/definitions/")
-    return f"#/definitions/{pointer or file.removesuffix(_SUFFIX)}"
+    local = {key: _with_local_references(value) for key, value in node.items()}
+    if "$ref" in node:
+        file, _, pointer = str(node["$ref"]).partition("#/definitions/")
+        local["$ref"] = f"#/definitions/{pointer or file.removesuffix(_SUFFIX)}"
+    return local
 
 
 HEADER = ("linkforge", "name")

@@ -9,6 +9,7 @@ from functools import cache
 from typing import Final, NamedTuple, TypeAlias
 
 from linkforge_compile.schema.json_schema import (
+    EXPRESSION,
     LONG_FORM,
     POSITION,
     RAW,
@@ -133,9 +134,6 @@ class Shape:
 _UNIT = re.compile(r"number \[(\S+)\]")
 """The unit of a number in a schema's message, if there is only one: "[kg]", not "[rad or m]"."""
 
-_EXPRESSION = r"\$\("
-"""The pattern of a text that must be an expression."""
-
 
 def _is_free_part(schema: Schema) -> bool:
     values = schema.get("additionalProperties")
@@ -146,7 +144,7 @@ def _read_as(schema: Schema) -> str | None:
     """Return the first kind of scalar that a schema names; None if it allows only expressions."""
     kinds = schema.get("type")
     first = kinds[0] if isinstance(kinds, list) else kinds
-    is_expression = first == "string" and schema.get("pattern") == _EXPRESSION
+    is_expression = first == "string" and schema.get("pattern") == EXPRESSION
     return None if is_expression or first in ("object", "array") or first is None else str(first)
 
 

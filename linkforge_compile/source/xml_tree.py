@@ -6,6 +6,7 @@ lxml knows the line of an element, but no columns, nor the places of attributes 
 from __future__ import annotations
 
 import re
+from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -127,7 +128,9 @@ def document_of(file: SourceFile, walked: Places | None = None) -> XmlDocument:
     """
     from lxml import etree
 
-    places = walked or walked_over(file.counted)
+    places = walked or Places(file.counted)
+    if walked is None:
+        deque(places.walk(), maxlen=0)
     text = places.text
     try:
         root = etree.fromstring(places.without_namespaces.encode(), safe_parser("utf-8"))
@@ -285,14 +288,6 @@ class Places:
         lxml would resolve prefixes and refuse undeclared ones; names are kept as written instead.
         """
         return "".join((*self._hidden, self.text[self._hidden_to :]))
-
-
-def walked_over(text: str) -> Places:
-    """Return the places in a text."""
-    places = Places(text)
-    for _ in places.walk():
-        pass
-    return places
 
 
 def as_written(name: str) -> str:
