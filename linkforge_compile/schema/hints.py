@@ -1,6 +1,6 @@
 """The table of hints: keys, words and colors that users write out of habit, and what to write instead.
 
-A new hint is a row here. Keys without a row get a did-you-mean or the list of keys, from `key_hints`.
+A new hint is a row here. Keys without a row get a did-you-mean or the list of keys, from `misplaced_keys`.
 """
 
 from __future__ import annotations
