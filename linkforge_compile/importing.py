@@ -12,7 +12,7 @@ from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_TH
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import XACRO, Arguments, ImportSite, Loader, SpecFile
-from linkforge_compile.expand.assembly import charge_entries
+from linkforge_compile.expand.uses import charge_entries
 from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
@@ -25,7 +25,7 @@ from linkforge_compile.syntax import YamlMap, read
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
-    from linkforge_compile.expand.merge_srdf import Semantic
+    from linkforge_compile.expand.expand_uses import Semantic
     from linkforge_compile.formats.urdf import Gazebo
 
 _IMPORTED = (URDF, SRDF)
@@ -206,8 +206,8 @@ _Read = tuple[SourceFile, Imported]
 
 
 def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnostics) -> Semantic | None:
-    from linkforge_compile.expand.merge_srdf import open_semantic
-    from linkforge_compile.expand.xacro_use import XacroUse
+    from linkforge_compile.expand.expand_uses import open_semantic
+    from linkforge_compile.expand.xacro import XacroUse
 
     # The user named it like the URDF, and a xacro of MoveIt includes files from its own package.
     loader.roots = loader.roots.with_those_around(srdf)
@@ -233,8 +233,7 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader,
 
 
 def _read_xacro(xacro: Path, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
-    from linkforge_compile.expand.xacro import read_xacro
-    from linkforge_compile.expand.xacro_use import XacroUse
+    from linkforge_compile.expand.xacro import XacroUse, read_xacro
 
     expanded = read_xacro(
         XacroUse(xacro, ImportSite(str(xacro), None), arguments, used_elsewhere=taken), loader, sink, keeps_refused=True

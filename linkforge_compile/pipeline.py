@@ -26,7 +26,7 @@ from linkforge_compile.expand import (
     arguments_from_values,
     expand,
 )
-from linkforge_compile.formats import NO_OPTIONS, Options, limits, require_options
+from linkforge_compile.formats import NO_OPTIONS, Options, report_limits, require_options
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.limits import Budget
@@ -154,7 +154,7 @@ def check_variants(
 
 def check_each_variant(file: Path, settings: Settings) -> dict[str | None, Compilation | None]:
     """Check a spec file as `check_variants` does, with settings."""
-    from linkforge_compile.expand.variants import names_of_variants
+    from linkforge_compile.expand.arguments import names_of_variants
 
     whole = Budget(times=5, code=VARIANTS_BEYOND_LIMIT)
     settings = settings._replace(whole=whole)
@@ -230,8 +230,7 @@ def compile_path(path: str | Path, settings: Settings) -> Compilation:
         return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
 
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
-        from linkforge_compile.expand.xacro import open_xacro
-        from linkforge_compile.expand.xacro_use import XacroUse
+        from linkforge_compile.expand.xacro import XacroUse, open_xacro
 
         return open_xacro(XacroUse(file, ImportSite(str(path), None), settings.arguments(loader, sink)), loader, sink)
 
@@ -293,7 +292,7 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
         robot.resource_resolver = resolver
         sink.report_all(check(robot, unresolved.with_access(loader.roots.hold)))
     if lowered.robot is not None:
-        sink.report_all(limits(lowered.robot, settings.options, settings.formats))
+        sink.report_all(report_limits(lowered.robot, settings.options, settings.formats))
         if settings.output is not None:
             from linkforge_compile.formats.relative_paths import lost_on_the_way
 

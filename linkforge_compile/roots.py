@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -150,3 +151,26 @@ def is_file(path: Path) -> bool:
 def is_folder(path: Path) -> bool:
     """Whether there is a folder at a path; False without access."""
     return os.path.isdir(path)  # noqa: PTH112 see above
+
+
+# The file may be hostile: this pattern does not backtrack.
+_NAME_TAG = re.compile(r"<name>([^<]*)</name>")
+_MAX_MANIFEST_BYTES = 1024 * 1024
+
+
+def package_name(folder: Path, roots: Roots = ANYWHERE) -> str | None:
+    """Return the name in a folder's package.xml; None if there is none, or it is a link that leaves the roots.
+
+    It is searched as text, because one tag does not justify parsing untrusted XML with its entities.
+    """
+    manifest = folder / "package.xml"
+    if roots.are_left_by(manifest) or not is_file(manifest):  # reading a pipe would block
+        return None
+    try:
+        with manifest.open("rb") as stream:
+            text = stream.read(_MAX_MANIFEST_BYTES).decode("utf-8", errors="replace")
+    except OSError:
+        return None
+    first, *rest = text.split("<!--")
+    match = _NAME_TAG.search("".join((first, *(piece.partition("-->")[2] for piece in rest))))
+    return match[1].strip() if match else None

@@ -5,6 +5,7 @@ import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
+import networkx
 import pytest
 
 PACKAGE = Path(__file__).parents[1] / "linkforge_compile"
@@ -15,7 +16,6 @@ MAY_IMPORT = {
     "units": "",
     "resources": "",
     "roots": "",
-    "manifest": "roots",
     "fresh_stack": "",
     "gc_paused": "",
     "file_watcher": "",
@@ -25,9 +25,9 @@ MAY_IMPORT = {
     "syntax": "source diagnostics limits units",
     "expressions": "source diagnostics limits units syntax",
     "schema": "source diagnostics syntax units resources expressions",
-    "core": "manifest source units roots",
+    "core": "source units roots",
     "importers": "banner source diagnostics limits units syntax core",
-    "expand": "source diagnostics limits units syntax schema expressions importers manifest roots",
+    "expand": "source diagnostics limits units syntax schema expressions importers roots",
     "lower": "source diagnostics limits units syntax expand core roots",
     "checks": "source diagnostics units core roots",
     "formats": "source diagnostics limits units core resources roots gc_paused",
@@ -104,6 +104,44 @@ def test_the_table_has_no_cycle():
 
 def test_every_package_is_in_the_table():
     assert {package_of(path) for path in FILES} - ENTRY_POINTS == set(MAY_IMPORT)
+
+
+def module_of(path: Path) -> str:
+    return ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+
+
+def imported_modules(path: Path) -> Iterator[str]:
+    """Yield the module of each import from linkforge_compile in a file, also inside functions and for types alone."""
+    modules = {module_of(file) for file in FILES}
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        match node:
+            case ast.Import(names=names):
+                yield from (alias.name for alias in names if alias.name in modules)
+            case ast.ImportFrom(module=str(module), names=names) if module in modules:
+                for alias in names:
+                    submodule = f"{module}.{alias.name}"
+                    yield submodule if submodule in modules else module
+
+
+def test_no_files_import_each_other():
+    imports = networkx.DiGraph(
+        (module_of(path), module)
+        for path in FILES
+        for module in imported_modules(path)
+        if (path.relative_to(PACKAGE).as_posix(), module.split(".")[1]) not in EXCEPTIONS
+    )
+    circles = [sorted(group) for group in networkx.strongly_connected_components(imports) if len(group) > 1]
+    assert not circles
+
+
+def test_no_function_of_a_package_has_the_name_of_a_module_in_it():
+    """Importing the module later would put it in the place of the function."""
+    for path in FILES:
+        if path.name == "__init__.py":
+            modules = {file.stem for file in path.parent.glob("*.py")}
+            tree = ast.parse(path.read_text("utf-8"))
+            defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+            assert not defined & modules, path
 
 
 # The layout that the project prescribes, and further folders.

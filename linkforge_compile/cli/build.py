@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.banner import banner_of
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.inputs import compile_spec
-from linkforge_compile.cli.options import format_options_of
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.options import compile_spec, format_options_of
 from linkforge_compile.cli.reports import print_status, report
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.diagnostics import Note
@@ -199,7 +198,7 @@ def _write(outputs: Sequence[Output]) -> frozenset[Path]:
 
 
 def _depfile(outputs: Sequence[Output], inputs: Sequence[Path], name: str) -> Output:
-    from linkforge_compile.cli.depfile import inputs_of, make_rules
+    from linkforge_compile.cli.output import inputs_of, make_rules
 
     targets = [output.path for output in outputs if output.path is not None]
     return Output(file_to_write(name), make_rules(targets, inputs_of(inputs)))

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile._version import __version__
-from linkforge_compile.cli.exits import INTERRUPTED, OK, WRONG_USAGE, UsageError
+from linkforge_compile.cli import INTERNAL_FAULT, INTERRUPTED, OK, WRONG_USAGE, UsageError
 
 if TYPE_CHECKING:
     import argparse
@@ -56,10 +56,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except MemoryError:
         pass  # reported below, once the frames that hold the memory are released
     except Exception as error:
-        # Whatever arrives here is a bug in linkforge.
-        from linkforge_compile.cli.crash import report_crash
-
-        return report_crash(error, words)
+        return _report_crash(error, words)  # whatever arrives here is a bug in linkforge
     # The limits of a spec keep a compile below 512 MB, so this is about the machine, not about the spec.
     reason = "there is not enough memory; free some, or raise the limit (ulimit -v)"
     return _report_usage_error(_shorten(" ".join(words)), reason)
@@ -163,3 +160,52 @@ def _shorten(name: str) -> str:
 def _discard_stdout() -> None:
     """Redirect standard output to the null device, so that the final flush does not meet the closed pipe."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _report_crash(error: Exception, words: Sequence[str]) -> int:
+    """Print what happened and where the report is saved; print the traceback only if LINKFORGE_DEBUG is set.
+
+    An error in an edited copy of linkforge's own templates is reported as that. Return the exit code.
+    """
+    import platform
+    import shlex
+    import traceback
+
+    from linkforge_compile.formats.own_templates import TemplateFaultError
+    from linkforge_compile.source.characters import on_one_line
+
+    if isinstance(error, TemplateFaultError):
+        print(f"linkforge: {error}", file=sys.stderr)
+        return WRONG_USAGE
+    frames = traceback.extract_tb(error.__traceback__)
+    place = "?"
+    if frames:
+        place = f"{frames[-1].filename.rpartition('linkforge_compile')[2].lstrip('/')}:{frames[-1].lineno}"
+    trace = "".join(traceback.format_exception(error))
+    if os.environ.get("LINKFORGE_DEBUG"):
+        print(trace, end="", file=sys.stderr)
+    system = f"linkforge {__version__}, Python {platform.python_version()}, {platform.platform()}"
+    about = f"{system}\ncommand: {on_one_line(shlex.join(('linkforge', *words)))}\n"
+    print(
+        f"linkforge: internal fault: {type(error).__name__} at {place}: {on_one_line(str(error))}\n"
+        "This is a bug in linkforge, not in your spec. Please report it with the spec and\n"
+        f"  {_save(f'{about}{trace}') or 'what LINKFORGE_DEBUG=1 prints'}\n"
+        f"{about}",
+        end="",
+        file=sys.stderr,
+    )
+    return INTERNAL_FAULT
+
+
+def _save(report: str) -> str | None:
+    """Write the report to a new temporary file and return its path; None if that fails."""
+    import tempfile
+
+    try:
+        with tempfile.NamedTemporaryFile(
+            "w", encoding="utf-8", errors="replace", prefix="linkforge-fault-", suffix=".txt", delete=False
+        ) as file:
+            file.write(report)
+    except OSError:
+        return None
+    return file.name

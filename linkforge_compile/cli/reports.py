@@ -1,25 +1,28 @@
-"""Prints diagnostics and status lines as the options of a command choose, by default on standard error."""
+"""Prints diagnostics and status lines as the options of a command choose, and the manual pages of codes."""
 
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from linkforge_compile.diagnostics import Diagnostic, Severity
+from linkforge_compile.cli import UsageError
+from linkforge_compile.diagnostics import Code, Diagnostic, Severity
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.diagnostics import Code
     from linkforge_compile.source import Span
 
 PATIENCE = 3.0
 """Time until `progress_after` prints its message [s]."""
+
+_BOLD, _CYAN, _RESET = "\033[1m", "\033[36m", "\033[0m"
 
 
 def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = False) -> None:
@@ -120,7 +123,9 @@ def format_diagnostics(diagnostics: tuple[Diagnostic, ...], arguments: argparse.
             from linkforge_compile._version import __version__
             from linkforge_compile.diagnostics.render_forms import render_sarif
 
-            return render_sarif(diagnostics, root=root, version=__version__, manual=_page)
+            return render_sarif(
+                diagnostics, root=root, version=__version__, manual=lambda code: manual_page(code.id, styled=False)
+            )
     return _format_text(diagnostics, arguments.color)
 
 
@@ -177,12 +182,6 @@ def progress_after(file: str, arguments: argparse.Namespace) -> Iterator[None]:
         timer.cancel()
 
 
-def _page(code: Code) -> str:
-    from linkforge_compile.cli.manual import page
-
-    return page(code.id, styled=False)
-
-
 def _parse_codes(text: str) -> list[str]:
     """Parse codes or beginnings of codes, separated by commas or spaces."""
     import argparse
@@ -209,3 +208,54 @@ def _parse_ignorable_codes(text: str) -> list[str]:
             kind = "is an error" if code in REGISTER else "stands for errors only"
             raise argparse.ArgumentTypeError(f"{code} {kind}, which cannot be ignored")
     return codes
+
+
+def is_code(word: str) -> bool:
+    """Whether a word has the form of a code, LF and digits in either case; the code may be unknown."""
+    return re.fullmatch(r"LF\d+", word, re.IGNORECASE) is not None
+
+
+def manual_page(word: str, *, styled: bool) -> str:
+    """Return the manual page of a code as Markdown, or styled for a terminal; UsageError for an unknown code."""
+    from linkforge_compile.diagnostics.codes import REGISTER
+    from linkforge_compile.diagnostics.suggest import did_you_mean
+    from linkforge_compile.resources import manual_folder
+
+    name = word.upper()
+    if name not in REGISTER:
+        raise UsageError(f"no diagnostic has the code '{name}'{did_you_mean(name, REGISTER)} (--codes lists all)")
+    file = manual_folder() / f"{name}.md"
+    text = file.read_text("utf-8") if file.is_file() else f"# {heading(REGISTER[name])}\n"
+    return "".join(f"{line}\n" for line in _styled(text)) if styled else text
+
+
+def heading(code: Code) -> str:
+    """Return the first line of a code's page, without the `# `."""
+    return f"{code.id}: {code.title}"
+
+
+def register_table() -> str:
+    """Return a line for each code, with its severity and title."""
+    from linkforge_compile.diagnostics.codes import REGISTER
+
+    width = max(len(code.severity) for code in REGISTER.values())
+    codes = sorted(REGISTER.values(), key=lambda code: code.id)
+    return "".join(f"{code.id}  {code.severity:{width}}  {code.title}\n" for code in codes)
+
+
+def _styled(text: str) -> Iterator[str]:
+    """Yield lines of Markdown with headings in bold, code in color and examples indented."""
+    is_example = False
+    for line in text.splitlines():
+        if line.startswith("```"):
+            is_example = not is_example
+            # A fence may name the example's file.
+            _, _, file = line.partition(" file=")
+            if file:
+                yield f"{file}:"
+        elif is_example:
+            yield f"    {_CYAN}{line}{_RESET}" if line else ""
+        elif line.startswith("#"):
+            yield f"{_BOLD}{line.lstrip('#').lstrip()}{_RESET}"
+        else:
+            yield re.sub(r"`([^`]+)`", rf"{_CYAN}\1{_RESET}", line)

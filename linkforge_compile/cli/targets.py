@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile import formats
-from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.cli import UsageError
 
 if TYPE_CHECKING:
     import argparse

@@ -9,8 +9,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
-from linkforge_compile.manifest import package_name
-from linkforge_compile.roots import ANYWHERE, Roots, exists, identity
+from linkforge_compile.roots import ANYWHERE, Roots, exists, identity, package_name
 
 _PACKAGE_URI = re.compile(r"package:/{0,2}(?P<package>[^/]+)/?(?P<path>.*)", re.DOTALL)
 _WINDOWS_DRIVE = re.compile(r"^/(?=[A-Za-z]:)")

@@ -17,8 +17,8 @@ from linkforge_compile.expand import (
     Unset,
     expand,
 )
-from linkforge_compile.expand.assembly import joint_name_of
 from linkforge_compile.expand.listing import ListedParameter, list_parameters, list_used
+from linkforge_compile.expand.uses import joint_name_of
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.lower import lower
 from linkforge_compile.roots import Roots

@@ -8,9 +8,8 @@ from dataclasses import dataclass, field, replace
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TEXT_NOT_NUMBER, TREE_TOO_LARGE
-from linkforge_compile.expand.origins import ExpressionTrace, Setting
-from linkforge_compile.expand.syntax_markers import ExpressionScan
-from linkforge_compile.expand.values import plain_value, size_of
+from linkforge_compile.expand.spec_tree import ExpressionScan
+from linkforge_compile.expand.values import ExpressionTrace, Setting, plain_value, size_of
 from linkforge_compile.expressions import (
     FAULT,
     Expression,
@@ -122,7 +121,7 @@ class Evaluator:
     """Evaluates nodes of one file in one scope.
 
     `paths_elsewhere` has the path parameters as seen from each included file that lies in another folder. `settings`
-    says what gave the names in scope their values.
+    has what gave the names in scope their values.
     """
 
     scope: Scope

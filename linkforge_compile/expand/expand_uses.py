@@ -2,41 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CIRCLE, USE_TOO_DEEP
-from linkforge_compile.expand.annotating_sink import with_use_trace
-from linkforge_compile.expand.arguments import Arguments, Unset
-from linkforge_compile.expand.assembly import Instance, charge_entries, own_name, robot_part
+from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_variant, variants_of
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
-from linkforge_compile.expand.file_builtins import references_left
 from linkforge_compile.expand.file_scope import CompileState, FileScope
-from linkforge_compile.expand.loader import Loader, SpecFile
+from linkforge_compile.expand.files import Package
+from linkforge_compile.expand.loader import Loader, SpecFile, with_use_trace
 from linkforge_compile.expand.modules import ModuleEntry, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
 from linkforge_compile.expand.uses import (
     SPEC_ENDINGS,
     XACRO,
+    Instance,
     MakeSite,
+    NameReference,
     PathSite,
+    charge_entries,
     locate,
     mesh_base,
     mesh_finder,
     name_from,
     open_use,
+    own_name,
+    robot_part,
 )
-from linkforge_compile.expand.variants import report_unknown_variant, variants_of
 from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlMap, YamlScalar
+from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
 if TYPE_CHECKING:
-    from linkforge_compile.expand.xacro_use import XacroUse
+    from linkforge_compile.expand.xacro import XacroUse
+    from linkforge_compile.importers.document import Move
 
 MAX_DEPTH = 50
 
@@ -106,7 +110,7 @@ class _Expansion:
         entries = tuple(read_modules(use.spec, scope.evaluator, stack))
         removed, references = scope.evaluator.disabled.deleted, scope.builtins.references
         if use.entry and use.entry.overrides:
-            from linkforge_compile.expand.module_override import ModuleBody
+            from linkforge_compile.expand.modules import ModuleBody
 
             body = ModuleBody(tree, entries, removed).with_overrides(use.entry.overrides)
             references = references_left(references, tree, body.tree) if references else references
@@ -154,8 +158,6 @@ class _Expansion:
         if site.text.lower().endswith(SPEC_ENDINGS):
             sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
             return None, entry.arguments
-        from linkforge_compile.expand.merge_srdf import open_semantic, with_semantic
-
         srdf_use = self._xacro_use(scope.builtins.site(srdf.text, srdf.span), entry, sink)
         semantic = open_semantic(srdf_use, loader, sink) if srdf_use else None
         # An SRDF that cannot be read may have used any argument.
@@ -178,7 +180,7 @@ class _Expansion:
         return open_xacro(replace(xacro, used_elsewhere=used), loader, sink) if xacro else None, Arguments()
 
     def _xacro_use(self, site: PathSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
-        from linkforge_compile.expand.xacro_use import XacroUse
+        from linkforge_compile.expand.xacro import XacroUse
 
         target = locate(site, self._state.loader, sink)
         if target is None:
@@ -203,7 +205,7 @@ def _robot_tree(spec: SpecFile, evaluator: Evaluator) -> tuple[YamlMap, YamlMap 
     assert isinstance(tree, YamlMap), "a map that is computed is a map"
     if spec.tree.get("defaults") is None:
         return tree, None
-    from linkforge_compile.expand.defaults import compute_defaults, with_defaults
+    from linkforge_compile.expand.merge_objects import compute_defaults, with_defaults
 
     defaults = compute_defaults(spec.tree, evaluator)
     return with_defaults(tree, defaults) if defaults else tree, defaults
@@ -225,3 +227,82 @@ def _circle(chain: tuple[_Use, ...], compiled: SpecFile) -> Diagnostic:
         for name, use in zip(path[1:-1], reversed(chain[1:-1]), strict=True)
     ]
     return USE_CIRCLE.at(chain[0].bound.use, path=" → ".join(path), notes=notes)
+
+
+def references_left(
+    references: Iterable[NameReference], before: YamlNode, after: YamlNode
+) -> tuple[NameReference, ...]:
+    """Return the references in texts that an override has not removed from a tree."""
+    removed = set(_places(before)) - set(_places(after))
+    return tuple(one for one in references if not any(map(one.where.span.lies_in, removed)))
+
+
+def _places(node: YamlNode) -> Iterator[Span]:
+    """Yield the spans of the scalars and keys of a tree."""
+    match node:
+        case YamlScalar():
+            yield Span(*node.span)
+        case YamlList():
+            for item in node:
+                yield from _places(item)
+        case YamlMap():
+            for entry in node:
+                yield Span(*entry.key.span)
+                yield from _places(entry.value)
+
+
+class Semantic(NamedTuple):
+    """The text of an SRDF, expanded if it is a xacro, in a folder that was reached through `package`.
+
+    `moved` gives its elements the places where they were written in `files`, None for a text that was not expanded.
+    `arguments` are the names of those that a xacro uses.
+    """
+
+    text: SourceFile
+    files: tuple[SourceFile, ...]
+    folder: Path
+    package: Package | None = None
+    moved: Move | None = None
+    arguments: frozenset[str] = frozenset()
+
+
+def open_semantic(use: XacroUse, loader: Loader, sink: Diagnostics) -> Semantic | None:
+    """Read an SRDF, expanded if it is a xacro; None after a reported error."""
+    folder = use.path.parent
+    if use.path.suffix.lower() != XACRO:
+        file = loader.open_xml(use.path, sink, use.used if use.used.where else None)
+        return Semantic(file, (file,), folder, use.package) if file else None
+    from linkforge_compile.expand.xacro import expand_xacro
+
+    # The URDF, which is read next, reports arguments that neither of the two uses.
+    expansion = expand_xacro(replace(use, used_elsewhere=None), loader, sink)
+    if expansion is None:
+        return None
+    return Semantic(expansion.text, expansion.files, folder, use.package, expansion.moved, expansion.arguments)
+
+
+def with_semantic(
+    spec: SpecFile, semantic: Semantic, use: XacroUse, loader: Loader, sink: Diagnostics
+) -> SpecFile | None:
+    """Return a robot with its SRDF merged; None after a reported error. `use` names the SRDF."""
+    from linkforge_compile.importers.comments import Comments
+    from linkforge_compile.importers.document import Imported
+    from linkforge_compile.importers.srdf import with_srdf
+
+    def merged(tree: YamlMap) -> SpecFile:
+        parts = {file: SpecFile(file, tree, semantic.folder, semantic.package) for file in semantic.files}
+        return replace(spec, tree=tree, included={**spec.included, **parts})
+
+    def checked(tree: YamlMap) -> _Checked:
+        return _Checked(loader.check_spec(merged(tree), loader))
+
+    imported = Imported(spec.tree, Comments({}, {}))
+    inside = with_use_trace(sink, (use.used.where,))
+    read = with_srdf(imported, semantic.text, checked, inside, semantic.moved)
+    return merged(read[0].tree) if read else None
+
+
+class _Checked(NamedTuple):
+    """The errors of a robot with its SRDF, as `with_srdf` needs them."""
+
+    faults: tuple[Diagnostic, ...]

@@ -1,4 +1,4 @@
-"""The scope of one use of a file: its parameters, variables and data, `name`, `standalone`, `prefix` and functions."""
+"""The scope of one use of a file: parameters, variables, data, builtin names and functions."""
 
 from __future__ import annotations
 
@@ -12,28 +12,37 @@ from pathlib import Path
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.expressions import SEEN_IN_THE_TEXT
 from linkforge_compile.diagnostics.codes.modules import (
+    DATA_NOT_PATH,
     INVALID_VARIABLE_NAME,
     NAME_OF_TWO_KINDS,
     NOT_JUDGED,
     PACKAGE_NOWHERE,
     RESERVED_NAME,
 )
-from linkforge_compile.expand.arguments import Unset
+from linkforge_compile.expand.arguments import Unset, Variants, variants_of
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
-from linkforge_compile.expand.file_builtins import FileBuiltins
+from linkforge_compile.expand.files import follow
 from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.origins import Setting
 from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.parameters import Declaration, declarations
-from linkforge_compile.expand.paths import follow
-from linkforge_compile.expand.uses import from_base, mesh_base, rebased
-from linkforge_compile.expand.values import plain_value
-from linkforge_compile.expand.variants import Variants, variants_of
-from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Lazy, PathText, Scope, Value
+from linkforge_compile.expand.uses import NameReference, PathSite, from_base, locate, mesh_base, rebased
+from linkforge_compile.expand.values import Setting, angle_tags, plain_value
+from linkforge_compile.expressions import (
+    FAULT,
+    RESERVED_NAMES,
+    Fault,
+    FileFunction,
+    Lazy,
+    PathText,
+    Scope,
+    Value,
+    as_text,
+    kind_name,
+)
 from linkforge_compile.schema.shapes import shapes
-from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar
+from linkforge_compile.source import SourceFile, SourceRef, Span
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.nodes import names_at_fault
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -195,8 +204,6 @@ class FileScope:
         return FAULT if report_interpolated_quantity(entry.value, value, self.evaluator) else value
 
     def _data_value(self, entry: YamlEntry) -> Value | Fault:
-        from linkforge_compile.expand.data import load_data
-
         path = self.evaluator.value(entry.value)
         place = self.evaluator.place(entry.value)
         node = load_data(entry, path, lambda text: self.builtins.site(text, place), self._loader, self._sink)
@@ -280,3 +287,63 @@ class _TextFaultSink(Diagnostics):
     def report(self, diagnostic: Diagnostic) -> None:
         if diagnostic.code in SEEN_IN_THE_TEXT:
             self._sink.report(diagnostic)
+
+
+class FileBuiltins:
+    """The functions of one use of a file; collects names passed to `link()` and `joint()` for a later check."""
+
+    def __init__(
+        self,
+        spec: SpecFile,
+        prefix: str | Fault,
+        packages: Callable[[], Mapping[str, Path]],
+        loader: Loader,
+        include_stack: tuple[Span, ...],
+    ) -> None:
+        """`prefix` is the full one, of this use and those around it; `packages` is called when a path is located."""
+        self._spec = spec
+        self._prefix = prefix
+        self._packages = packages
+        self._loader = loader
+        self._include_stack = include_stack
+        self._references: list[NameReference] = []
+
+    @property
+    def references(self) -> tuple[NameReference, ...]:
+        return tuple(self._references)
+
+    @property
+    def functions(self) -> dict[str, FileFunction]:
+        named = {kind: partial(self._prefixed, kind) for kind in ("link", "joint")}
+        return {"path": self._path, **named}
+
+    def site(self, text: str, where: Span) -> PathSite:
+        """Return the site of a path that this file or one that it includes wrote."""
+        return PathSite(text, where, self._spec.part_at(where), self._packages())
+
+    def _path(self, text: str, where: Span, sink: Diagnostics) -> Value | Fault:
+        target = locate(self.site(text, where), self._loader, sink)
+        return FAULT if target is None else str(target.path.absolute())
+
+    def _prefixed(self, kind: str, name: str, where: Span, _sink: Diagnostics) -> Value | Fault:
+        self._references.append(NameReference(kind, name, SourceRef(YamlFault(where), None, self._include_stack)))
+        return FAULT if isinstance(self._prefix, Fault) else self._prefix + name
+
+
+def load_data(
+    entry: YamlEntry, path: Value | Fault, site: Callable[[str], PathSite], loader: Loader, sink: Diagnostics
+) -> YamlNode | None:
+    """Return the tree of the file that an entry of `data` names, None after a reported error.
+
+    `path` is the computed value of the entry. In the file, text with a unit is a quantity and `$(` is plain text.
+    """
+    if path is FAULT:
+        return None
+    text = as_text(path)
+    if text is None:
+        found = "nothing" if path is None else kind_name(path)
+        sink.report(DATA_NOT_PATH.at(entry.value.span, name=entry.name, found=found))
+        return None
+    path_site = site(text)
+    target = locate(path_site, loader, sink)
+    return loader.open_data(target.path, sink, angle_tags(sink), path_site.used) if target else None

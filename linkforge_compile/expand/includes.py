@@ -17,7 +17,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     SAID_BY_MAIN_FILE,
     TOO_MANY_INCLUDES,
 )
-from linkforge_compile.expand.paths import follow
+from linkforge_compile.expand.files import follow
 from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import (

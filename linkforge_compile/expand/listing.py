@@ -10,16 +10,15 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
-from linkforge_compile.expand.arguments import Arguments, Unset
+from linkforge_compile.expand.arguments import Arguments, Unset, Variants, variants_of
 from linkforge_compile.expand.evaluate import Expressions
 from linkforge_compile.expand.file_scope import CompileState, FileScope
+from linkforge_compile.expand.files import find_package
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
-from linkforge_compile.expand.packages import find_package
-from linkforge_compile.expand.parameter_values import BoundArguments
-from linkforge_compile.expand.parameters import Declaration, make_parameter, resolve_type
+from linkforge_compile.expand.parameter_values import BoundArguments, make_parameter
+from linkforge_compile.expand.parameters import Declaration, resolve_type
 from linkforge_compile.expand.uses import SPEC_ENDINGS, open_use
-from linkforge_compile.expand.variants import Variants, variants_of
-from linkforge_compile.expand.xacro_use import in_order
+from linkforge_compile.expand.xacro import in_order
 from linkforge_compile.expressions import FAULT, Value
 from linkforge_compile.roots import identity
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
@@ -109,7 +108,7 @@ def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listin
 
 
 def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
-    """List what each spec that a file uses declares, by the text of `use`, whatever `when` says.
+    """List what each spec that a file uses declares, by the text of `use`, whether or not its `when` holds.
 
     A file that cannot be read is left out, as is a computed `use`; compiling reports them.
     """

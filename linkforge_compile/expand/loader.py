@@ -2,29 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
-from linkforge_compile.expand.annotating_sink import AnnotatingSink, with_use_trace
-from linkforge_compile.expand.file_text import UnreadableError, read_spec, read_utf8, read_xml
+from linkforge_compile.expand.files import (
+    UnreadableError,
+    as_typed,
+    names_in,
+    read_spec,
+    read_utf8,
+    read_xml,
+    searched_note,
+)
 from linkforge_compile.expand.includes import ComposedFile, compose, follow_includes
-from linkforge_compile.expand.paths import as_typed, names_in, searched_note
 from linkforge_compile.expand.spec_tree import cached_source, read_tree
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.roots import ANYWHERE, Roots, identity
 from linkforge_compile.source import SourceFile, Span, place_of_byte
 from linkforge_compile.source.characters import begins_xml
+from linkforge_compile.source.provenance import uses_in
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
 from linkforge_compile.syntax.parser import IGNORE_WORDS, suppressions_in
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Suppression
-    from linkforge_compile.expand.packages import NearbyPackages, Package
+    from linkforge_compile.expand.files import NearbyPackages, Package
 
 _PACKAGE_SCHEME = "package://"
 
@@ -69,10 +76,6 @@ CheckSpec: TypeAlias = Callable[[SpecFile, "Loader"], tuple[Diagnostic, ...]]
 """Returns the errors of a spec compiled by itself."""
 
 
-def _no_check(_spec: SpecFile, _loader: Loader) -> tuple[Diagnostic, ...]:
-    return ()
-
-
 class Loader:
     """All files of one compile."""
 
@@ -83,11 +86,11 @@ class Loader:
 
         `packages` come before every other place where `package://` is looked for. Files that a spec names must lie
         within the `roots`, files that the user names may lie anywhere. `check_spec` finds the errors of a vendor's
-        robot; the pipeline sets it, since that takes later stages. Without `runs_xacro` no xacro file is expanded.
+        robot; the pipeline sets it, because later stages do the work. Without `runs_xacro` no xacro file is expanded.
         """
         self.packages = dict(packages or {})
         self.roots = roots
-        self.check_spec: CheckSpec = _no_check
+        self.check_spec: CheckSpec = lambda _spec, _loader: ()
         self.runs_xacro = True
         self.nearby_packages: NearbyPackages = {}
         self.budget = budget or Budget()
@@ -266,3 +269,21 @@ def _reach(composed: ComposedFile, folder: Path | None, package: Package | None)
         inside = package if package is not None and path.is_relative_to(package.folder) else None
         included[file] = SpecFile(file, composed.tree, path.parent, inside)
     return SpecFile(composed.file, composed.tree, folder, package, included)
+
+
+class AnnotatingSink(Diagnostics):
+    """Pass each diagnostic on to another sink, with notes appended to its own."""
+
+    def __init__(self, sink: Diagnostics, notes: Iterable[Note]) -> None:
+        super().__init__()
+        self._sink = sink
+        self._notes = tuple(notes)
+
+    def report(self, diagnostic: Diagnostic) -> None:
+        self._sink.report(replace(diagnostic, notes=(*diagnostic.notes, *self._notes)))
+
+
+def with_use_trace(sink: Diagnostics, uses: Iterable[Span | None]) -> Diagnostics:
+    """Return a sink for a file that is reached through these uses, the innermost first; None is no use."""
+    notes = notes_of(uses_in(use for use in uses if use is not None))
+    return AnnotatingSink(sink, notes) if notes else sink

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -17,16 +18,15 @@ from linkforge_compile.diagnostics.codes.modules import (
     SAME_AS_BEFORE,
 )
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.normal_form import (
+from linkforge_compile.expand.merge_objects import (
     CHOICES,
     is_set,
     lists_objects,
     long_form,
     long_object,
-    with_tags_as_patched,
 )
 from linkforge_compile.schema.json_schema import WORDS
-from linkforge_compile.schema.shapes import Shape, alternatives, shapes
+from linkforge_compile.schema.shapes import FREE, Shape, alternatives, shapes
 from linkforge_compile.source import Change, TracedSpan
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, parse_quantity
@@ -71,7 +71,7 @@ def deletes(node: YamlNode) -> bool:
     return isinstance(node, YamlScalar) and node.value is None and bool(node.text)
 
 
-def names_in_section(tree: YamlMap, section: str) -> Mapping[str, object]:
+def names_in_section(tree: YamlMap, section: str) -> Mapping[str, YamlEntry]:
     entries = tree.get(section)
     return entries.entries if isinstance(entries, YamlMap) else {}
 
@@ -97,7 +97,8 @@ class _Patcher:
             if shape.has_names and name not in base.entries and not shape.is_raw(name):
                 missing.append(change)
             elif deletes(value):
-                self._delete(entries, change)
+                if entries.pop(name, None) is None:
+                    self._sink.report(NOTHING_TO_DELETE.at(change.key.span, field=name))
                 changes.append(Change(name, value.span))
             elif is_set(value) and not isinstance(entries.get(name, change).value, YamlFault):
                 changes += self._patch_entry(entries, change, shape)
@@ -169,12 +170,6 @@ class _Patcher:
         span = TracedSpan.overridden(base.span if base else patch.span, tuple(changes))
         return YamlList(tuple(item for item in items if item is not None), span)
 
-    def _delete(self, entries: dict[str, YamlEntry], change: YamlEntry) -> None:
-        if change.name in entries:
-            del entries[change.name]
-        else:
-            self._sink.report(NOTHING_TO_DELETE.at(change.key.span, field=change.name))
-
     def _report_missing(self, change: YamlEntry, base: YamlMap, shape: Shape) -> None:
         """Report an entry that does not exist, unless its own name is faulty."""
         name = change.name
@@ -214,7 +209,7 @@ class _Patcher:
 
 
 def _items(base: YamlNode | None, shape: Shape) -> tuple[YamlNode, ...]:
-    """Return the items of a list, or of the list of one that a single object means."""
+    """Return the items of a list, or the single object that is written for a list of one."""
     # A list of names stays a list, even if it could be read as a map of names.
     whole = base if base is None or isinstance(base, YamlList) else long_form(base, shape)
     return whole.items if isinstance(whole, YamlList) else ()
@@ -262,3 +257,51 @@ def _is_same(one: YamlNode, other: YamlNode) -> bool:
                 _is_same(entry.value, other.entries[entry.name].value) for entry in one
             )
     return False
+
+
+def with_tags_as_patched(block: YamlMap, patch: YamlMap, shape: Shape) -> YamlMap:
+    """Return a Gazebo block with each tag that a patch sets where the patch has it, as a key or under `properties`.
+
+    Otherwise the block would have the tag twice. Anything but a Gazebo block is returned unchanged.
+    """
+    if shape.title not in _GAZEBO_BLOCKS:
+        return block
+    entries = dict(block.entries)
+    properties, patched = dict(names_in_section(block, _PROPERTIES)), names_in_section(patch, _PROPERTIES)
+    keys = {_gazebo_tag(name): name for name in entries if _is_tag_key(shape, name)}
+    for name in patch.entries:
+        if _is_tag_key(shape, name) and (moved := properties.pop(_gazebo_tag(name), None)):
+            entries[name] = YamlEntry(YamlScalar(name, name, moved.key.span), moved.value)
+    for tag in patched.keys() & keys.keys():
+        moved = entries.pop(keys[tag])
+        properties[tag] = YamlEntry(YamlScalar(tag, tag, moved.key.span), moved.value)
+    return YamlMap(_with_properties(entries, properties, block), block.span)
+
+
+def _with_properties(
+    entries: dict[str, YamlEntry], properties: dict[str, YamlEntry], block: YamlMap
+) -> dict[str, YamlEntry]:
+    section = block.entries.get(_PROPERTIES)
+    if section is not None and not isinstance(section.value, YamlMap):
+        return entries
+    others = {name: entry for name, entry in entries.items() if name != _PROPERTIES}
+    if not properties:
+        return others
+    key = section.key if section else YamlScalar(_PROPERTIES, _PROPERTIES, block.span)
+    span = section.value.span if section else block.span
+    return {**others, _PROPERTIES: YamlEntry(key, YamlMap(properties, span))}
+
+
+def _is_tag_key(shape: Shape, name: str) -> bool:
+    return name != _PROPERTIES and shape.under(name) is not FREE
+
+
+def _gazebo_tag(key: str) -> str:
+    """Return the tag of a key, which has capitals in place of underscores: `max_vel` is `maxVel`."""
+    return re.sub(r"_([a-z])", lambda found: found[1].upper(), key)
+
+
+_GAZEBO_BLOCKS = ("a gazebo block", "a robot's gazebo block")
+
+
+_PROPERTIES = "properties"

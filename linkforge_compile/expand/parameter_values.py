@@ -8,17 +8,32 @@ from pathlib import Path
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics, Note
-from linkforge_compile.diagnostics.codes.modules import FILE_OUTSIDE_PACKAGE, PARAMETER_NOT_SET, UNKNOWN_PARAMETER
-from linkforge_compile.expand.annotating_sink import AnnotatingSink
-from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments
+from linkforge_compile.diagnostics.codes.modules import (
+    BAD_PATTERN,
+    CROSSED_BOUNDS,
+    FILE_OUTSIDE_PACKAGE,
+    NO_CHOICE,
+    PARAMETER_NOT_SET,
+    UNFIT_CONSTRAINT,
+    UNKNOWN_PARAMETER,
+)
+from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_number
-from linkforge_compile.expand.loader import SpecFile
-from linkforge_compile.expand.origins import Setting
-from linkforge_compile.expand.parameter_types import ParameterType
-from linkforge_compile.expand.parameters import Declaration, Parameter, evaluate_for, make_parameter, resolve_type
+from linkforge_compile.expand.loader import AnnotatingSink, SpecFile
+from linkforge_compile.expand.parameters import (
+    PARAMETER_TYPES,
+    REFUSED_STEPS,
+    Declaration,
+    Parameter,
+    ParameterType,
+    Pattern,
+    PatternError,
+    number_of,
+    resolve_type,
+    unquoted,
+)
 from linkforge_compile.expand.uses import rebased
-from linkforge_compile.expand.values import plain_value
-from linkforge_compile.expand.variants import Variants
+from linkforge_compile.expand.values import Setting, plain_value
 from linkforge_compile.expressions import FAULT, Fault, Value
 from linkforge_compile.limits import Limit
 from linkforge_compile.schema.shapes import alternatives
@@ -119,6 +134,72 @@ def parameter_value(
         if node is not None and by and result is not None:
             settings.append(Setting(by, node, evaluator))
     return result, replace(settings[0], instead_of=tuple(settings[1:])) if settings else None
+
+
+def make_parameter(declaration: Declaration, type_: ParameterType, evaluator: Evaluator) -> Parameter:
+    """Compute the constraints of a declaration; faulty ones are reported and left out."""
+    constraints: dict[str, YamlNode] = {}
+    for name, entry in declaration.constraints.items():
+        if name in type_.constraints:
+            constraints[name] = entry.value
+        else:
+            evaluator.sink.report(UNFIT_CONSTRAINT.at(entry.key.span, constraint=name, type=type_.name))
+    bounds = Parameter(declaration.name, PARAMETER_TYPES["number"] if type_.name == "integer" else type_)
+    minimum, maximum = (_constraint(bounds, constraints.get(name), evaluator) for name in ("minimum", "maximum"))
+    if minimum is not None and maximum is not None and number_of(minimum) > number_of(maximum):
+        where, least, most = constraints["minimum"].span, unquoted(minimum), unquoted(maximum)
+        evaluator.sink.report(CROSSED_BOUNDS.at(where, parameter=declaration.name, minimum=least, maximum=most))
+        minimum = maximum = None
+    return Parameter(
+        declaration.name,
+        type_,
+        minimum,
+        maximum,
+        choices=_choices(Parameter(declaration.name, type_), constraints.get("enum"), evaluator),
+        pattern=_pattern(constraints.get("pattern"), evaluator),
+    )
+
+
+def _constraint(unbounded: Parameter, node: YamlNode | None, evaluator: Evaluator) -> Value:
+    value = FAULT if node is None else evaluate_for(unbounded.type, node, evaluator)
+    return (
+        None if node is None or value is FAULT else unbounded.convert(value, node.span, evaluator.sink, evaluator.scope)
+    )
+
+
+def _choices(unbounded: Parameter, node: YamlNode | None, evaluator: Evaluator) -> tuple[Value, ...] | None:
+    if not isinstance(node, YamlList):
+        return None
+    if not node.items:
+        evaluator.sink.report(NO_CHOICE.at(node.span, parameter=unbounded.name))
+        return None
+    choices = [_constraint(unbounded, item, evaluator) for item in node]
+    return None if None in choices else tuple(choices)
+
+
+def _pattern(node: YamlNode | None, evaluator: Evaluator) -> Pattern | None:
+    if not isinstance(node, YamlScalar):
+        return None
+    budget = evaluator.expressions.budget
+    try:
+        pattern = Pattern(node.text)
+        budget.spend(Limit.STEPS, pattern.steps("") * _STEPS_PER_INSTRUCTION, node.span)
+        return pattern
+    except PatternError as error:
+        budget.spend(Limit.STEPS, REFUSED_STEPS, node.span)
+        evaluator.sink.report(BAD_PATTERN.at(node.span, pattern=node.text, reason=error))
+        return None
+
+
+def evaluate_for(type_: ParameterType, node: YamlNode, evaluator: Evaluator) -> Value | Fault:
+    """Return the value of a node for a parameter of a type; a text type keeps a plain scalar as written."""
+    if type_.is_text and isinstance(node, YamlScalar) and not has_expression(node.text):
+        return node.text
+    return evaluator.value(node)
+
+
+_STEPS_PER_INSTRUCTION = 4
+"""What compiling one instruction of a pattern costs, in steps of expressions."""
 
 
 def _has_expressions(node: YamlNode) -> bool:

@@ -1,43 +1,30 @@
-"""Read the declarations of `parameters`, and check values against their types and constraints."""
+"""Read the declarations of `parameters`; check values against their types and constraints."""
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping
+import math
+from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.model import WIDE_ANGLE
 from linkforge_compile.diagnostics.codes.modules import (
-    BAD_PATTERN,
-    CROSSED_BOUNDS,
-    NO_CHOICE,
     PARAMETER_CHOICE,
     PARAMETER_KIND,
     PARAMETER_PATTERN,
     PARAMETER_TOO_LARGE,
     PARAMETER_TOO_SMALL,
     PARAMETER_WITHOUT_TYPE,
-    UNFIT_CONSTRAINT,
 )
 from linkforge_compile.expand.evaluate import Evaluator
-from linkforge_compile.expand.parameter_types import (
-    PARAMETER_TYPES,
-    REFUSED_STEPS,
-    ParameterType,
-    Pattern,
-    PatternError,
-    infer_type,
-)
 from linkforge_compile.expand.values import describe
-from linkforge_compile.expressions import FAULT, Fault, Value, forgotten_expression
-from linkforge_compile.limits import Limit
+from linkforge_compile.expressions import FAULT, Value, forgotten_expression
+from linkforge_compile.expressions.types import as_text, dimension_name
 from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS
-from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, unit_text
-
-_STEPS_PER_INSTRUCTION = 4
-"""What compiling one instruction of a pattern costs, in steps of expressions."""
+from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, unit_text, units_of
 
 _CONSTRAINTS = ("minimum", "maximum", "enum", "pattern")
 
@@ -134,84 +121,22 @@ class Parameter:
 
     def _violations(self, value: Value, where: Span) -> Iterator[Diagnostic]:
         name, found = self.name, describe(value)
-        if self.minimum is not None and _number(value) < _number(self.minimum):
+        if self.minimum is not None and number_of(value) < number_of(self.minimum):
             bound, shown = _comparison(self.minimum, value)
             yield PARAMETER_TOO_SMALL.at(where, parameter=name, bound=bound, found=shown)
-        if self.maximum is not None and _number(value) > _number(self.maximum):
+        if self.maximum is not None and number_of(value) > number_of(self.maximum):
             bound, shown = _comparison(self.maximum, value)
             yield PARAMETER_TOO_LARGE.at(where, parameter=name, bound=bound, found=shown)
         if self.choices is not None and value not in self.choices:
-            choices = [_unquoted(choice) for choice in self.choices]
+            choices = [unquoted(choice) for choice in self.choices]
             near = choices if self.type.is_text else ()
             words = ", ".join(choices)
-            yield PARAMETER_CHOICE.at(where, parameter=name, choices=words, name=_unquoted(value), near=near)
+            yield PARAMETER_CHOICE.at(where, parameter=name, choices=words, name=unquoted(value), near=near)
         if self.pattern is not None and not self.pattern.is_in(str(value)):
             yield PARAMETER_PATTERN.at(where, parameter=name, pattern=self.pattern.text, found=found)
 
 
-def make_parameter(declaration: Declaration, type_: ParameterType, evaluator: Evaluator) -> Parameter:
-    """Compute the constraints of a declaration; faulty ones are reported and left out."""
-    constraints: dict[str, YamlNode] = {}
-    for name, entry in declaration.constraints.items():
-        if name in type_.constraints:
-            constraints[name] = entry.value
-        else:
-            evaluator.sink.report(UNFIT_CONSTRAINT.at(entry.key.span, constraint=name, type=type_.name))
-    bounds = Parameter(declaration.name, PARAMETER_TYPES["number"] if type_.name == "integer" else type_)
-    minimum, maximum = (_constraint(bounds, constraints.get(name), evaluator) for name in ("minimum", "maximum"))
-    if minimum is not None and maximum is not None and _number(minimum) > _number(maximum):
-        where, least, most = constraints["minimum"].span, _unquoted(minimum), _unquoted(maximum)
-        evaluator.sink.report(CROSSED_BOUNDS.at(where, parameter=declaration.name, minimum=least, maximum=most))
-        minimum = maximum = None
-    return Parameter(
-        declaration.name,
-        type_,
-        minimum,
-        maximum,
-        choices=_choices(Parameter(declaration.name, type_), constraints.get("enum"), evaluator),
-        pattern=_pattern(constraints.get("pattern"), evaluator),
-    )
-
-
-def _constraint(unbounded: Parameter, node: YamlNode | None, evaluator: Evaluator) -> Value:
-    value = FAULT if node is None else evaluate_for(unbounded.type, node, evaluator)
-    return (
-        None if node is None or value is FAULT else unbounded.convert(value, node.span, evaluator.sink, evaluator.scope)
-    )
-
-
-def _choices(unbounded: Parameter, node: YamlNode | None, evaluator: Evaluator) -> tuple[Value, ...] | None:
-    if not isinstance(node, YamlList):
-        return None
-    if not node.items:
-        evaluator.sink.report(NO_CHOICE.at(node.span, parameter=unbounded.name))
-        return None
-    choices = [_constraint(unbounded, item, evaluator) for item in node]
-    return None if None in choices else tuple(choices)
-
-
-def _pattern(node: YamlNode | None, evaluator: Evaluator) -> Pattern | None:
-    if not isinstance(node, YamlScalar):
-        return None
-    budget = evaluator.expressions.budget
-    try:
-        pattern = Pattern(node.text)
-        budget.spend(Limit.STEPS, pattern.steps("") * _STEPS_PER_INSTRUCTION, node.span)
-        return pattern
-    except PatternError as error:
-        budget.spend(Limit.STEPS, REFUSED_STEPS, node.span)
-        evaluator.sink.report(BAD_PATTERN.at(node.span, pattern=node.text, reason=error))
-        return None
-
-
-def evaluate_for(type_: ParameterType, node: YamlNode, evaluator: Evaluator) -> Value | Fault:
-    """Return the value of a node for a parameter of a type; a text type keeps a plain scalar as written."""
-    if type_.is_text and isinstance(node, YamlScalar) and not has_expression(node.text):
-        return node.text
-    return evaluator.value(node)
-
-
-def _number(value: Value) -> float:
+def number_of(value: Value) -> float:
     number = value.value if isinstance(value, Quantity) else value
     assert isinstance(number, int | float), "only numbers have a minimum or a maximum"
     return number
@@ -219,17 +144,159 @@ def _number(value: Value) -> float:
 
 def _comparison(bound: Value, value: Value) -> tuple[str, str]:
     """Return a bound and a value outside of it for a message, with SI units added if their units differ."""
-    plain, quoted = _unquoted(bound), describe(value)
+    plain, quoted = unquoted(bound), describe(value)
     if not isinstance(bound, Quantity) or not isinstance(value, Quantity):
         return plain, quoted
     if unit_text(str(bound)) == unit_text(str(value)):
         return plain, quoted
-    return _with_si(plain, bound), _with_si(quoted, value)
+    if str(bound) != bound.in_si:
+        plain += f", which is {bound.in_si}"
+    if str(value) != value.in_si:
+        quoted += f", which is {value.in_si}"
+    return plain, quoted
 
 
-def _with_si(text: str, quantity: Quantity) -> str:
-    return text if str(quantity) == quantity.in_si else f"{text}, which is {quantity.in_si}"
-
-
-def _unquoted(value: Value) -> str:
+def unquoted(value: Value) -> str:
     return describe(value).strip("'")
+
+
+@dataclass(frozen=True)
+class ParameterType:
+    """A type: `words` describe it in messages, `convert` returns a value of it, None for one that does not fit."""
+
+    name: str
+    words: str
+    convert: Callable[[Value], Value]
+    constraints: frozenset[str] = frozenset({"enum"})
+
+    @property
+    def is_text(self) -> bool:
+        """Whether a plain scalar is accepted as written: `1.10` keeps its zero, `3 kg` is not a mass."""
+        return self.convert is as_text
+
+    @property
+    def is_structured(self) -> bool:
+        return self.name in ("vector", "list", "map")
+
+
+def infer_type(value: Value) -> ParameterType:
+    """Return the type of a parameter that is declared by its default only."""
+    match value:
+        case bool():
+            return PARAMETER_TYPES["boolean"]
+        case int() | float():
+            return PARAMETER_TYPES["number"]
+        case Quantity():
+            return PARAMETER_TYPES[value.dimension]
+        case tuple():
+            return PARAMETER_TYPES["list" if _vector(value) is None else "vector"]
+        case Mapping():
+            return PARAMETER_TYPES["map"]
+    return PARAMETER_TYPES["string"]
+
+
+def _number(value: Value) -> Value:
+    """Accept finite numbers; others cannot be compared with a minimum or maximum."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    return value if math.isfinite(value) else None
+
+
+def _integer(value: Value) -> Value:
+    """Accept whole numbers, 3.0 too, as JSON Schema does."""
+    if isinstance(value, float) and value.is_integer():
+        return int(value)
+    return None if isinstance(value, bool) or not isinstance(value, int) else value
+
+
+def _quantity(dimension: Dimension, value: Value) -> Value:
+    """Accept quantities of the dimension, and bare numbers in SI units."""
+    if isinstance(value, Quantity):
+        return value if value.dimension is dimension and math.isfinite(value.value) else None
+    number = _number(value)
+    return Quantity(float(number), dimension) if isinstance(number, int | float) else None
+
+
+def _vector(value: Value) -> Value:
+    if not isinstance(value, tuple) or len(value) != 3:
+        return None
+    sizes = [item.value if isinstance(item, Quantity) else item for item in value]
+    return value if all(_number(size) is not None for size in sizes) else None
+
+
+def _instance(kind: type, value: Value) -> Value:
+    return value if isinstance(value, kind) else None
+
+
+def _dimension_words(dimension: Dimension) -> str:
+    *others, last = units_of(dimension)[:3]
+    return f"{dimension_name(dimension)} in {', '.join(others)} or {last}"
+
+
+_BOUNDED = frozenset({"minimum", "maximum", "enum"})
+_MATCHED = frozenset({"pattern", "enum"})
+
+_TABLE = (
+    ParameterType("number", "a bare number", _number, _BOUNDED),
+    ParameterType("integer", "a whole number", _integer, _BOUNDED),
+    ParameterType("boolean", "true or false", partial(_instance, bool)),
+    ParameterType("string", "text", as_text, _MATCHED),
+    ParameterType("file", "a path", as_text, _MATCHED),
+    ParameterType("vector", "three numbers", _vector),
+    ParameterType("list", "a list", partial(_instance, tuple)),
+    ParameterType("map", "a map", partial(_instance, Mapping)),
+    *(ParameterType(one, _dimension_words(one), partial(_quantity, one), _BOUNDED) for one in Dimension),
+)
+
+PARAMETER_TYPES = {one.name: one for one in _TABLE}
+"""Every type by the word that declares it."""
+
+MAX_PATTERN = 500
+MAX_TEXT = 1_000
+REFUSED_STEPS = 20_000
+"""The most that rejecting a pattern costs, in steps of expressions."""
+
+_MEMORY = 256 * 1024
+"""What RE2 may use for one pattern [byte]; enough for a program of some thousand instructions, which runs 0.2 s."""
+
+_CHARACTERS_PER_STEP = 25
+"""How many characters each instruction of a pattern is matched against in the time of one step of an expression."""
+
+
+class PatternError(Exception):
+    """A text is not a valid pattern; the message says why."""
+
+
+class Pattern:
+    """A regular expression of a spec, run by RE2, since that takes linear time on patterns of untrusted specs."""
+
+    def __init__(self, text: str) -> None:
+        """Compile it; raise PatternError if it is invalid."""
+        self.text = text
+        if len(text) > MAX_PATTERN:
+            raise PatternError(f"it is longer than {MAX_PATTERN} characters")
+        try:
+            import re2
+        except ImportError as missing:
+            raise PatternError("patterns need the package google-re2, which is not installed") from missing
+        options = re2.Options()
+        options.max_mem, options.log_errors, options.never_capture = _MEMORY, False, True
+        try:
+            self._compiled = re2.compile(_encode(text), options)
+        except re2.error as error:
+            reason, _, part = error.args[0].decode(errors="replace").partition(": ")
+            raise PatternError(f"{reason} at '{part}'" if part else reason) from error
+
+    def steps(self, text: str) -> int:
+        """Return the most that searching a text costs, in steps of expressions."""
+        instructions: int = self._compiled.programsize
+        return instructions * (1 + min(len(text), MAX_TEXT) // _CHARACTERS_PER_STEP)
+
+    def is_in(self, text: str) -> bool:
+        """Whether the pattern matches anywhere in the text; never in a text longer than MAX_TEXT."""
+        return len(text) <= MAX_TEXT and self._compiled.search(_encode(text)) is not None
+
+
+def _encode(text: str) -> bytes:
+    """Encode for RE2, including lone surrogates, which Python makes of undecodable bytes."""
+    return text.encode(errors="surrogatepass")

@@ -18,8 +18,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     RESERVED_NAME,
 )
 from linkforge_compile.expand.evaluate import Evaluator
-from linkforge_compile.expand.origins import Setting
-from linkforge_compile.expand.values import describe
+from linkforge_compile.expand.values import Setting, describe
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression
 from linkforge_compile.limits import Limit
 from linkforge_compile.schema.json_schema import WORDS

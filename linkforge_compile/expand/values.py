@@ -1,14 +1,42 @@
-"""Convert between nodes of a tree and values of expressions."""
+"""Convert between nodes and values of expressions, and trace where a value was written."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import NamedTuple
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple, Protocol, TypeAlias
 
-from linkforge_compile.expressions import FAULT, Fault, Value, as_text, seen_from_compiled
-from linkforge_compile.source import Key, Span
-from linkforge_compile.syntax import ScalarValue, YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.units import Quantity, parse_quantity
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.modules import TAG_NOT_NUMBER
+from linkforge_compile.expressions import (
+    FAULT,
+    Fault,
+    Scope,
+    Template,
+    Value,
+    as_text,
+    evaluate,
+    forgotten_expression,
+    parse_template,
+    passed_on,
+    seen_from_compiled,
+)
+from linkforge_compile.source import Key, Origin, SourceFile, Span, TracedSpan
+from linkforge_compile.syntax import (
+    ScalarValue,
+    Tags,
+    YamlEntry,
+    YamlFault,
+    YamlList,
+    YamlMap,
+    YamlNode,
+    YamlScalar,
+    has_expression,
+    read,
+)
+from linkforge_compile.units import Quantity, number_text, parse_quantity
 
 
 def plain_value(node: YamlNode) -> Value | Fault:
@@ -69,7 +97,7 @@ class Size(NamedTuple):
 def size_of(value: Value, max_nodes: int) -> Size:
     """Return the size of a value; counting stops after `max_nodes` nodes.
 
-    Values share parts, so that ten short variables can stand for a billion nodes.
+    Values share parts, so that ten short variables can make a billion nodes.
     """
     nodes = characters = depth = 0
     waiting = [(value, 0)]
@@ -103,3 +131,212 @@ def describe_node(node: YamlNode) -> str:
     if isinstance(node, YamlScalar):
         return f"'{node.text}'"
     return "a list" if isinstance(node, YamlList) else "a map"
+
+
+ValuePath: TypeAlias = tuple[str | int, ...]
+
+_AXES = {"x": 0, "y": 1, "z": 2}
+_MOST_STEPS = 10_000
+_LONGEST_TEXT = 60
+
+
+class Evaluation(Protocol):
+    """The part of an evaluator that is needed to trace a value."""
+
+    @property
+    def scope(self) -> Scope: ...
+
+    @property
+    def settings(self) -> Mapping[str, Setting]: ...
+
+    def scope_of(self, scalar: YamlScalar) -> Scope: ...
+
+    def template(self, scalar: YamlScalar, sink: Diagnostics) -> Template | None: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """What gives a name its value.
+
+    - `by`: the words for it, such as "'with'" or "the default".
+    - `node`, `path`: the value is the part at this path of the node.
+    - `tree`: evaluates the node; None for plain data, where `$(` is text.
+    - `is_made`: whether the value is written nowhere, such as a number that a `for` counts.
+    - `named_by`: the node that names the data file which holds `node`.
+    - `instead_of`: the settings that this one overrides, the next in line first.
+    """
+
+    by: str
+    node: YamlNode
+    tree: Evaluation | None = None
+    path: ValuePath = ()
+    is_made: bool = False
+    named_by: YamlNode | None = None
+    instead_of: tuple[Setting, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class ExpressionTrace:
+    """An expression and the evaluator that computed it, to trace its value."""
+
+    scalar: YamlScalar
+    tree: Evaluation
+
+    def origin(self, path: ValuePath) -> Origin | None:
+        """Return where the part at a path of the value was written, None if the expression made it."""
+        node, is_data, key, _ = _written(self.scalar, self.tree, path)
+        if node is self.scalar or isinstance(node, YamlFault):
+            return None
+        return Origin((node.key_span(key) if key else None) or node.span, is_data)
+
+    def forgotten_expression(self, path: ValuePath) -> str | None:
+        """Return the expression that the text at a path lacks only the `$(` to be, None for other text."""
+        written = _written(self.scalar, self.tree, path)
+        node, tree = written.node, written.tree
+        if tree is None or written.key or not isinstance(node, YamlScalar) or has_expression(node.text):
+            return None
+        return forgotten_expression(node.text, node.span, tree.scope) if isinstance(node.value, str) else None
+
+
+class NameOrigin(NamedTuple):
+    """How a name got its value; `names` are those from which the value was computed."""
+
+    name: str
+    value: str
+    setting: Setting
+    names: tuple[NameOrigin, ...]
+
+
+def names_behind(node: YamlNode) -> tuple[NameOrigin, ...]:
+    """Return the origin of each name used by the expressions that computed a node; each name appears once."""
+    return tuple(_names_of(node, None, set()))
+
+
+def _names_of(node: YamlNode, writer: Evaluation | None, seen: set[Setting]) -> Iterator[NameOrigin]:
+    for name, tree in _names_in(node, writer):
+        setting = tree.settings.get(name)
+        if setting is None or setting in seen:
+            continue
+        seen.add(setting)
+        value = tree.scope.lookup(name, Diagnostics())
+        shown = "unknown" if value is FAULT else describe(value)
+        if isinstance(value, str):
+            shown = shown if len(shown) < _LONGEST_TEXT else f"{shown[:_LONGEST_TEXT]}…'"
+        else:
+            shown = shown.strip("'")
+        within = tuple(_names_of(setting.named_by or setting.node, setting.tree, seen))
+        yield NameOrigin(name, shown, setting, within)
+
+
+def _names_in(node: YamlNode, tree: Evaluation | None) -> Iterator[tuple[str, Evaluation]]:
+    """Yield the names that the expressions in a node use, in order, each with its evaluator."""
+    if computed := _expression_of(node):
+        node, tree = computed[0].scalar, computed[0].tree
+    match node:
+        case YamlScalar() if tree:
+            template = tree.template(node, Diagnostics()) if has_expression(node.text) else None
+            yield from ((name, tree) for name in (template.names_in_order if template else ()))
+        case YamlList():
+            for item in node:
+                yield from _names_in(item, tree)
+        case YamlMap():
+            for entry in node:
+                yield from _names_in(entry.value, tree)
+
+
+class _Written(NamedTuple):
+    """Where a value is written: a node, or its `key` if that is set. `tree` as in Setting."""
+
+    node: YamlNode
+    is_data: bool
+    key: Key | None = None
+    tree: Evaluation | None = None
+
+
+def _written(node: YamlNode, tree: Evaluation | None, path: ValuePath) -> _Written:
+    """Follow a value through the names that pass it on, to where it was written or computed."""
+    is_data = False
+    for _ in range(_MOST_STEPS):
+        if computed := _expression_of(node):
+            node, tree, path = computed[0].scalar, computed[0].tree, (*computed[1], *path)
+        elif isinstance(node, YamlScalar) and tree and has_expression(node.text):
+            template = tree.template(node, Diagnostics())
+            taken = passed_on(template, tree.scope_of(node)) if template else None
+            setting = tree.settings.get(taken[0]) if taken else None
+            if taken is None or setting is None or setting.is_made:
+                break
+            node, tree, path = setting.node, setting.tree, (*setting.path, *taken[1], *path)
+            is_data = is_data or setting.named_by is not None
+        elif not path:
+            break
+        elif isinstance(path[0], Key):
+            return _Written(node, is_data, path[0])
+        else:
+            inner = _part(node, path[0])
+            if inner is None:
+                break
+            node, path = inner, path[1:]
+    return _Written(node, is_data, None, tree)
+
+
+def _expression_of(node: YamlNode) -> tuple[ExpressionTrace, ValuePath] | None:
+    """Return the expression that computed a node and the path in its value; None if an override changed it."""
+    span = node.span
+    if isinstance(span, TracedSpan) and isinstance(span.trace, ExpressionTrace) and not span.changes:
+        return span.trace, span.path
+    return None
+
+
+def _part(node: YamlNode, key: str | int) -> YamlNode | None:
+    """Return the part of a node under a key, by the rules of expressions."""
+    if isinstance(node, YamlMap):
+        return node.child(str(key))
+    if isinstance(node, YamlList):
+        position = _AXES.get(key) if isinstance(key, str) else key
+        if position is not None and -len(node) <= position < len(node):
+            return node.items[position]
+    return None
+
+
+def angle_tags(sink: Diagnostics) -> Tags:
+    """Return xacro's tags for angles, which accept a number or an expression of numbers such as `pi/2`.
+
+    The result is a bare number, as in xacro, because vendors also write `max_velocity: !degrees 180`.
+    """
+
+    def angle(tag: str, to_radians: Callable[[float], float]) -> Callable[[YamlScalar], YamlNode]:
+        def make(scalar: YamlScalar) -> YamlNode:
+            number = _number(scalar)
+            if number is None:
+                sink.report(TAG_NOT_NUMBER.at(scalar.span, tag=tag, text=scalar.text))
+                return YamlFault(scalar.span)
+            radians = to_radians(number)
+            return YamlScalar(number_text(radians), radians, scalar.span)
+
+        return make
+
+    return {"!degrees": angle("!degrees", math.radians), "!radians": angle("!radians", float)}
+
+
+def _number(scalar: YamlScalar) -> float | None:
+    """Return the value of a scalar as an expression with no names but `pi`; None if it is not a number."""
+    template = parse_template(f"$({scalar.text})", scalar.span, Diagnostics())
+    value = FAULT if template is None else evaluate(template, Scope({}), Diagnostics())
+    return None if isinstance(value, bool) or not isinstance(value, int | float) else float(value)
+
+
+def is_default(place: Span) -> bool:
+    """Whether a place of a compiled spec lies in its `defaults`.
+
+    Only `explain` asks, for a few places, so the file is read again instead of marking every merged entry.
+    """
+    section = _defaults_section(place.file)
+    return section is not None and place.lies_in(section.span)
+
+
+@lru_cache(maxsize=8)
+def _defaults_section(file: SourceFile) -> YamlNode | None:
+    if "defaults" not in file.text:
+        return None
+    tree = read(file, Diagnostics())
+    return tree.get("defaults") if tree else None

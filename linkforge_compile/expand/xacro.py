@@ -1,25 +1,41 @@
-"""Expand xacro files and read the result as specs, with each element at the place where it was written."""
+"""Expand xacro files, read the results as specs, and report faults where they were written."""
 
 from __future__ import annotations
 
 import os
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.importing import XACRO_ARGUMENT, XACRO_FORBIDDEN, XACRO_WARNS
-from linkforge_compile.expand.annotating_sink import with_use_trace
-from linkforge_compile.expand.loader import Loader, SpecFile
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics.codes.importing import (
+    XACRO_ARGUMENT,
+    XACRO_ARGUMENT_TOO_EARLY,
+    XACRO_FAILED,
+    XACRO_FILE_MISSING,
+    XACRO_FORBIDDEN,
+    XACRO_NOT_INSTALLED,
+    XACRO_UNKNOWN_NAME,
+    XACRO_WARNS,
+)
+from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
+from linkforge_compile.expand.arguments import Arguments
+from linkforge_compile.expand.evaluate import Evaluator
+from linkforge_compile.expand.files import Package, as_typed, find_package, names_in, unknown_package
+from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile, with_use_trace
 from linkforge_compile.expand.values import plain_value
-from linkforge_compile.expand.xacro_faults import XacroReporter
-from linkforge_compile.expand.xacro_use import WrittenElements, XacroAnswers, XacroUse
-from linkforge_compile.expressions import FAULT
-from linkforge_compile.source import SourceFile
+from linkforge_compile.expressions import Fault
+from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, number_text, parse_quantity
 
 if TYPE_CHECKING:
     from linkforge_compile.importers.document import Imported, Move
+    from linkforge_compile.importers.xacro import Expanded, Failed, Place
+    from linkforge_compile.source.xml_tree import XmlElement
 
 FORBIDDEN = "LINKFORGE_NO_XACRO"
 """The environment variable that, set to anything, forbids expanding xacro files."""
@@ -100,32 +116,243 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
 def _argument_texts(use: XacroUse, sink: Diagnostics) -> dict[str, str] | None:
     """Return the arguments as text, the only type that xacro has; None after a reported error."""
     texts: dict[str, str] = {}
-    is_complete = not use.arguments.is_partial
     for name, entry in use.arguments.entries.items():
         text = _argument_text(entry.value, use)
-        if text is FAULT:
-            is_complete = False
-        elif isinstance(text, str):
+        if isinstance(text, str):
             texts[name] = text
-        else:
+        elif text is None:
             sink.report(XACRO_ARGUMENT.at(entry.value.span, name=name))
-            is_complete = False
+    is_complete = len(texts) == len(use.arguments.entries) and not use.arguments.is_partial
     return texts if is_complete else None
 
 
-def _argument_text(node: YamlNode, use: XacroUse) -> object:
+def _argument_text(node: YamlNode, use: XacroUse) -> str | Fault | None:
     """Return an argument as text; FAULT after a reported error, None for a list, a map or nothing."""
     if use.arguments.as_text and isinstance(node, YamlScalar):
         quantity = parse_quantity(node.text)
         return number_text(quantity.value) if quantity else node.text
     value = use.evaluator.value(node) if use.evaluator else plain_value(node)
-    match value:
-        case bool():
-            return "true" if value else "false"
-        case Quantity():
-            return number_text(value.value)
-        case int() | float():
-            return number_text(value)
-        case str():
-            return value
-    return FAULT if value is FAULT else None
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    number = value.value if isinstance(value, Quantity) else value
+    if isinstance(number, int | float):
+        return number_text(number)
+    return value if isinstance(value, str | Fault) else None
+
+
+@dataclass(frozen=True)
+class XacroUse:
+    """What names a xacro file, its arguments, and the package folders that the using file declares.
+
+    `evaluator` computes the arguments, None if they hold no expressions. `package` is the one through whose
+    `package://` the file was reached. `used_elsewhere` are the arguments that the robot's other file uses; None if
+    that file reports the unknown ones.
+    """
+
+    path: Path
+    used: ImportSite
+    arguments: Arguments
+    evaluator: Evaluator | None = None
+    packages: Mapping[str, Path] | None = None
+    package: Package | None = None
+    used_elsewhere: Collection[str] | None = ()
+
+
+class XacroAnswers:
+    """Answers the questions of the xacro process, and records what it may not have."""
+
+    def __init__(self, use: XacroUse, loader: Loader) -> None:
+        self._use, self._loader = use, loader
+        self.missing_packages: list[str] = []
+        self.refused: list[Path] = []
+        """Files outside of the roots."""
+
+    def find(self, name: str) -> Path | None:
+        declared = {**(self._use.packages or {}), **self._loader.packages}
+        folder = find_package(name, declared, self._use.path.parent, self._loader.roots)
+        if folder is None:
+            self.missing_packages.append(name)
+        return folder
+
+    def may_read(self, path: Path) -> bool:
+        # The loader has read the file itself already.
+        is_allowed = path == self._use.path.absolute() or self._loader.roots.hold(path)
+        if not is_allowed:
+            self.refused.append(path)
+        return is_allowed
+
+
+class WrittenElements:
+    """The elements of xacro files as written; each file is parsed when first needed."""
+
+    def __init__(self, result: Expanded | Failed, main: SourceFile, loader: Loader) -> None:
+        self.main, self._loader = main, loader
+        self._paths = result.files
+        self._elements: dict[int, tuple[XmlElement, ...]] = {}
+        self.files = tuple(filter(None, map(self.open, result.files[1:])))
+        for path in result.read:
+            loader.add_read_by_xacro(path)
+
+    def element(self, place: Place) -> XmlElement | None:
+        elements = self._elements_of(place.file)
+        return elements[place.element] if place.element < len(elements) else None
+
+    def span(self, place: Place | None) -> Span | None:
+        element = self.element(place) if place else None
+        return element.span if element else None
+
+    @property
+    def all_elements(self) -> Iterator[XmlElement]:
+        return (element for number in range(len(self._paths)) for element in self._elements_of(number))
+
+    def named(self, tag: str) -> Iterator[str]:
+        return (name for one in self.all_elements if one.tag == tag and (name := one.get("name")))
+
+    def open(self, path: Path) -> SourceFile | None:
+        """Read another file than the first; a file names it, not the user, so it must lie within the roots."""
+        return self._loader.open_xml(path, Diagnostics(), ImportSite(str(path), self.main.whole))
+
+    def _elements_of(self, number: int) -> tuple[XmlElement, ...]:
+        if number not in self._elements:
+            from linkforge_compile.importers.xml import read_xml
+
+            file = self.main if number == 0 else self.open(self._paths[number])
+            document = read_xml(file, Diagnostics()) if file else None
+            self._elements[number] = tuple(in_order(document.root)) if document else ()
+        return self._elements[number]
+
+
+def in_order(element: XmlElement) -> list[XmlElement]:
+    """Return an element and all elements in it in document order, as xacro's parser counts them."""
+    return [element, *(inner for child in element.children for inner in in_order(child))]
+
+
+_MESSAGES = (
+    (r"Undefined parameters \[(.*)\]", "the macro also takes {0}, which this call does not give"),
+    (r'Invalid parameter "(.*)"', "the macro takes no '{0}'"),
+    (r"Not enough blocks", "the macro takes a block more, an element inside of the call"),
+    (r'Unused block "(.*)"', "the macro takes no block, found <{0}>"),
+    (r'Undefined block "(.*)"', "no block of the macro is named '{0}'"),
+    (r'Xacro conditional "(.*)" evaluated to "(.*)", which.*', "the condition is true or false, found '{1}'"),
+    (r"unsupported operand type\(s\) for (\S+).*: .*'str'.*", "'{0}' takes numbers, found a text"),
+    (r"can't multiply sequence by non-int of type 'float'", "'*' takes numbers, found a text"),
+    (r"environment variable '(.*)' is not set", "the environment variable {0} is not set"),
+    (
+        r"Unknown substitution command \[(.*?)\].*",
+        "'$({0})' is none of $(arg), $(find), $(dirname), $(env), $(optenv)",
+    ),
+    (r"xacro:(\w+): missing attribute '(\w+)'", "<xacro:{0}> has no attribute '{1}'"),
+)
+"""Patterns of xacro's messages and our wording; other messages are shown as they are."""
+
+
+@dataclass(frozen=True)
+class XacroReporter:
+    """Reports faults of one use of a xacro file: to `sink` at the use, to `inside` in the file, with a note."""
+
+    use: XacroUse
+    written: WrittenElements
+    loader: Loader
+    sink: Diagnostics
+    inside: Diagnostics
+
+    def report_failure(self, failed: Failed, answers: XacroAnswers) -> None:
+        where = self.use.used.where
+        if failed.reason is None:
+            self.sink.report(XACRO_NOT_INSTALLED.at(where, path=self.use.used.text))
+            return
+        self.report_unknown_arguments(failed.arguments or {}, failed.wanted)
+        place = self._place(failed)
+        if answers.refused:
+            path, reader = answers.refused[-1], place or where or self.written.main.whole
+            self.loader.may_read(path, ImportSite(str(as_typed(path)), reader), self.inside)
+        elif answers.missing_packages:
+            self.sink.report(self._unknown_package(answers.missing_packages[-1], place))
+        elif failed.kind == "ArgException":
+            self._report_unset(failed.reason, place, failed.arguments or {})
+        else:
+            self.inside.report(self._fault(failed, failed.reason, place))
+
+    def report_unknown_arguments(self, declared: Mapping[str, Place], wanted: Collection[str]) -> None:
+        """Report the arguments that neither this file nor the robot's other file declares or uses."""
+        if self.use.used_elsewhere is None:
+            return
+        first = next(map(self.written.span, declared.values()), None)
+        note = Note("its arguments are declared here" if declared else "this file declares no arguments", first)
+        known = (*declared, *wanted, *self.use.used_elsewhere)
+        for name, entry in self.use.arguments.entries.items():
+            if name not in known:
+                self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=known, notes=[note]))
+
+    def _unknown_package(self, name: str, place: Span | None) -> Diagnostic:
+        where, loader = self.use.used.where, self.loader
+        near = {**(self.use.packages or {}), **loader.packages}
+        notes = [Note("it is looked for here", place)] if where and place else []
+        start, nearby = self.use.path.parent, loader.nearby_packages
+        return unknown_package(where or place, name, start, loader.roots, nearby, near=near, notes=notes)
+
+    def _report_unset(self, name: str, place: Span | None, arguments: Mapping[str, Place]) -> None:
+        where, declared = self.use.used.where, self.written.span(arguments.get(name))
+        remedy = f"with: {{{name}: VALUE}}" if where else f"{name}:=VALUE"
+        if declared and place:
+            notes = [Note("its default is here", declared)]
+            self.inside.report(XACRO_ARGUMENT_TOO_EARLY.at(place, name=name, remedy=remedy, notes=notes))
+        else:
+            what = f"parameter '{name}' has"
+            self.sink.report(PARAMETER_NOT_SET.at(where or place, what=what, remedy=f"'{remedy}'"))
+
+    def _fault(self, failed: Failed, reason: str, place: Span | None) -> Diagnostic:
+        """Return the diagnostic for a failed expression or element."""
+        where, notes = self._where(failed, place)
+        if failed.missing:
+            name, near = failed.missing.name, names_in(failed.missing.parent)
+            return XACRO_FILE_MISSING.at(where, path=as_typed(failed.missing), name=name, near=near, notes=notes)
+        if failed.kind == "NameError" and (unknown := re.search(r"'(\w+)'", reason)):
+            kind, near_names = "property or parameter", self._names()
+            return XACRO_UNKNOWN_NAME.at(where, kind=kind, name=unknown[1], near=near_names, notes=notes)
+        if unknown := re.match(r"unknown macro name: (?:xacro:)?(\S+)", reason):
+            macros = self.written.named("xacro:macro")
+            return XACRO_UNKNOWN_NAME.at(where, kind="macro", name=unknown[1], near=macros, notes=notes)
+        within = f", in '${{{failed.expressions[-1]}}}'" if failed.expressions else ""
+        return XACRO_FAILED.at(where, problem=_message(reason, failed.kind) + within, notes=notes)
+
+    def _where(self, failed: Failed, place: Span | None) -> tuple[Span | None, list[Note]]:
+        """Return where the failed expression is written, with a note on what needs it if that is elsewhere."""
+        where = place or self.use.used.where
+        if not failed.expressions:
+            return where, []
+        innermost = failed.expressions[-1]
+        if stopped := self.written.element(failed.place) if failed.place else None:
+            own = _find_expression(innermost, [stopped])
+            if own or f"${{{innermost}}}" in stopped.raw:
+                return own or where, []
+        cause = _find_expression(innermost, self.written.all_elements)
+        return (cause, [Note("it is needed here", where)]) if cause else (where, [])
+
+    def _names(self) -> Iterator[str]:
+        """Yield the names of properties and of macro parameters."""
+        yield from self.written.named("xacro:property")
+        for element in self.written.all_elements:
+            if element.tag == "xacro:macro":
+                yield from re.findall(r"(?:^|\s)[*^]*([A-Za-z_]\w*)", element.get("params") or "")
+
+    def _place(self, failed: Failed) -> Span | None:
+        if failed.line is not None and failed.file:
+            file = self.written.open(failed.file)
+            return Span(file, failed.line, 1, failed.line, 1) if file else None
+        return self.written.span(failed.place)
+
+
+def _find_expression(expression: str, elements: Iterable[XmlElement]) -> Span | None:
+    """Return the span of the first attribute in which an expression is written."""
+    text = f"${{{expression}}}"
+    found = ((element, name) for element in elements for name, value in element.values.items() if text in value)
+    return next((element.attributes[name].span for element, name in found), None)
+
+
+def _message(reason: str, kind: str) -> str:
+    line = " ".join(reason.split())
+    for pattern, words in _MESSAGES:
+        if found := re.fullmatch(pattern, line):
+            return words.format(*found.groups())
+    return f"there is no key {line}" if kind == "KeyError" else line

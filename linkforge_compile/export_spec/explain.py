@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.expand.defaults import is_default
-from linkforge_compile.expand.origins import NameOrigin, names_behind
+from linkforge_compile.expand.values import NameOrigin, is_default, names_behind
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.computed_inertia import ComputedFrom, computed_from
 from linkforge_compile.export_spec.provenance import place_of

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.expand.defaults import is_default
+from linkforge_compile.expand.values import is_default
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Provenance, outward
 

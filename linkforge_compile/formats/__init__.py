@@ -31,13 +31,13 @@ __all__ = [
     "Rendering",
     "declared_options",
     "format_named",
-    "limits",
     "render_documents",
     "render_srdf",
     "render_srdf_with_map",
     "render_templates",
     "render_urdf",
     "render_urdf_with_map",
+    "report_limits",
     "require_options",
 ]
 
@@ -67,7 +67,7 @@ def require_options(options: Options) -> None:
         option.value(options)
 
 
-def limits(robot: Robot, options: Options, requested: Iterable[str] = ()) -> Iterator[Diagnostic]:
+def report_limits(robot: Robot, options: Options, requested: Iterable[str] = ()) -> Iterator[Diagnostic]:
     """Yield what the default formats and the requested ones cannot hold of a robot."""
     names = frozenset(requested)
     for one in FORMATS:

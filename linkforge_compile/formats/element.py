@@ -1,12 +1,14 @@
-"""Parts of the robot as elements: what their fields state, and then what no field says."""
+"""Elements of the parts of a robot: attributes by the specs of their fields, then what no field covers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cache
+from operator import attrgetter
 from typing import TYPE_CHECKING, Protocol
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.fields import written_numbers
+from linkforge_compile.core.fields import field_specs, number_fields
 from linkforge_compile.core.part import Element, Inside, attribute_pairs
 from linkforge_compile.core.raw_xml import RawXml
 from linkforge_compile.formats.source_map import active_origins, origin_of
@@ -194,19 +196,48 @@ def leaf_at(tag: str, source: SourceRef | None, *path: str, **stated: Spellable 
     return Xml(f"<{tag}{attributes_at(source, *path, **stated)}/>")
 
 
-def leaf(tag: str, part: Element, /, **stated: Spellable | None) -> Xml:
-    """Return an element whose fields are all attributes."""
+def leaf(part: Element, tag: str = "", /, **changes: Spellable | None) -> Xml:
+    """Return an element whose fields are all attributes; `changes` as for `attributes_of`."""
+    tag = tag or part.TAG
     if part.extra_attributes or part.extra_elements or part.extra_inside or active_origins():
-        return whole(tag, part, NOTHING, **stated)
-    return Xml(f"<{tag}{_stated_alone(stated)}/>")  # nine of ten
+        start, inner = f"<{tag}{attributes_of(part, **changes)}", elements(part)
+        return Xml(f"{start}>{inner}</{tag}>" if inner else f"{start}/>")
+    return Xml(f"<{tag}{_stated_alone(_attribute_values(part, changes))}/>")  # nine of ten
 
 
-def numbers_leaf(part: Element, /, **stated: Spellable | None) -> Xml:
-    """Return an element whose attributes are `stated` and its numbers."""
-    return leaf(part.TAG, part, **stated, **dict(written_numbers(part)))
+def attributes_of(part: Element, /, **changes: Spellable | None) -> Xml:
+    """Return the attributes of a part, by the specs of its fields; `changes` are values by attribute, None for none."""
+    return attributes(part, **_attribute_values(part, changes))
 
 
-def whole(tag: str, part: Element, text: Xml, /, **stated: Spellable | None) -> Xml:
-    """Return an element whose fields are attributes and its text."""
-    start, inner = f"<{tag}{attributes(part, **stated)}", elements(part)
-    return Xml(f"{start}>{text}{inner}</{tag}>" if text or inner else f"{start}/>")
+def _attribute_values(part: object, changes: Mapping[str, Spellable | None]) -> dict[str, Spellable | None]:
+    kind: type = type(part)
+    getters, implied = _attribute_getters(kind)
+    values = {name: get(part) for name, get in getters}
+    for name, value in implied:  # not written, unless the author did
+        if values[name] == value and name not in part.stated:  # type: ignore[attr-defined]  # of classes that have it
+            values[name] = None
+    values.update(changes)
+    return values
+
+
+_ORDERS = {
+    "end_effector": ("name", "parent_link", "group", "parent_group"),
+    "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+}
+"""The attributes of elements that are written in another order than that of the fields."""
+
+
+@cache
+def _attribute_getters(
+    kind: type,
+) -> tuple[tuple[tuple[str, Callable[[object], Spellable | None]], ...], tuple[tuple[str, object], ...]]:
+    """Return what gets each attribute of a class, and the attributes with a default that may be left out."""
+    fields: dict[str, list[str]] = {}
+    for field, spec in field_specs(kind).items():
+        if spec.xml and spec.xml[0] == "@":
+            fields.setdefault(spec.xml[1:], []).append(field)
+    names = _ORDERS.get(getattr(kind, "TAG", ""), tuple(fields))
+    optional = number_fields(kind).items() if hasattr(kind, "stated") else ()
+    implied = tuple((field, spec.implied) for field, spec in optional if spec.xml == f"@{field}")
+    return tuple((name, attrgetter(*fields[name])) for name in names), implied

@@ -129,12 +129,18 @@ def place_of(value: object) -> Xml:
     return getattr(value, "place", NOTHING)
 
 
+def element_of(value: Spellable | None, tag: str) -> Xml:
+    """Return an element with a text, and where that was written while a source map is made; nothing for None."""
+    return NOTHING if value is None else Xml(f"<{tag}{place_of(value)}>{escaped(spelled(value))}</{tag}>")
+
+
 FILTERS: dict[str, Callable[..., object]] = {
     "number": number_text,
     "vector": format_vector,
     "degrees": math.degrees,
     "to_yaml": format_yaml,
     "place": place_of,
+    "element": element_of,
 }
 """The filters that templates have beside those of Jinja2."""
 

@@ -91,8 +91,9 @@ _REDUCTION = NumberType(bound=BEYOND_EPSILON)
 
 def _lower_transmission(written_joints: Mapping[str, Located], fields: Fields, name: str) -> Transmission | None:
     is_valid = fields.name_is_valid(name, "transmission")
-    joints = fields.each("joints", "transmission joint", partial(_lower_joint, written_joints))
-    actuators = fields.each("actuators", "transmission actuator", _lower_actuator)
+    joints = fields.each("joints", "transmission joint", partial(_lower_end, TransmissionJoint, written_joints))
+    # A spec does not say whether a motor turns or slides.
+    actuators = fields.each("actuators", "transmission actuator", partial(_lower_end, TransmissionActuator, {}))
     return lower_element(
         Transmission,
         fields,
@@ -102,19 +103,10 @@ def _lower_transmission(written_joints: Mapping[str, Located], fields: Fields, n
     )
 
 
-def _lower_joint(written_joints: Mapping[str, Located], fields: Fields, name: str) -> TransmissionJoint | None:
-    return _lower_end(TransmissionJoint, fields, name, position_type_of_node(written_joints.get(name)))
-
-
-def _lower_actuator(fields: Fields, name: str) -> TransmissionActuator | None:
-    # A spec does not say whether a motor turns or slides.
-    return _lower_end(TransmissionActuator, fields, name, position_type_of_node(None))
-
-
-def _lower_end(kind: type[End], fields: Fields, name: str, position: NumberType) -> End | None:
+def _lower_end(kind: type[End], written_joints: Mapping[str, Located], fields: Fields, name: str) -> End | None:
     node = fields.node.get("hardware_interfaces")
     are_stated = not (isinstance(node, YamlList) and not node.items)
-    offset = fields.number("offset", position)
+    offset = fields.number("offset", position_type_of_node(written_joints.get(name)))
     return lower_element(
         kind,
         fields,

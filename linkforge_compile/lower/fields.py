@@ -23,7 +23,6 @@ from linkforge_compile.lower.numbers import (
     suspicious_unit,
 )
 from linkforge_compile.lower.object_context import ObjectContext
-from linkforge_compile.source import SourceRef
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.syntax.nodes import (
     YAML_1_1_BOOLEANS,
@@ -63,7 +62,6 @@ class Fields(ObjectContext):
         return None
 
     def number(self, key: str, accepted: NumberType = BARE, *, required: str = "") -> float | None:
-        """Read a number in SI units."""
         node = self.get(key, required)
         return None if node is None else self.number_at(node, key, accepted)
 
@@ -79,7 +77,6 @@ class Fields(ObjectContext):
         return int(value)
 
     def flag(self, key: str) -> bool | None:
-        """Read true or false."""
         node = self.node.get(key)
         if isinstance(node, YamlScalar) and isinstance(node.value, bool):
             return node.value
@@ -106,7 +103,6 @@ class Fields(ObjectContext):
         return None if node is None else self.vector3_at(node, key, accepted)
 
     def choice(self, key: str, choices: type[Choice], *, required: str = "") -> Choice | None:
-        """Read one word of an enumeration."""
         text = self.text(key, required=required)
         if text is None:
             return None
@@ -119,7 +115,6 @@ class Fields(ObjectContext):
     # Objects and lists inside
 
     def map(self, key: str, *, required: str = "") -> Fields | None:
-        """Return the object under a key."""
         node = self.get(key, required)
         return None if node is None else self.map_at(node, key)
 
@@ -226,7 +221,6 @@ class Fields(ObjectContext):
         return Vector3(*numbers) if numbers else None
 
     def text_at(self, node: YamlNode, field: str) -> str | None:
-        """Read a scalar as it was written."""
         if isinstance(node, YamlScalar):
             return node.text
         self.report_wrong_kind(node, field, "text")
@@ -234,17 +228,17 @@ class Fields(ObjectContext):
 
     def name_is_valid(self, name: str, kind: str, where: YamlNode | None = None) -> bool:
         """Whether URDF readers accept a name; report it if not, without `where` at the object."""
-        return is_valid_name(name) or self._report_invalid_name(name, kind, where or self.ref)
-
-    def _report_invalid_name(self, name: str, kind: str, where: YamlNode | SourceRef) -> bool:
+        if is_valid_name(name):
+            return True
+        place = where or self.ref
         if facts := xacro_facts(name):
             for each in facts:
-                self.report(XACRO_EXPRESSION, where, text=each["text"], ours=each["ours"])
+                self.report(XACRO_EXPRESSION, place, text=each["text"], ours=each["ours"])
             return False
         wrong = next((character for character in name if not is_valid_name(character)), None)
         shown = repr(wrong) if wrong is None or wrong.isprintable() else code_point(wrong)
         reason = "it is empty" if wrong is None else f"{shown} is not allowed"
-        self.report(INVALID_NAME, where, name=name, kind=kind, reason=reason)
+        self.report(INVALID_NAME, place, name=name, kind=kind, reason=reason)
         return False
 
 

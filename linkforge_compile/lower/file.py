@@ -57,13 +57,13 @@ def lower_file(
     for name, frame in file.each("frames", "frame", _lower_frame):
         _add_frame(frame or _Frame(name, f"{name}_joint"), links, joints, sink)
     semantic = _semantic(file)
-    version = file.text("version")
+    version, metadata = file.text("version"), tree.get("metadata")
     robot = Robot(
         file.name("name", "robot") or "robot",  # the schema reports a missing name
         version=IR_VERSION if version is None else version,
         version_stated=version is not None,
         materials=dict(scope.materials),
-        metadata=_metadata(tree),
+        metadata={entry.name: _plain_data(entry.value) for entry in metadata} if isinstance(metadata, YamlMap) else {},
         links=[link for link in links.values() if link],
         joints=[joint for joint in joints.values() if joint],
         **_devices_of(file),
@@ -119,7 +119,12 @@ def _unresolved_names(tree: YamlMap, faulty: Iterable[str]) -> UnresolvedNames:
     modules = (entry.name for entry in tree if isinstance(entry.value, YamlFault) and "use" in entry.value.keys)
     # A wrongly indented entry is among the keys of the one above.
     sections = [node for name in _SECTIONS_OF_NAMES if isinstance(node := tree.get(name), YamlMap)]
-    entries = [entry for section in sections for entry in section if _entry_has_fault(entry)]
+    entries = [
+        entry
+        for section in sections
+        for entry in section
+        if isinstance(entry.value, YamlMap) and has_fault(entry.value)
+    ]
     return unresolved_of(
         [
             *faulty,
@@ -130,10 +135,6 @@ def _unresolved_names(tree: YamlMap, faulty: Iterable[str]) -> UnresolvedNames:
             *(name for entry in entries for name in names_at_fault(entry.value)),
         ]
     )
-
-
-def _entry_has_fault(entry: YamlEntry) -> bool:
-    return isinstance(entry.value, YamlMap) and has_fault(entry.value)
 
 
 def _with_faulty_mimic(faulty: Iterable[YamlEntry], joints: YamlNode | None) -> list[str]:
@@ -210,11 +211,6 @@ def _semantic(file: Fields) -> LoweredSemantic | None:
     from linkforge_compile.lower.semantic import lower_semantic
 
     return lower_semantic(file)
-
-
-def _metadata(tree: YamlMap) -> dict[str, object]:
-    data = tree.get("metadata")
-    return {entry.name: _plain_data(entry.value) for entry in data} if isinstance(data, YamlMap) else {}
 
 
 def _plain_data(node: YamlNode) -> PlainData:

@@ -90,15 +90,15 @@ def _lower_visual(shape: Fields | None, scope: FileScope) -> Visual | None:
     return lower_element(Visual, shape, geometry=geometry, material=material)
 
 
-def _lower_collision(shape: Fields | None, scope: FileScope) -> Collision | None:
-    return lower_element(Collision, shape, geometry=lower_geometry(shape, scope)) if shape else None
-
-
 def _lower_collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) -> list[Collision | None]:
     """Lower `collision`: a shape, a list of them, or `visual` for the shapes of the visuals."""
     node = link.node.get("collision")
     if not isinstance(node, YamlScalar):
-        return [_lower_collision(link.map_at(shape, "collision"), scope) for shape in link.items("collision")]
+        shapes = (link.map_at(shape, "collision") for shape in link.items("collision"))
+        return [
+            lower_element(Collision, shape, geometry=lower_geometry(shape, scope)) if shape else None
+            for shape in shapes
+        ]
     if node.text != "visual":
         link.report_wrong_kind(node, "collision", "a shape, a list of them or 'visual'")
         return [None]
@@ -128,8 +128,11 @@ def _written_or_computed(link: Fields, inertial: Fields, shapes: Shapes, scope: 
     lower_pose(inertial)
     if (node := inertial.node.get("origin")) is not None:
         inertial.report(ORIGIN_WITHOUT_INERTIA, node, owner=inertial.title)
-    elif _has_mass_or_density(inertial) and _has_shapes(link, inertial, shapes):
-        return _computed(inertial, shapes, scope, mass, density)
+    elif _has_mass_or_density(inertial):
+        if shapes:
+            return _computed(inertial, shapes, scope, mass, density)
+        if not link.is_faulty:
+            inertial.report(INERTIA_OF_NOTHING, inertial.ref, owner=inertial.title)
     return None
 
 
@@ -154,12 +157,6 @@ def _has_mass_or_density(inertial: Fields) -> bool:
     else:
         return True
     return False
-
-
-def _has_shapes(link: Fields, inertial: Fields, shapes: Shapes) -> bool:
-    if not shapes and not link.is_faulty:
-        inertial.report(INERTIA_OF_NOTHING, inertial.ref, owner=inertial.title)
-    return bool(shapes)
 
 
 def _computed(

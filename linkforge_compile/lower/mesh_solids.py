@@ -22,9 +22,16 @@ from linkforge_compile.diagnostics.codes.physics import (
     UNREADABLE_MESH,
     WIDE_MESH,
 )
-from linkforge_compile.expand.annotating_sink import with_use_trace
-from linkforge_compile.expand.file_text import TooLargeError, UnreadableError, read_bytes
-from linkforge_compile.expand.paths import as_typed, misspelt_part, path_base, searched_note
+from linkforge_compile.expand.files import (
+    TooLargeError,
+    UnreadableError,
+    as_typed,
+    misspelt_part,
+    path_base,
+    read_bytes,
+    searched_note,
+)
+from linkforge_compile.expand.loader import with_use_trace
 from linkforge_compile.expand.uses import FindMesh
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.roots import identity
@@ -99,19 +106,15 @@ class MeshSolids:
             return None
         self._budget.spend(Limit.MESH_BYTES, len(content), where)
         self._files.append(as_typed(path))
-        self._collect(len(content))
+        self._uncollected += len(content)
+        if self._uncollected > _BYTES_UNTIL_COLLECTION:
+            gc.collect()
+            self._uncollected = 0
         try:
             return solid_in(content, path.name, times=self._budget.times)
         except MeshError as error:
             # The traceback of the error would keep its frames, and with them the mesh, in memory.
             return MeshError(error.fault, error.message)
-
-    def _collect(self, read: int) -> None:
-        """Free the memory of earlier meshes once it is large; `read` bytes come now."""
-        self._uncollected += read
-        if self._uncollected > _BYTES_UNTIL_COLLECTION:
-            gc.collect()
-            self._uncollected = 0
 
     def _content(self, path: Path) -> bytes | None:
         """Return the content of a file, None for a missing one; record one that cannot be read."""

@@ -114,7 +114,10 @@ def si_number(node: YamlNode, accepted: NumberType) -> float | Refusal:
     if isinstance(value, str):
         value = parse_quantity(value)
     if isinstance(value, Quantity):
-        return _of_quantity(node, value, accepted)
+        if value.dimension in accepted.dimensions:
+            return _in_bound(node, value.value, accepted)
+        other = _WORDS[value.dimension][0]
+        return Refusal(WRONG_DIMENSION, {"expected": accepted.words, "found": describe_node(node), "other": other})
     if isinstance(value, bool) or not isinstance(value, int | float):
         return _no_number(node, accepted)
     return _in_bound(node, as_float(value), accepted)
@@ -187,13 +190,6 @@ def describe_node(node: YamlNode) -> str:
             return "a map"
         case _:
             return "nothing"
-
-
-def _of_quantity(node: YamlNode, quantity: Quantity, accepted: NumberType) -> float | Refusal:
-    if quantity.dimension not in accepted.dimensions:
-        other = _WORDS[quantity.dimension][0]
-        return Refusal(WRONG_DIMENSION, {"expected": accepted.words, "found": describe_node(node), "other": other})
-    return _in_bound(node, quantity.value, accepted)
 
 
 def _in_bound(node: YamlNode, number: float, accepted: NumberType) -> float | Refusal:

@@ -117,14 +117,11 @@ class ObjectContext:
         try:
             return make()
         except RobotModelError as error:
-            if not self._has_reported_faults:
+            leaves = leaves_in(self.node)
+            if not any(isinstance(leaf, YamlFault) or self.sink.has_error_in(leaf.span) for leaf in leaves):
                 reason = error.message.removeprefix(f"{self.title} ")
                 self.report(REFUSED, self.ref, *error.field, owner=self.title, reason=reason)
             return None
-
-    @property
-    def _has_reported_faults(self) -> bool:
-        return any(isinstance(node, YamlFault) or self.sink.has_error_in(node.span) for node in leaves_in(self.node))
 
     def _aliases(self, *inside: Step) -> Iterator[Link]:
         """Yield the aliases and `<<` that insert this object, or what the steps lead to in it."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from linkforge_compile.core.fields import NOT_ZERO, ZERO_TO_ONE
@@ -19,7 +19,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.paths import path_base
+from linkforge_compile.expand.files import path_base
 from linkforge_compile.expand.uses import from_base, no_mesh
 from linkforge_compile.lower.elements import CommonKwargs, common_kwargs, lower_element
 from linkforge_compile.lower.fields import Fields
@@ -51,7 +51,7 @@ class FileScope:
 
 def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
     """Lower the one geometry of a visual or a collision; None for none, which is reported."""
-    keys = [key for key in _LOWER if shape.get(key) is not None]
+    keys = [key for key in (*_PRIMITIVES, "mesh") if shape.get(key) is not None]
     if not keys:
         shape.report_incomplete(NO_GEOMETRY, owner=shape.title)
         return None
@@ -61,26 +61,23 @@ def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
             SEVERAL_GEOMETRIES, shape.node.entries[second].value, owner=shape.title, first=first, second=second
         )
         return None
-    return _LOWER[keys[0]](shape, shape.node.entries[keys[0]].value, scope)
+    key, node = keys[0], shape.node.entries[keys[0]].value
+    if key == "mesh":
+        return _mesh(shape, node, scope)
+    if key in _SHORT_FORMS and not isinstance(node, YamlMap):
+        return _SHORT_FORMS[key](shape, node)
+    body = shape.map(key)
+    return lower_element(_PRIMITIVES[key], body) if body else None
 
 
-def _box(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
-    if isinstance(node, YamlMap):
-        return _described(Box, shape, "box")
+def _box(shape: Fields, node: YamlNode) -> Geometry | None:
     size = shape.vector3_at(node, "box", EXTENT)
     return None if size is None else Box(size, source=SourceRef(node, None, shape.trail))
 
 
-def _sphere(shape: Fields, node: YamlNode, _scope: FileScope) -> Geometry | None:
-    if isinstance(node, YamlMap):
-        return _described(Sphere, shape, "sphere")
+def _sphere(shape: Fields, node: YamlNode) -> Geometry | None:
     radius = shape.number_at(node, "sphere", EXTENT)
     return None if radius is None else Sphere(radius, source=SourceRef(node, None, shape.trail))
-
-
-def _described(kind: type[Box | Cylinder | Sphere | Capsule], shape: Fields, key: str) -> Geometry | None:
-    body = shape.map(key)
-    return lower_element(kind, body) if body else None
 
 
 def _mesh(shape: Fields, node: YamlNode, scope: FileScope) -> Geometry | None:
@@ -117,13 +114,8 @@ def _scale(mesh: Fields) -> Vector3 | None:
     return None if number is None else Vector3(number, number, number)
 
 
-_LOWER: dict[str, Callable[[Fields, YamlNode, FileScope], Geometry | None]] = {
-    "box": _box,
-    "cylinder": lambda shape, _node, _scope: _described(Cylinder, shape, "cylinder"),
-    "sphere": _sphere,
-    "capsule": lambda shape, _node, _scope: _described(Capsule, shape, "capsule"),
-    "mesh": _mesh,
-}
+_PRIMITIVES = {"box": Box, "cylinder": Cylinder, "sphere": Sphere, "capsule": Capsule}
+_SHORT_FORMS = {"box": _box, "sphere": _sphere}
 
 
 _BYTE = 255

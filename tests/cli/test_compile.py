@@ -14,7 +14,7 @@ from types import SimpleNamespace
 import pytest
 from lxml import etree
 
-from linkforge_compile.cli.exits import UsageError
+from linkforge_compile.cli import UsageError
 from linkforge_compile.cli.output import write_to_stdout
 from tests.cli.in_process import linkforge
 

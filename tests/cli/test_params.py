@@ -118,7 +118,7 @@ def test_variants_that_were_not_checked_are_counted(arm: Path, monkeypatch: pyte
     monkeypatch.setattr(Limit.CHARACTERS_READ, "_value_", replace(Limit.CHARACTERS_READ.value, most=len(spec)))
     run = linkforge("check", "arm.robot.yaml", "--all-variants", cwd=arm)
     assert run.stderr.splitlines()[1:] == [
-        "note: what comes behind variant 'd' is not checked",
+        "note: what comes after variant 'd' is not checked",
         "checked 1 spec with the defaults and 4 variants, but not with 4 more: 1 error",
     ]
 

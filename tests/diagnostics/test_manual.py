@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile.cli.main import main
-from linkforge_compile.cli.manual import heading
+from linkforge_compile.cli.reports import heading
 from linkforge_compile.diagnostics.codes import REGISTER
 from linkforge_compile.resources import manual_folder
 from tests.diagnostics.manual_page import Example, Page

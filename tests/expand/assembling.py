@@ -25,7 +25,7 @@ class Assembled(NamedTuple):
 def assemble(
     text: str, *pairs: str, folder: Path | None = None, unset: Unset = Unset.ERROR, **values: object
 ) -> Assembled:
-    """Expand a spec of which `linkforge` and `name` are said already; parameters as text or as Python values."""
+    """Expand a spec without `linkforge` and `name`, which are added; parameters as text or as Python values."""
     sink = Diagnostics()
     loader = Loader()
     spec = loader.parse(f"linkforge: 1\nname: test\n{dedent(text).lstrip()}", "test.robot.yaml", folder, sink)
@@ -36,7 +36,7 @@ def assemble(
 
 
 def write(folder: Path, files: Mapping[str, str]) -> None:
-    """Write spec files of which `linkforge` and `name` are said already."""
+    """Write spec files without `linkforge` and `name`, which are added."""
     for name, text in files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)

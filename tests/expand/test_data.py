@@ -45,7 +45,7 @@ def test_the_tags_of_xacro_make_bare_radians(tmp_path, text, angle):
 
 
 @pytest.mark.parametrize("text", ["ninety", "90 deg", "prefix", "true", "'a' + 'b'", "1/0", "link('x')", ""])
-def test_a_tag_stands_before_a_number(tmp_path, text):
+def test_a_tag_needs_a_number(tmp_path, text):
     (tmp_path / "table.yaml").write_text(f'a: !degrees "{text}"\n')
     found = assemble("data: {table: table.yaml}\nmetadata: {a: $(table.a)}\n", folder=tmp_path)
     assert (found.told, found.metadata) == (

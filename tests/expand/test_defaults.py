@@ -150,7 +150,7 @@ def test_a_default_keeps_its_own_place():
     assert (axis.span.line, axis.span.column) == (3, 26)
 
 
-def test_a_copy_of_the_visuals_takes_the_default_of_collisions():
+def test_a_copy_of_the_visuals_gets_the_default_of_collisions():
     found = assemble("""
         defaults: {collision: {origin: [0, 0, 1], name: hull}}
         links:
@@ -163,6 +163,6 @@ def test_a_copy_of_the_visuals_takes_the_default_of_collisions():
     ]
 
 
-def test_defaults_that_are_no_map_are_told():
+def test_defaults_that_are_no_map_are_reported():
     found = assemble("variables: {list: [1]}\ndefaults: $(list)\nlinks: {arm: }\n")
     assert found.told == ["'defaults' takes a map, found a list"]

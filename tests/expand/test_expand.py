@@ -1,4 +1,4 @@
-"""Expressions of the tree: what each becomes, where it stands, and what is left alone."""
+"""Test how the expressions of a tree are computed."""
 
 import pytest
 
@@ -13,7 +13,7 @@ from linkforge_compile.units import Dimension, Quantity
 from tests.expand.assembling import assemble
 
 
-def test_an_expression_becomes_a_node_of_its_value_where_it_stands():
+def test_an_expression_becomes_a_node_of_its_value_in_its_place():
     instance, told = assemble("""
         variables: {size: [1, 2], limits: {lower: -1}}
         metadata: {list: $(size), map: $(limits), text: wheel_$(len(size)), number: "$(size[1] / 4)"}
@@ -113,7 +113,7 @@ def test_variables_are_computed_in_any_order():
     assert assembled.metadata == {"c": 9, "unit": Quantity(0.003, Dimension.LENGTH)}
 
 
-def test_a_circle_of_variables_is_told_once_used_or_not():
+def test_a_circle_of_variables_is_reported_once_used_or_not():
     _, told = assemble("variables: {a: $(b), b: $(a)}")
     assert told == ["'a' is computed from itself: a → b → a"]
 
@@ -127,7 +127,7 @@ def test_a_variable_that_is_not_used_may_divide_by_zero_but_not_name_what_is_not
     assert told == ["no parameter, variable or 'for' name 'gaer' here; did you mean 'gear'?"]
 
 
-def test_names_of_a_section_that_is_at_fault_are_not_told_again():
+def test_names_of_a_section_that_is_at_fault_are_not_reported_again():
     _, told = assemble("""
         variables: 3
         metadata: {a: $(anything)}
@@ -179,7 +179,7 @@ def test_how_deep_a_computed_value_nests_is_bounded():
 
 
 @pytest.mark.parametrize("use", ["$(half)", "$(-half)", "$(half + 1)", "$(min(half, 1))", "$(pose.half)"])
-def test_text_that_was_meant_for_an_expression_says_so_where_it_is_written(use: str):
+def test_text_that_lacks_its_expression_mark_is_reported_where_it_is_written(use: str):
     compilation = compile_text(f"""linkforge: 1
 name: cart
 parameters: {{track: 0.4 m}}

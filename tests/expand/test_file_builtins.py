@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file
-from linkforge_compile.expand.assembly import Instance
+from linkforge_compile.expand.uses import Instance
 from tests.expand.assembling import assemble, metadata_of, write
 
 
@@ -54,7 +54,7 @@ def test_the_prefix_is_the_whole_of_it(arms: Path):
     assert metadata_of(module(found.instance, "right", "hand")) == {"own": "<r-hand_>", "palm": "r-hand_palm"}
 
 
-def test_a_name_that_is_not_there_is_told_once_whatever_its_prefix(arms: Path):
+def test_a_missing_name_is_reported_once_with_any_prefix(arms: Path):
     hand = arms / "hand.robot.yaml"
     hand.write_text(hand.read_text().replace("link('palm')", "link('plam')"))
     assert [str(one).partition(": ")[2] for one in compile_file(arms / "robot.robot.yaml").diagnostics] == [
@@ -110,7 +110,7 @@ def test_a_path_is_absolute_and_belongs_to_the_file_that_writes_it(tmp_path: Pat
         ),
     ],
 )
-def test_what_stands_in_the_wrong_place_is_told(tmp_path: Path, text: str, told: str):
+def test_misplaced_expressions_are_reported(tmp_path: Path, text: str, told: str):
     write(tmp_path, {"a.robot.yaml": "parameters: {a: {type: string, default: a}}\n"})
     assert any(one.startswith(told) for one in assemble(text, folder=tmp_path).told)
 

@@ -103,7 +103,7 @@ def test_one_palette_may_be_included_by_several_modules(tmp_path):
     assert [path.name for path in compilation.files] == ["robot.yaml", "palette.yaml", "part.yaml"]
 
 
-def test_what_stands_in_a_file_that_cannot_be_read_is_not_missed(tmp_path):
+def test_names_of_an_unreadable_file_are_not_reported_as_missing(tmp_path):
     write(
         tmp_path,
         {

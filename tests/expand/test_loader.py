@@ -1,4 +1,4 @@
-"""Files: how they are named, found and read, and what is told of those that cannot be."""
+"""Test how files are named, found and read, and how unreadable ones are reported."""
 
 import os
 import time
@@ -9,7 +9,7 @@ import pytest
 from linkforge_compile import compile_file
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand import Instance, Loader, arguments_from_text, expand
-from linkforge_compile.expand.paths import follow
+from linkforge_compile.expand.files import follow
 from linkforge_compile.limits import MAX_FILE_BYTES
 from tests.expand.assembling import write
 
@@ -49,7 +49,7 @@ def test_files_count_in_the_order_they_are_read(tmp_path):
         (b" " * (MAX_FILE_BYTES + 1), "it is larger than 16 MiB"),
     ],
 )
-def test_a_file_that_is_no_text_is_told(tmp_path, content, reason):
+def test_a_file_that_is_not_text_is_reported(tmp_path, content, reason):
     path = tmp_path / "a.robot.yaml"
     path.write_bytes(content)
     sink = Diagnostics()
@@ -57,7 +57,7 @@ def test_a_file_that_is_no_text_is_told(tmp_path, content, reason):
     assert [diagnostic.message for diagnostic in sink] == [f"'{path}' cannot be read: {reason}"]
 
 
-def test_a_folder_and_a_missing_file_are_told(tmp_path):
+def test_a_folder_and_a_missing_file_are_reported(tmp_path):
     write(tmp_path, {"arm.robot.yaml": ""})
     sink = Diagnostics()
     assert Loader().open(tmp_path, sink) is None
@@ -179,7 +179,7 @@ def test_packages_are_looked_for_in_the_order_of_the_language(tmp_path, monkeypa
     assert found({"arm": tmp_path / "option"}) == "option"
 
 
-def test_a_package_beside_that_of_the_spec_is_not_read_and_its_user_told_where_it_is(tmp_path, monkeypatch):
+def test_a_sibling_package_is_not_read_but_suggested(tmp_path, monkeypatch):
     """Where a workspace is not sourced: colcon finds packages below src, in repositories as well."""
     use = "links: {base: }\nmodules: {a: {use: 'package://gripper/gripper.robot.yaml', parent: base}}"
     files = {"src/arm/arm.robot.yaml": use, "src/hands/gripper/gripper.robot.yaml": "links: {palm: }"}

@@ -50,7 +50,7 @@ def test_a_module_is_computed_in_its_own_scope_with_what_its_user_gives(tmp_path
     assert [metadata_of(module)["who"] for module in assembly.modules] == ["arm arm 0.5 false", "arm arm 0.1 false"]
 
 
-def test_an_instance_knows_its_name_its_prefix_its_entry_and_its_trail(tmp_path, sink):
+def test_an_instance_has_its_name_prefix_entry_and_include_stack(tmp_path, sink):
     write(
         tmp_path,
         {
@@ -96,7 +96,7 @@ def test_a_fault_of_a_module_says_who_used_it(tmp_path, sink):
     assert told.notes[0].span.text == "arm.robot.yaml"
 
 
-def test_a_fault_of_an_argument_is_told_at_the_argument(tmp_path, sink):
+def test_a_fault_of_an_argument_is_reported_at_the_argument(tmp_path, sink):
     write(
         tmp_path,
         {
@@ -111,7 +111,7 @@ def test_a_fault_of_an_argument_is_told_at_the_argument(tmp_path, sink):
     assert metadata_of(assembly.modules[0]) == {"r": "FAULT"}
 
 
-def test_a_required_parameter_of_a_module_is_an_error_even_where_the_robot_s_own_are_not_judged(tmp_path, sink):
+def test_a_required_parameter_of_a_module_is_an_error_even_if_those_of_the_robot_are_not_checked(tmp_path, sink):
     write(
         tmp_path,
         {
@@ -183,7 +183,7 @@ def test_one_file_may_be_used_often_and_is_read_once(tmp_path):
     assert [path.name for path in loader.files] == ["robot.robot.yaml", "arm.robot.yaml"]
 
 
-def test_the_circle_is_told_with_each_of_its_lines(tmp_path, sink):
+def test_the_circle_is_reported_with_each_of_its_lines(tmp_path, sink):
     write(
         tmp_path,
         {

@@ -3,7 +3,7 @@
 import pytest
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand.normal_form import SHORT_FORMS, long_form, long_object, with_frames_as_joints
+from linkforge_compile.expand.merge_objects import SHORT_FORMS, long_form, long_object, with_frames_as_joints
 from linkforge_compile.schema.registry import definitions
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile
@@ -62,7 +62,7 @@ def test_a_chain_is_the_first_of_the_chains():
     assert plain(whole) == {"chains": [{"base_link": "a"}, {"base_link": "b"}]}
 
 
-def test_frames_are_links_and_fixed_joints_behind_the_files_own():
+def test_frames_become_links_and_fixed_joints_after_those_of_the_file():
     tree = node_of(
         "{links: {a: }, frames: {tool: {parent: a, origin: [0, 0, 1]}, eye: {parent: a, joint: lid}, bad: 3}}"
     )

@@ -126,7 +126,7 @@ def test_a_chain_is_patched_as_it_is_written(change):
     assert made.at("semantic", "groups", "arm") == {"chains": [{"base_link": "base", "tip_link": "hand"}]}
 
 
-def test_a_deleted_link_takes_its_joint_pairs_and_spheres_with_it(change):
+def test_deleting_a_link_deletes_its_joint_pairs_and_spheres(change):
     made = change("links: {cover: null}")
     assert "cover" not in made.at("links")
     assert set(made.at("joints")) == {"wrist", "tool_joint"}
@@ -152,7 +152,7 @@ def test_expressions_and_repetition_see_the_overriding_files_names(change):
     ("shape_order", "left"),
     [("pairs", ["visual", "collision", "collision"]), ("[visual, visual, collision, collision]", None)],
 )
-def test_an_order_of_pairs_outlives_a_shape_that_is_taken_away_and_a_list_is_told(tmp_path, shape_order, left):
+def test_an_order_of_pairs_survives_a_deleted_shape_and_a_list_is_reported(tmp_path, shape_order, left):
     arm = f"links: {{base: {{visual: [{{sphere: 1}}, {{sphere: 2}}], collision: visual, shape_order: {shape_order}}}}}"
     override = "links: {base: {visual: {1: null}}}"
     write(tmp_path, {
@@ -194,7 +194,7 @@ def test_a_missing_name_that_a_when_took_out_is_shown(change):
         ("joints: {wrist: {axis: }}", "the override of 'axis' is empty; write a value, or 'null' to delete it"),
     ],
 )
-def test_what_changes_nothing_is_told(change, override: str, message: str):
+def test_an_override_that_changes_nothing_is_reported(change, override: str, message: str):
     assert message in change(override).told
 
 
@@ -290,7 +290,7 @@ def test_a_position_reaches_lists_of_interfaces(tmp_path: Path):
         ("origin: {xyz: [0, 0, 1]}", False),
     ],
 )
-def test_what_is_there_already_is_told_in_whatever_form(change, patch: str, is_same: bool):
+def test_a_value_equal_to_the_old_one_is_reported_in_any_form(change, patch: str, is_same: bool):
     found = change(f"joints: {{wrist: {{{patch}}}}}")
     assert [
         one for one in found.told if one.endswith("already has this value, so the override changes nothing")
@@ -298,7 +298,7 @@ def test_what_is_there_already_is_told_in_whatever_form(change, patch: str, is_s
     assert bool(found.told) is is_same
 
 
-def test_a_section_that_is_lost_stays_so_beside_frames(tmp_path: Path):
+def test_a_faulty_section_stays_faulty_with_frames(tmp_path: Path):
     text = "links: {hip: , knee: }\njoints: $(nope)\nframes: {tool: {parent: knee}}\n"
     write(tmp_path, {"leg.robot.yaml": text})
     use = "modules: {leg: {use: leg.robot.yaml, override: {links: {knee: {inertial: {mass: 1}}}}}}"
@@ -334,7 +334,7 @@ joints:
         ("joints: {wrist: {origin: [0, 0, 1]}, elbow: {limits: {lower: 3}}}", "lower must not be above upper", []),
     ],
 )
-def test_what_goes_wrong_because_of_an_override_names_it(tmp_path: Path, patch: str, told: str, changed: list[str]):
+def test_an_error_caused_by_an_override_names_the_override(tmp_path: Path, patch: str, told: str, changed: list[str]):
     (tmp_path / "arm.robot.yaml").write_text(ELBOW)
     cell = (
         "linkforge: 1\nname: cell\nlinks: {table: {}}\nmodules:\n  left:\n    use: arm.robot.yaml\n    parent: table\n"

@@ -1,4 +1,4 @@
-"""Parameters: their types, how text and Python values set them, and where faults are told."""
+"""Test the types of parameters, values from text and Python, and the places of faults."""
 
 import pytest
 
@@ -74,7 +74,7 @@ def test_a_python_value_that_no_spec_can_say_is_a_type_error():
         (["size=2"], "'-p reach=LENGTH' or '--variant long'"),
     ],
 )
-def test_who_lacks_a_parameter_is_told_how_it_is_set_there(given: object, remedy: str):
+def test_a_missing_parameter_is_reported_with_how_to_set_it(given: object, remedy: str):
     spec = "linkforge: 1\nname: a\nparameters: {reach: {type: length}, size: 1}\nvariants: {long: {reach: 2 m}}\n"
     told = [one.message for one in compile_text(f"{spec}links: {{a: }}\n", parameters=given).diagnostics]
     assert told == [f"parameter 'reach' has no default and must be set; write {remedy}"]
@@ -109,7 +109,7 @@ def test_a_default_that_is_computed_is_so_only_where_it_is_used():
     assert not assemble(text, "ratio=2").told
 
 
-def test_a_value_that_makes_no_sense_is_told_on_the_command_line_with_the_declaration():
+def test_an_invalid_value_is_reported_on_the_command_line_with_the_declaration():
     sink, loader = Diagnostics(), Loader()
     spec = loader.parse("linkforge: 1\nname: a\nparameters:\n  reach: {type: length}\n", "a.yaml", None, sink)
     expand(spec, arguments_from_text(["reach:=3 kg"], sink), loader, sink)
@@ -123,7 +123,7 @@ def test_an_unknown_parameter_offers_a_near_one():
     assert assemble("parameters: {reach: 1 m}", "raech=2").told == ["no parameter named 'raech'; did you mean 'reach'?"]
 
 
-def test_what_is_no_assignment_and_what_is_set_twice_is_told():
+def test_malformed_and_duplicate_assignments_are_reported():
     sink = Diagnostics()
     arguments = arguments_from_text(["reach", "=1", "a=1", "a:=2", "url=x:=y"], sink)
     assert [diagnostic.message for diagnostic in sink] == [
@@ -134,11 +134,11 @@ def test_what_is_no_assignment_and_what_is_set_twice_is_told():
     assert {name: entry.value.text for name, entry in arguments.entries.items()} == {"a": "1", "url": "x:=y"}
 
 
-def test_a_list_on_the_command_line_that_is_no_yaml_is_told():
+def test_an_invalid_list_on_the_command_line_is_reported():
     assert assemble("parameters: {p: [0, 0]}", "p=[1, 2").told == ["expected ',' or ']' before this"]
 
 
-def test_a_wrong_default_is_told_even_where_it_is_not_used():
+def test_an_invalid_default_is_reported_even_if_unused():
     told = assemble("parameters: {reach: {type: length, default: 3 kg}}", "reach=1").told
     assert told == ["parameter 'reach' takes a length in m, cm or mm, found '3 kg'"]
 

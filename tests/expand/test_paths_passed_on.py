@@ -169,7 +169,7 @@ def test_a_module_s_own_package_comes_before_its_user_s(tmp_path):
         ("file", "gone.yaml"),
     ],
 )
-def test_a_path_that_leads_nowhere_says_where_it_starts(tmp_path, monkeypatch, kind: str, said: str):
+def test_a_missing_file_is_reported_with_the_start_of_its_path(tmp_path, monkeypatch, kind: str, said: str):
     monkeypatch.chdir(tmp_path)
     write(tmp_path, {"arms/arm.robot.yaml": f"parameters: {{t: {{type: {kind}}}}}\ndata: {{d: $(t)}}\nlinks: {{a: }}"})
     write(tmp_path, {"robot.robot.yaml": "modules: {arm: {use: arms/arm.robot.yaml, with: {t: gone.yaml}}}"})

@@ -5,8 +5,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
-from linkforge_compile.expand import Arguments, Loader, SpecFile, Unset
-from linkforge_compile.expand.expand import is_plain, plain_instance
+from linkforge_compile.expand import Arguments, Loader, SpecFile, Unset, is_plain, plain_instance
 from linkforge_compile.expand.expand_uses import expand_uses
 from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
@@ -64,7 +63,7 @@ def test_a_plain_file_is_its_own_assembly(name: str):
         "include: [nowhere.yaml]",
     ],
 )
-def test_what_computes_or_may_lack_a_file_is_not_plain(said: str):
+def test_a_file_with_anything_to_compute_is_not_plain(said: str):
     spec = Loader().parse(f"linkforge: 1\nname: r\n{said}\n", "r.robot.yaml", Path(), Diagnostics())
     assert spec
     assert not is_plain(spec)

@@ -1,4 +1,4 @@
-"""Names that are not there because `when` or an override took them out: whoever misses them is shown where."""
+"""Test references to names that `when` or an override removed: the removal is shown."""
 
 from pathlib import Path
 
@@ -52,7 +52,7 @@ CELL = """
         ("{subgroups: [pair_g]}", "LF4104", "'g' is deleted by this override cell.robot.yaml:8:67"),
     ],
 )
-def test_a_name_that_was_taken_out_is_told_once_with_the_place(tmp_path: Path, use: str, code: str, why: str):
+def test_a_removed_name_is_reported_once_with_the_place(tmp_path: Path, use: str, code: str, why: str):
     group = f"    semantic: {{groups: {{all: {use}}}}}\n"
     write(tmp_path, {"arm.robot.yaml": ARM, "pair.robot.yaml": PAIR, "cell.robot.yaml": CELL + group})
     (told,) = compile_file(tmp_path / "cell.robot.yaml").diagnostics
@@ -63,7 +63,7 @@ def test_a_name_that_was_taken_out_is_told_once_with_the_place(tmp_path: Path, u
     assert "did you mean" not in told.message
 
 
-def test_a_joint_that_goes_with_its_link_is_told_with_what_deletes_the_link(tmp_path: Path):
+def test_a_joint_deleted_with_its_link_is_reported_with_the_deletion(tmp_path: Path):
     arm = """
         links: {base: , link1: }
         joints: {j1: {type: fixed, parent: base, child: link1}}

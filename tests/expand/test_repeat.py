@@ -40,7 +40,7 @@ def test_one_visual_counts_as_an_item():
     assert links(made) == {"a": {"visual": [{"sphere": 2}, {"sphere": 3}]}}
 
 
-def test_what_is_no_object_takes_the_long_form():
+def test_values_that_are_not_objects_use_the_long_form():
     made = assemble("""
         parameters: {thumb: false}
         semantic:
@@ -56,7 +56,7 @@ def test_what_is_no_object_takes_the_long_form():
     }
 
 
-def test_when_takes_out_entries_items_and_parts():
+def test_when_removes_entries_items_and_parts():
     made = assemble("""
         parameters: {real: false}
         links:
@@ -67,7 +67,7 @@ def test_when_takes_out_entries_items_and_parts():
     assert links(made) == {"base": {"visual": [{"sphere": 1}]}, "tool": {"inertial": {"mass": 1}}}
 
 
-def test_what_when_takes_out_is_not_computed():
+def test_parts_removed_by_when_are_not_computed():
     made = assemble("""
         parameters: {fingers: {type: integer, default: 0}}
         links:
@@ -122,12 +122,12 @@ def test_modules_repeat_each_with_its_own_arguments(tmp_path):
     assert lengths == {"leg_0": 0, "leg_2": 20}
 
 
-def test_a_fault_inside_a_for_is_told_once():
+def test_a_fault_inside_a_for_is_reported_once():
     made = assemble("links: {a_$(i): {for: {i: 4}, visual: {sphere: $(j)}}}")
     assert made.told == ["no parameter, variable or 'for' name 'j' here"]
 
 
-def test_copies_with_one_name_are_told():
+def test_copies_with_the_same_name_are_reported():
     made = assemble('links: {"a_$(min(i, 1))": {for: {i: 3}}}')
     assert made.told == ["the expressions give the key 'a_1' twice"]
 

@@ -1,4 +1,4 @@
-"""A text that was read without a fault is not read again; nobody can tell but by the time."""
+"""Test the cache of faultless trees."""
 
 import gc
 import weakref
@@ -55,13 +55,13 @@ def test_a_module_that_changed_is_read_anew_and_the_others_are_not(tmp_path, tex
     assert [text.partition("name: ")[2][:4] for text in texts_read] == ["arm\n", "hand", "hand"]
 
 
-def test_faults_are_told_each_time():
+def test_faults_are_reported_each_time():
     faulty = ARM.replace("base: ", "base: {visuals: }")
     first, second = compile_text(faulty), compile_text(faulty)
     assert [str(one) for one in first.diagnostics] == [str(one) for one in second.diagnostics] != []
 
 
-def test_what_later_stages_tell_is_told_each_time():
+def test_diagnostics_of_later_stages_are_reported_each_time():
     parentless = ARM + "joints: {elbow: {type: fixed, parent: bse, child: base}}\n"
     first, second = compile_text(parentless), compile_text(parentless)
     assert [str(one) for one in first.diagnostics] == [str(one) for one in second.diagnostics] != []

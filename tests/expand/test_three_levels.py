@@ -24,7 +24,7 @@ FAULTS = {
 
 
 @pytest.mark.parametrize(("code", "tip"), FAULTS.values(), ids=FAULTS)
-def test_a_fault_three_modules_deep_is_told_with_every_use(code: str, tip: str, tmp_path):
+def test_a_fault_three_modules_deep_is_reported_with_every_use(code: str, tip: str, tmp_path):
     for name, text in {"cell": CELL, "arm": ARM, "hand": HAND, "tip": f"{TIP}{tip}\n"}.items():
         (tmp_path / f"{name}.robot.yaml").write_text(text)
     told = [one for one in compile_file(tmp_path / "cell.robot.yaml").diagnostics if one.code.id == code]

@@ -1,4 +1,4 @@
-"""A robot in URDF as a module, unchanged: mounted, prefixed, overridden, and told of where it stands."""
+"""Test URDF files as modules: mounted, prefixed, overridden, faults reported in the file."""
 
 import re
 from pathlib import Path
@@ -48,7 +48,7 @@ def told(compilation: Compilation) -> list[str]:
     return [str(diagnostic) for diagnostic in compilation.diagnostics]
 
 
-def test_its_names_take_the_prefix_and_its_paths_stay_beside_it(tmp_path):
+def test_its_names_get_the_prefix_and_its_paths_stay_relative_to_it(tmp_path):
     gripper = GRIPPER.replace(BOX, '<mesh filename="meshes/palm.stl"/>')
     robot = compiled(tmp_path, "left: {use: vendor/gripper.urdf, parent: table, origin: [0, 0, 1]}", gripper).result()
     assert [link.name for link in robot.links] == ["table", "left_palm", "left_finger", "left_pad"]
@@ -69,7 +69,7 @@ def test_one_file_serves_two_uses_each_with_its_own_override(tmp_path):
     assert "right_pad" not in robot.links
 
 
-def test_a_name_that_is_not_in_it_is_told_with_what_is(tmp_path):
+def test_an_unknown_name_is_reported_with_the_known_ones(tmp_path):
     [line] = told(
         compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table, override: {joints: {slid: {axis: y}}}}")
     )
@@ -82,7 +82,7 @@ def test_it_has_no_parameters(tmp_path):
     assert [note.message for note in diagnostic.notes] == ["this file declares no parameters"]
 
 
-def test_what_is_wrong_with_it_is_told_in_it_with_its_use(tmp_path):
+def test_its_faults_are_reported_in_its_file_with_the_use(tmp_path):
     gripper = GRIPPER.replace('link="finger"/><axis', 'link="fingre"/><axis')
     compilation = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper)
     diagnostic = next(one for one in compilation.diagnostics if "fingre" in one.message)
@@ -92,7 +92,7 @@ def test_what_is_wrong_with_it_is_told_in_it_with_its_use(tmp_path):
     assert Path(diagnostic.notes[-1].span.file.name).name == "cell.robot.yaml"
 
 
-def test_what_is_no_xml_is_told_in_it_with_its_use(tmp_path):
+def test_malformed_xml_is_reported_in_its_file_with_the_use(tmp_path):
     [diagnostic] = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", "<robot name='g'>").diagnostics
     assert diagnostic.code.id == "LF8001"
     assert [note.message for note in diagnostic.notes] == ["the element that is open begins here", "used here"]
@@ -152,7 +152,7 @@ LUMP = "palm_fixed_joint_lump__finger_collision_1"
 
 
 @pytest.mark.parametrize("before", ["", "<a/><b/><a/>"], ids=["keys", "raw"])
-def test_a_collision_that_the_file_does_not_have_stays_and_is_told(tmp_path, before: str):
+def test_a_missing_collision_stays_missing_and_is_reported(tmp_path, before: str):
     contact = f"<contact>{before}<collision>{LUMP}</collision><topic>__default_topic__</topic></contact>"
     block = f'<gazebo reference="finger"><sensor name="s" type="contact">{contact}</sensor></gazebo></robot>'
     compilation = compiled(tmp_path, USED.replace("g:", "left:"), GRIPPER.replace("</robot>", block))
@@ -163,7 +163,7 @@ def test_a_collision_that_the_file_does_not_have_stays_and_is_told(tmp_path, bef
     assert f"no prefix: '{LUMP}';" in told
 
 
-def test_topics_and_frames_that_may_be_anything_are_told_once_with_all_of_them(tmp_path):
+def test_topics_and_frames_that_may_be_anything_are_reported_once_with_all_of_them(tmp_path):
     gripper = GRIPPER.replace("</robot>", SENSORS)
     compilation = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper)
     assert [(one.code.id, one.span.line, one.message) for one in compilation.diagnostics if one.span] == [
@@ -182,7 +182,7 @@ def test_topics_and_frames_that_may_be_anything_are_told_once_with_all_of_them(t
     ]
 
 
-def test_the_override_that_is_told_reaches_the_name(tmp_path):
+def test_the_override_that_is_reported_reaches_the_name(tmp_path):
     gripper = GRIPPER.replace("</robot>", SENSORS)
     (one,) = (one for one in told(compiled(tmp_path, USED, gripper)) if "LF5704" in one)
     [override] = re.findall("by '(override: .*)' where", one)
@@ -201,7 +201,7 @@ TURN = """\
 """
 
 
-def test_an_override_gives_limits_what_they_lack_beside_the_range_of_the_file(tmp_path):
+def test_an_override_adds_missing_limits_to_the_range_of_the_file(tmp_path):
     gripper = GRIPPER.replace("</robot>", TURN)
     override = "override: {joints: {turn: {limits: {effort: 5, velocity: 1}}}}"
     compilation = compiled(tmp_path, f"g: {{use: vendor/gripper.urdf, parent: table, {override}}}", gripper)
@@ -218,13 +218,13 @@ def test_a_plugin_is_offered_the_joints_of_its_own_use(tmp_path):
     ]
 
 
-def test_a_robot_that_takes_no_prefix_is_told_nothing_of_topics(tmp_path):
+def test_topics_of_a_robot_without_prefix_are_not_reported(tmp_path):
     gripper = GRIPPER.replace("</robot>", SENSORS)
     assert not told(compiled(tmp_path, "g: {use: vendor/gripper.urdf, prefix: '', parent: table}", gripper))
 
 
 @pytest.mark.parametrize(("uses", "names"), [(1, []), (2, ["'image'"])])
-def test_topics_of_a_spec_are_told_where_it_is_used_again(uses: int, names: list[str], tmp_path):
+def test_topics_of_a_spec_are_reported_where_it_is_used_again(uses: int, names: list[str], tmp_path):
     (tmp_path / "eye.robot.yaml").write_text(
         "linkforge: 1\nname: eye\nlinks: {lens: }\n"
         "extra: <a><topicName>image</topicName><frame>$(prefix)hull</frame></a>\n",
@@ -237,7 +237,7 @@ def test_topics_of_a_spec_are_told_where_it_is_used_again(uses: int, names: list
     ]
 
 
-def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_told_once(tmp_path):
+def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_reported_once(tmp_path):
     raw = '<sensing><of link="finger"/><again>finger</again><visual name="palm"/></sensing>'
     gripper = GRIPPER.replace("</robot>", f"{raw}</robot>")
     [diagnostic] = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper).diagnostics
@@ -269,7 +269,7 @@ def test_of_several_raw_elements_the_override_says_the_one_again(tmp_path):
     assert render_urdf(again.result()).count('<sensing range="1"/>') == 1
 
 
-def test_nothing_is_told_of_raw_names_that_stay(tmp_path):
+def test_raw_names_that_stay_are_not_reported(tmp_path):
     gripper = GRIPPER.replace("</robot>", '<sensing link="finger"/></robot>')
     compilation = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table, prefix: ''}", gripper)
     assert not compilation.diagnostics
@@ -295,7 +295,7 @@ def test_a_urdf_compiles_and_is_checked_alone(tmp_path):
     assert any("lower" in diagnostic.message for diagnostic in diagnostics)
 
 
-def test_a_second_of_what_there_can_be_one_is_told_once_as_on_import():
+def test_a_duplicate_element_is_reported_once_as_on_import():
     urdf = CASES / "LF7145_second_of_one.urdf"
     assert [*map(str, compile_file(urdf).diagnostics)] == [*map(str, import_urdf(urdf).diagnostics)]
 
@@ -385,7 +385,7 @@ def test_its_srdf_joins_under_the_prefix(tmp_path):
     assert "gripper.srdf" in {path.name for path in compilation.files}
 
 
-def test_a_name_in_an_srdf_is_told_with_the_override_that_says_the_final_one(tmp_path):
+def test_a_name_in_an_srdf_is_reported_with_the_override_that_sets_the_final_one(tmp_path):
     group = '<robot name="gripper"><group name="hand"><link name="palm"/><tool at="finger"/></group></robot>'
     again_in = tmp_path / "again"
     again_in.mkdir()
@@ -400,7 +400,7 @@ def test_a_name_in_an_srdf_is_told_with_the_override_that_says_the_final_one(tmp
     assert not told(again)
 
 
-def test_its_srdf_is_judged_at_no_cost_of_the_robot(tmp_path, monkeypatch):
+def test_checking_its_srdf_is_not_charged_to_the_robot(tmp_path, monkeypatch):
     """A robot of as many links as there may be has an SRDF, although it is expanded once more to judge it."""
     left: list[int] = []
 
@@ -421,7 +421,7 @@ def test_its_srdf_is_judged_at_no_cost_of_the_robot(tmp_path, monkeypatch):
     assert ends[0] - ends[1] == 2 * 3, "a group, a state and a pair, in the module and in the file around it"
 
 
-def test_what_is_wrong_with_its_srdf_is_told_in_it(tmp_path):
+def test_faults_of_its_srdf_are_reported_in_the_srdf(tmp_path):
     (tmp_path / "gripper.srdf").write_text(SRDF.replace('link2="finger"', 'link2="fingre"'), "utf-8")
     compilation = compiled(tmp_path, "left: {use: vendor/gripper.urdf, srdf: gripper.srdf, parent: table}")
     assert {Path(one.span.file.name).name for one in compilation.diagnostics} == {"gripper.srdf"}

@@ -1,4 +1,4 @@
-"""`variants`: what beats what, and what is told of those that nobody chose."""
+"""Test the precedence of `variants`, and what is reported of those that are not selected."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -43,7 +43,7 @@ def test_a_parameter_beats_the_variant_beats_the_default(options, found):
     assert values(**options) == found
 
 
-def test_an_unknown_variant_is_told_as_it_was_typed():
+def test_an_unknown_variant_is_reported_as_typed():
     (told,) = compile_text(SPEC, name="arm.robot.yaml", variant="simm").diagnostics
     assert str(told) == (
         "<command line>:1:11: error: arm.robot.yaml has no variant named 'simm'; did you mean 'sim'? [LF3080]"
@@ -61,13 +61,13 @@ def test_an_unknown_variant_is_told_as_it_was_typed():
         ("{}", "it declares no variants"),
     ],
 )
-def test_an_unknown_variant_is_told_with_those_that_there_are(variants: str, said: str):
+def test_an_unknown_variant_is_reported_with_the_known_ones(variants: str, said: str):
     spec = f"linkforge: 1\nname: arm\nvariants: {variants}\nlinks: {{base: }}\n"
     (told,) = compile_text(spec, variant="other").diagnostics
     assert told.message == f"<text> has no variant named 'other'; {said}"
 
 
-def test_an_expression_of_a_variant_is_read_even_where_nobody_chose_it():
+def test_an_expression_of_a_variant_is_checked_even_if_not_selected():
     spec = SPEC.replace("$(reach * 3)", "$(reech * 3)")
     assert [one.code.id for one in compile_text(spec).diagnostics] == ["LF3107"]
     assert not compile_text(SPEC.replace("$(reach * 3)", "$(1 / (reach - reach))")).diagnostics
@@ -139,8 +139,8 @@ def test_variants_share_what_five_compiles_may_take(
     assert codes == [*before, "LF3304", *[None] * (12 - len(before))]
 
 
-def test_what_is_judged_for_a_variant_counts_for_all_of_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    # Without what is judged the defaults and all variants take no more than five times as many.
+def test_the_check_budget_is_shared_by_all_variants(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    # The defaults and all variants together may have five times as many entries as one compile.
     monkeypatch.setattr(Limit.ENTRIES, "_value_", replace(Limit.ENTRIES.value, most=28))
     (tmp_path / "tool.urdf").write_text("<robot name='tool'><link name='tip'/></robot>")
     (tmp_path / "tool.srdf").write_text("<robot name='tool'><group name='all'><link name='tip'/></group></robot>")

@@ -59,7 +59,7 @@ def without_includes(arm: Path) -> Path:
     return arm / "arm.urdf.xacro"
 
 
-def test_those_of_included_files_are_listed_and_which_are_not_is_told(arm: Path):
+def test_arguments_of_included_files_are_listed_and_unread_files_reported(arm: Path):
     listing, told = parameters_of(arm / "arm.urdf.xacro")
     assert [(one.name, one.default) for one in listing.parameters] == [
         ("prefix", ""),
@@ -73,7 +73,7 @@ def test_those_of_included_files_are_listed_and_which_are_not_is_told(arm: Path)
     ]
 
 
-def test_files_of_a_package_that_is_nowhere_are_told_and_found_where_they_are_said_to_be(arm: Path, tmp_path: Path):
+def test_files_of_a_missing_package_are_reported_and_found_with_package(arm: Path, tmp_path: Path):
     file = tmp_path / "cell.xacro"
     file.write_text(f'{HEAD} name="$(arg name)"><xacro:arg name="name" default="c"/><xacro:include '
                     'filename="$(find parts)/urdf/parts.xacro"/></robot>', "utf-8")  # fmt: skip
@@ -120,7 +120,7 @@ modules:
     assert [one.message for one in compile_file(spec).diagnostics] == ["no parameter named 'grop'"]
 
 
-def test_what_is_wrong_in_an_expanded_srdf_is_told_in_the_macro(arm: Path, tmp_path: Path):
+def test_faults_of_an_expanded_srdf_are_reported_in_the_macro(arm: Path, tmp_path: Path):
     pytest.importorskip("xacro")
     urdf, srdf = without_includes(arm), tmp_path / "arm_moveit" / "urdf" / "arm.srdf.xacro"
     passive = '<passive_joint name="$(arg prefix)turn"/></robot>'
@@ -131,13 +131,13 @@ def test_what_is_wrong_in_an_expanded_srdf_is_told_in_the_macro(arm: Path, tmp_p
     assert 'a_turnx"/></group>' in imported.text
 
 
-def test_a_urdf_takes_no_arguments(arm: Path, tmp_path: Path):
+def test_a_urdf_has_no_arguments(arm: Path, tmp_path: Path):
     (tmp_path / "a.urdf").write_text('<robot name="a"><link name="a"/></robot>', "utf-8")
     [told] = import_urdf(tmp_path / "a.urdf", arguments=["reach:=1"]).diagnostics
     assert (told.code.id, [note.message for note in told.notes]) == ("LF3020", ["a URDF takes no arguments"])
 
 
-def test_a_xacro_on_standard_input_is_told_as_that_and_not_by_its_arguments(arm: Path):
+def test_a_xacro_on_standard_input_is_reported_without_its_arguments(arm: Path):
     [told] = import_urdf(
         "<stdin>", text=(arm / "arm.urdf.xacro").read_text("utf-8"), arguments=["reach:=1"]
     ).diagnostics
@@ -145,7 +145,7 @@ def test_a_xacro_on_standard_input_is_told_as_that_and_not_by_its_arguments(arm:
     assert "expanded only in a file named 'NAME.urdf.xacro'" in told.message
 
 
-def test_a_default_that_comes_too_late_is_told_where_xacro_needs_it(tmp_path: Path):
+def test_a_default_that_is_set_too_late_is_reported_where_xacro_needs_it(tmp_path: Path):
     pytest.importorskip("xacro")
     file = tmp_path / "a.urdf.xacro"
     file.write_text(

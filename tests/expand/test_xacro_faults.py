@@ -1,4 +1,4 @@
-"""What is wrong in a xacro, told where it is written and in words of whoever wrote it."""
+"""Test that faults of a xacro are reported where they are written, in the terms of its author."""
 
 from pathlib import Path
 
@@ -64,19 +64,19 @@ GIVES_UP = "xacro gives up here: "
         ('<link name="$(env NONE_SUCH)"/>', f"{GIVES_UP}the environment variable NONE_SUCH is not set", "<link"),
     ],
 )
-def test_a_fault_is_told_at_the_expression_or_call(line: str, message: str, place: str, tmp_path: Path):
+def test_a_fault_is_reported_at_the_expression_or_call(line: str, message: str, place: str, tmp_path: Path):
     _, words, places = told(tmp_path, MACRO, line)
     assert (words, places) == (message, [(place, 3)])
 
 
-def test_what_a_property_says_wrong_is_told_there_and_where_it_is_needed(tmp_path: Path):
+def test_a_faulty_property_is_reported_there_and_where_it_is_needed(tmp_path: Path):
     property_ = '<xacro:property name="table" value="${1 / 0}"/>'
     code, message, places = told(tmp_path, property_, '<link name="${table}"/>')
     assert (code, message) == ("LF8032", "xacro gives up here: division by zero, in '${1 / 0}'")
     assert [line for _, line in places] == [2, 3]
 
 
-def test_a_file_that_is_not_there_is_told_with_the_one_that_is_like_it(tmp_path: Path):
+def test_a_missing_file_is_reported_with_a_similar_one(tmp_path: Path):
     (tmp_path / "limits.yaml").write_text("a: 1\n", "utf-8")
     code, message, [(_, line)] = told(tmp_path, "<link name=\"${xacro.load_yaml('limit.yaml')}\"/>")
     assert (code, line) == ("LF8064", 2)
@@ -84,7 +84,7 @@ def test_a_file_that_is_not_there_is_told_with_the_one_that_is_like_it(tmp_path:
     assert message.endswith("limit.yaml', which does not exist; did you mean 'limits.yaml'?")
 
 
-def test_a_fault_inside_a_macro_that_another_one_calls_is_told_in_the_macro(tmp_path: Path):
+def test_a_fault_in_a_nested_macro_is_reported_in_that_macro(tmp_path: Path):
     lines = (
         '<xacro:macro name="inner" params="a">',
         '<link name="${b}"/></xacro:macro>',

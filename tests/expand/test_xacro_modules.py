@@ -101,7 +101,7 @@ def test_two_uses_with_their_own_arguments_prefixes_and_overrides(vendor, tmp_pa
     assert names == {"cell.robot.yaml", "arm.urdf.xacro", "segment.xacro", "masses.yaml"}
 
 
-def test_what_is_wrong_is_told_in_the_macro_that_wrote_it(vendor, tmp_path):
+def test_a_fault_is_reported_in_the_macro_that_wrote_it(vendor, tmp_path):
     (vendor / "urdf" / "segment.xacro").write_text(SEGMENT.replace('izz="0.01"', 'izz="-1"'), "utf-8")
     compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
     [first, *_] = compilation.diagnostics
@@ -109,7 +109,7 @@ def test_what_is_wrong_is_told_in_the_macro_that_wrote_it(vendor, tmp_path):
     assert "used here" in [note.message for note in first.notes]
 
 
-def test_an_argument_that_it_does_not_have_is_told_with_those_that_it_has(vendor, tmp_path):
+def test_an_unknown_argument_is_reported_with_the_known_ones(vendor, tmp_path):
     compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor, with: {reech: 1}}")
     file, line, message = place(compilation)
     assert (file, line) == ("cell.robot.yaml", 6)
@@ -118,7 +118,7 @@ def test_an_argument_that_it_does_not_have_is_told_with_those_that_it_has(vendor
     assert (Path(note.span.file.name).name, note.span.line) == ("arm.urdf.xacro", 3)
 
 
-def test_an_argument_without_a_value_is_told_at_the_use(vendor, tmp_path):
+def test_an_argument_without_a_value_is_reported_at_the_use(vendor, tmp_path):
     arm = vendor / "urdf" / "arm.urdf.xacro"
     arm.write_text(ARM.replace('  <xacro:arg name="reach" default="0.5"/>\n', ""), "utf-8")
     compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
@@ -134,7 +134,7 @@ def test_an_argument_is_no_list(vendor, tmp_path):
     assert compilation.diagnostics[0].code.id == "LF8033"
 
 
-def test_a_package_that_is_nowhere_is_told_at_the_use(vendor, tmp_path):
+def test_a_missing_package_is_reported_at_the_use(vendor, tmp_path):
     compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}", packages="{arm_part: vendor}")
     file, line, message = place(compilation)
     assert (file, line) == ("cell.robot.yaml", 6)
@@ -142,7 +142,7 @@ def test_a_package_that_is_nowhere_is_told_at_the_use(vendor, tmp_path):
     assert "did you mean 'arm_part'" in message
 
 
-def test_a_package_that_is_not_sourced_is_told_in_the_xacro_with_where_it_is(vendor, tmp_path, monkeypatch):
+def test_a_package_that_is_not_sourced_is_reported_in_the_xacro_with_its_folder(vendor, tmp_path, monkeypatch):
     (vendor / "package.xml").write_text("<package><name>arm</name></package>")
     (tmp_path / "parts").mkdir()
     (tmp_path / "parts" / "package.xml").write_text("<package><name>arm_parts</name></package>")
@@ -159,7 +159,7 @@ def test_a_package_that_is_not_sourced_is_told_in_the_xacro_with_where_it_is(ven
         (("</robot>", "</robto>"), 20, "mismatched tag"),
     ],
 )
-def test_what_xacro_cannot_do_is_told_where_it_is(change, line, message, vendor, tmp_path):
+def test_xacro_failures_are_reported_where_they_occur(change, line, message, vendor, tmp_path):
     (vendor / "urdf" / "arm.urdf.xacro").write_text(ARM.replace(*change), "utf-8")
     compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
     told = place(compilation)
@@ -168,7 +168,7 @@ def test_what_xacro_cannot_do_is_told_where_it_is(change, line, message, vendor,
     assert message in told[2]
 
 
-def test_what_xacro_says_is_told(vendor, tmp_path):
+def test_warnings_of_xacro_are_reported(vendor, tmp_path):
     arm = ARM.replace("  <gazebo>", "  ${xacro.warning('it is old')}\n  <gazebo>")
     (vendor / "urdf" / "arm.urdf.xacro").write_text(arm, "utf-8")
     compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
@@ -192,7 +192,7 @@ def test_a_file_without_bounds_comes_to_an_end(text, reason, vendor, tmp_path, m
     assert reason in diagnostic.message
 
 
-def test_without_the_package_it_is_told_how_to_have_it(vendor, tmp_path, monkeypatch):
+def test_a_missing_xacro_package_is_reported_with_how_to_install_it(vendor, tmp_path, monkeypatch):
     (tmp_path / "none" / "xacro").mkdir(parents=True)
     (tmp_path / "none" / "xacro" / "__init__.py").write_text("raise ImportError", "utf-8")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path / "none"))
@@ -253,7 +253,7 @@ def test_a_xacro_reads_within_the_roots(text: str, vendor: Path):
     assert all(one.code.id != "LF3401" for one in compile_file(arm, allow_outside=True).diagnostics)
 
 
-def test_whether_what_may_not_be_looked_at_is_read_is_asked(monkeypatch: pytest.MonkeyPatch):
+def test_reading_a_path_without_access_is_requested(monkeypatch: pytest.MonkeyPatch):
     """In containers root runs tests, who may look at everything."""
 
     def refuse(path: object) -> str:
@@ -280,7 +280,7 @@ ESCAPES = {
 
 @pytest.mark.skipif(os.name == "nt", reason="the calls are those of POSIX")
 @pytest.mark.parametrize(("call", "told"), ESCAPES.values(), ids=ESCAPES)
-def test_what_an_expression_reaches_by_a_detour_is_refused(call: str, told: str, vendor: Path, tmp_path: Path):
+def test_indirect_access_from_an_expression_is_refused(call: str, told: str, vendor: Path, tmp_path: Path):
     """xacro looks for names with `__` in an expression, and not in the comprehensions inside it."""
     new, kept = tmp_path / "new", tmp_path / "kept"
     kept.write_text("kept", "utf-8")

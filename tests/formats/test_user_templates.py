@@ -372,7 +372,7 @@ def test_what_a_view_says_of_other_elements_is_told_where_there_are_none(text: s
         "{{ robot.export_urdf() }}",
         "{{ robot.clone() }}",
         "{{ robot._tree }}",
-        "{{ urdf._replace }}",
+        "{{ urdf.__dict__ }}",
         "{{ [].append(1) }}",
     ],
 )

@@ -652,7 +652,7 @@ def test_a_robot_that_no_spec_may_hold_is_told_at_its_place(limit: Limit, monkey
             self.spend(limit, limit.most - 10, None)
 
     monkeypatch.setattr("linkforge_compile.importing.Budget", Spent)
-    monkeypatch.setattr("linkforge_compile.importing.judged", None)
+    monkeypatch.setattr("linkforge_compile.importing.check_alone", None)
     links = "".join(f"<link name='l{i}'/>" for i in range(20))
     imported = import_urdf("r.urdf", text=f"<!-- r -->\n<robot name='r'>{links}</robot>")
     [told] = imported.diagnostics

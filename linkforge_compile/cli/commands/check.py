@@ -7,9 +7,14 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.inputs import check_settings_of, check_spec
-from linkforge_compile.cli.options import add_spec_options, packages_of, split_assignments
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.options import (
+    add_spec_options,
+    check_settings_of,
+    check_spec,
+    packages_of,
+    split_assignments,
+)
 from linkforge_compile.cli.reports import add_report_options, format_diagnostics, has_errors, select, write_to_stderr
 
 if TYPE_CHECKING:

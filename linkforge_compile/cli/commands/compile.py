@@ -5,10 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkforge_compile.cli import UsageError
 from linkforge_compile.cli.build import BuildRequest, compile_request, write_outputs
-from linkforge_compile.cli.exits import UsageError
-from linkforge_compile.cli.inputs import require_one_spec
-from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, packages_of, split_assignments
+from linkforge_compile.cli.options import (
+    add_spec_and_values,
+    add_spec_options,
+    packages_of,
+    require_one_spec,
+    split_assignments,
+)
 from linkforge_compile.cli.reports import add_report_options
 from linkforge_compile.cli.targets import Targets, add_target_options, targets_of, targets_of_documents
 

@@ -5,9 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK
-from linkforge_compile.cli.inputs import compile_spec, require_one_spec
-from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
+from linkforge_compile.cli import FAULTY_SPEC, OK
+from linkforge_compile.cli.options import (
+    add_spec_and_values,
+    add_spec_options,
+    compile_spec,
+    require_one_spec,
+    split_assignments,
+)
 from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.cli.targets import add_output_option, default_format, name_of, targets_of
 
@@ -53,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.format == "json":
         write_to_stdout(_json_text(compilation))
     elif not is_faulty:
-        from linkforge_compile.cli.depfile import inputs_of, make_rules
+        from linkforge_compile.cli.output import inputs_of, make_rules
 
         write_to_stdout(make_rules(_outputs(spec, arguments.outputs, compilation), inputs_of(compilation.files)))
     return FAULTY_SPEC if is_faulty else OK

@@ -7,9 +7,18 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.cli.exits import OK, UsageError
-from linkforge_compile.cli.inputs import STDIN, compile_spec, is_xml, read_unseekable, require_file
-from linkforge_compile.cli.options import add_spec_options, name_set_by, packages_of, split_assignments
+from linkforge_compile.cli import OK, UsageError
+from linkforge_compile.cli.options import (
+    STDIN,
+    add_spec_options,
+    compile_spec,
+    is_xml,
+    name_set_by,
+    packages_of,
+    read_unseekable,
+    require_file,
+    split_assignments,
+)
 from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.source.characters import on_one_line
 

@@ -5,9 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK
-from linkforge_compile.cli.inputs import compile_spec, require_one_spec
-from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, split_assignments
+from linkforge_compile.cli import FAULTY_SPEC, OK
+from linkforge_compile.cli.options import (
+    add_spec_and_values,
+    add_spec_options,
+    compile_spec,
+    require_one_spec,
+    split_assignments,
+)
 from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.source.characters import on_one_line

@@ -6,9 +6,8 @@ import sys
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.inputs import compile_spec, require_one_spec
-from linkforge_compile.cli.options import add_spec_options, split_assignments
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.options import add_spec_options, compile_spec, require_one_spec, split_assignments
 from linkforge_compile.cli.reports import add_report_options, place_lines, report
 from linkforge_compile.source.provenance import Kind, Provenance
 
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
     import argparse
 
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.expand.origins import NameOrigin, Setting
+    from linkforge_compile.expand.values import NameOrigin, Setting
     from linkforge_compile.export_spec import ComputedFrom, Explanation, UnknownPathError
 
 _EXAMPLES = """\
@@ -50,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.manual import is_code
+    from linkforge_compile.cli.reports import is_code
 
     if arguments.codes or (len(arguments.words) == 1 and is_code(arguments.words[0])):
         return _print_manual(arguments)
@@ -58,18 +57,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _print_manual(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.cli.manual import UnknownCodeError, page, register_table
     from linkforge_compile.cli.output import write_to_stdout
-    from linkforge_compile.cli.reports import is_colored
+    from linkforge_compile.cli.reports import is_colored, manual_page, register_table
 
     words: list[str] = arguments.words
     if arguments.codes and words:
         raise UsageError(f"--codes lists all codes and takes no words, found '{words[0]}'")
     is_styled = is_colored(sys.stdout, arguments.color)
-    try:
-        write_to_stdout(register_table() if arguments.codes else page(words[0], styled=is_styled))
-    except UnknownCodeError as error:
-        raise UsageError(f"{error} (--codes lists all)") from None
+    write_to_stdout(register_table() if arguments.codes else manual_page(words[0], styled=is_styled))
     return OK
 
 

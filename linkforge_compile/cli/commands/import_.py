@@ -6,13 +6,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.inputs import STDIN, read_stdin, require_file, require_one_spec
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.options import (
+    STDIN,
     add_outside_option,
     add_package_option,
     add_parameter_option,
     packages_of,
+    read_stdin,
+    require_file,
+    require_one_spec,
     split_assignments,
 )
 from linkforge_compile.cli.reports import add_report_options, print_failure, progress_after, report

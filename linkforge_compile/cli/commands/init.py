@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import OK, UsageError
+from linkforge_compile.cli import OK, UsageError
 
 if TYPE_CHECKING:
     import argparse

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import OK
+from linkforge_compile.cli import OK
 
 if TYPE_CHECKING:
     import argparse

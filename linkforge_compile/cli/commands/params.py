@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK
+from linkforge_compile.cli import FAULTY_SPEC, OK
 from linkforge_compile.cli.options import add_outside_option, add_package_option, packages_of
 from linkforge_compile.cli.reports import add_report_options, report
 

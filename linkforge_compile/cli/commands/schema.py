@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli.exits import OK, UsageError
+from linkforge_compile.cli import OK, UsageError
 from linkforge_compile.cli.options import add_package_option, packages_of
 from linkforge_compile.cli.reports import print_line
 

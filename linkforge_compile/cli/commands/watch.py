@@ -7,9 +7,9 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkforge_compile.cli import OK, WRONG_USAGE, UsageError
 from linkforge_compile.cli.build import BuildRequest, compile_request, write_outputs
 from linkforge_compile.cli.commands import compile as compile_command
-from linkforge_compile.cli.exits import OK, WRONG_USAGE, UsageError
 from linkforge_compile.cli.reports import print_failure, print_line, print_status
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.roots import identity

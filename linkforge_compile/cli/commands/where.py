@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.banner import BANNER
-from linkforge_compile.cli.exits import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.source import SourceFile
 

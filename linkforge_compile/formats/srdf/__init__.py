@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.formats.format import Options
-    from linkforge_compile.formats.srdf.view import SemanticView
+    from linkforge_compile.formats.views import View
 
 __all__ = ["Srdf"]
 
@@ -46,10 +46,10 @@ class Srdf(TemplateFormat):
         yield from undeclared_prefixes(robot.semantic, doubtful.with_extras)
         yield from check_attributes(doubtful.with_extras, robot, lambda: self.text(robot))
 
-    def root_view(self, robot: Robot, options: Options) -> SemanticView:
+    def root_view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.srdf.view import semantic_view
 
         return semantic_view(robot)
 
-    def view(self, robot: Robot, options: Options) -> SemanticView | None:
+    def view(self, robot: Robot, options: Options) -> View | None:
         return self.root_view(robot, options) if robot.has_semantic else None

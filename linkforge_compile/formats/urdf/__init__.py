@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.formats.format import Options
-    from linkforge_compile.formats.urdf.view import RobotView
+    from linkforge_compile.formats.views import View
 
 __all__ = ["GAZEBO", "Gazebo", "Urdf"]
 
@@ -38,7 +38,7 @@ class Urdf(TemplateFormat):
 
         yield from urdf_limits(robot, GAZEBO.value(options), lambda: self.text(robot, Rendering(options)))
 
-    def root_view(self, robot: Robot, options: Options) -> RobotView:
+    def root_view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.urdf.view import robot_view
 
         return robot_view(robot, GAZEBO.value(options))

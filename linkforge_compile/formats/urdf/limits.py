@@ -129,7 +129,7 @@ def check_frame(sensor: Sensor, gazebo: str) -> Iterator[Diagnostic]:
 
 def check_infos(sensor: Sensor) -> Iterator[Diagnostic]:
     """A sensor writes the info of its type and no other."""
-    from linkforge_compile.formats.urdf.sensor import INFOS
+    from linkforge_compile.formats.urdf.gazebo import INFOS
 
     own = INFOS[SensorType(sensor.type)]
     for info in dict.fromkeys(INFOS.values()):

@@ -2,40 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkforge_compile.core.models.geometry import Capsule
-from linkforge_compile.formats.element import attributes, elements
-from linkforge_compile.formats.urdf.joint import JointView, joint_views
-from linkforge_compile.formats.urdf.link import LinkView, MaterialView, link_views, material_view, says_physics
-from linkforge_compile.formats.xml_text import Xml
+from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
+from linkforge_compile.core.models.geometry import Capsule, Mesh, Transform
+from linkforge_compile.core.models.interface import Interface
+from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.link import Collision, Link, Visual
+from linkforge_compile.core.models.material import Color
+from linkforge_compile.core.models.sensor import Sensor, SensorNoise
+from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
+from linkforge_compile.formats.element import attributes, attributes_at, elements, leaf, leaf_at
+from linkforge_compile.formats.urdf.gazebo import gazebo_view, noise_view, physics_views, plugin_view, sensor_view
+from linkforge_compile.formats.views import View, Views, named_texts
+from linkforge_compile.formats.xml_text import NOTHING, Xml
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.formats.urdf.gazebo import GazeboView
-    from linkforge_compile.formats.urdf.ros2_control import Ros2ControlView
-    from linkforge_compile.formats.urdf.sensor import SensorView
-    from linkforge_compile.formats.urdf.transmission import TransmissionView
 
 # The version of URDF that brought <capsule>; urdfdom reads one only in files that state it or a later one.
 _CAPSULE_VERSION = "1.1"
-
-
-class RobotView(NamedTuple):
-    """`<robot>`, every string ready for its place in the templates."""
-
-    attributes: Xml
-    materials: tuple[MaterialView, ...]
-    links: tuple[LinkView, ...]
-    materials_after_links: tuple[MaterialView, ...]
-    joints: tuple[JointView, ...]
-    transmissions: tuple[TransmissionView, ...]
-    ros2_controls: tuple[Ros2ControlView, ...]
-    gazebo: tuple[GazeboView, ...]
-    sensors: tuple[SensorView, ...]
-    elements: Xml
 
 
 def stated_version(robot: Robot) -> str | None:
@@ -53,59 +40,97 @@ def capsules(robot: Robot) -> Iterator[Capsule]:
                 yield shape.geometry
 
 
-def robot_view(robot: Robot, gazebo: str) -> RobotView:
+def robot_view(robot: Robot, gazebo: str) -> View:
     """Return what templates see of a robot in URDF.
 
     Raises:
         RobotGeneratorError: for text that XML cannot hold, and for extras that are not well-formed XML.
 
     """
-    materials = {material.name: material for material in robot.materials.values() if material.name}
-    version = stated_version(robot)
-    return RobotView(
-        attributes(robot, name=robot.name, version=version),
-        tuple([material_view(one) for one in materials.values() if not one.after_links]),
-        link_views(robot.links, materials, version),
-        tuple([material_view(one) for one in materials.values() if one.after_links]),
-        joint_views(robot.joints, version),
-        _transmissions(robot),
-        _ros2_controls(robot),
-        _gazebo(robot),
-        _sensors(robot, gazebo),
-        elements(robot),
+    views = UrdfViews(robot, stated_version(robot), gazebo)
+    materials = views.materials.values()
+    return View(
+        attributes=attributes(robot, name=robot.name, version=views.version),
+        materials=views.of_all(one for one in materials if not one.after_links),
+        links=views.of_all(robot.links),
+        materials_after_links=views.of_all(one for one in materials if one.after_links),
+        joints=views.of_all(robot.joints),
+        transmissions=views.of_all(robot.transmissions),
+        ros2_controls=views.of_all(robot.ros2_controls),
+        gazebo=(*physics_views(robot.links), *views.of_all(robot.gazebo_elements)),
+        sensors=views.of_all(robot.sensors),
+        elements=elements(robot),
     )
 
 
-# What an arm on a table does not have is not imported for it either: a command's first line of work waits for it.
+class UrdfViews(Views):
+    """Makes views of the parts of a robot, in a document that states a version (None for none)."""
 
+    def __init__(self, robot: Robot, version: str | None, gazebo: str) -> None:
+        self.version = version
+        self.materials = {material.name: material for material in robot.materials.values() if material.name}
+        self.robot, self.gazebo = robot, gazebo
 
-def _transmissions(robot: Robot) -> tuple[TransmissionView, ...]:
-    if not robot.transmissions:
-        return ()
-    from linkforge_compile.formats.urdf.transmission import transmission_views
+    def link(self, link: Link) -> View:
+        return View(
+            attributes=attributes(link, name=link.name),
+            inertial=self.of(link.inertial) if link.inertial else None,
+            shapes=self.of_all(link.shapes),
+            elements=elements(link),
+        )
 
-    return transmission_views(robot.transmissions)
+    def visual(self, visual: Visual) -> View:
+        """Return a visual, which refers to a material of the robot where it has the same one, else holds its own."""
+        material, known = visual.material, self.materials.get(visual.material.name) if visual.material else None
+        if material is None or (known is not material and known != material):
+            return self.view(visual)
+        reference = attributes_at(visual.source, "material", name=material.name)
+        return self.view(visual, material=View(attributes=reference, color=NOTHING, texture=NOTHING, elements=NOTHING))
 
+    def origin(self, pose: Transform) -> Xml:
+        """Return `<origin>`; nothing for one that moves nothing and is not stated."""
+        if not pose.is_written:
+            return NOTHING
+        if not pose.extra_attributes:
+            return leaf(pose)
+        from linkforge_compile.formats.urdf.quaternion import rpy_beside_quaternion
 
-def _ros2_controls(robot: Robot) -> tuple[Ros2ControlView, ...]:
-    if not robot.ros2_controls:
-        return ()
-    from linkforge_compile.formats.urdf.ros2_control import ros2_control_views
+        return leaf(pose, rpy=rpy_beside_quaternion(pose, self.version))
 
-    return ros2_control_views(robot.ros2_controls)
+    def joint(self, joint: Joint) -> View:
+        if joint.axis_as_written is None:
+            return self.view(joint)
+        return self.view(joint, axis=leaf_at("axis", joint.source, "axis", xyz=joint.axis_as_written))
 
+    def transmission_end(self, end: TransmissionJoint | TransmissionActuator) -> View:
+        # A reduction of 1 is written too, because loaders require it.
+        changes = {} if end.is_written("offset") else {"offset": None}
+        return self.view(end, **changes if end.interfaces_stated else changes | {"hardware_interfaces": ()})
 
-def _gazebo(robot: Robot) -> tuple[GazeboView, ...]:
-    if not (robot.gazebo_elements or any(says_physics(link) for link in robot.links)):
-        return ()
-    from linkforge_compile.formats.urdf.gazebo import gazebo_views, physics_views
+    def interface(self, name: str) -> View:
+        interface = Interface.of(name)
+        return View(
+            attributes=attributes(interface, name=interface),
+            parameters=named_texts(interface.parameters, interface.source),
+            elements=elements(interface),
+        )
 
-    return (*physics_views(robot.links), *gazebo_views(robot.gazebo_elements))
+    def sensor(self, sensor: Sensor) -> View:
+        return sensor_view(self, sensor, self.robot, self.gazebo)
 
-
-def _sensors(robot: Robot, gazebo: str) -> tuple[SensorView, ...]:
-    if not robot.sensors:
-        return ()
-    from linkforge_compile.formats.urdf.sensor import sensor_views
-
-    return sensor_views(robot, gazebo)
+    makers: ClassVar[Mapping[type, Callable[[Any, Any], object]]] = {
+        Link: link,
+        Visual: visual,
+        Collision: lambda views, collision: views.view(collision, material=None),
+        Transform: origin,
+        Mesh: lambda _, mesh: leaf(mesh, **{} if mesh.is_scale_written else {"scale": None}),
+        Color: lambda _, color: leaf(color, rgba=color.to_tuple()),
+        Joint: joint,
+        TransmissionJoint: transmission_end,
+        TransmissionActuator: transmission_end,
+        str: interface,
+        GazeboElement: lambda _, block: gazebo_view(block),
+        GazeboPlugin: lambda _, plugin: plugin_view(plugin),
+        Sensor: sensor,
+        SensorNoise: noise_view,
+    }

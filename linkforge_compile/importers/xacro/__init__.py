@@ -1,6 +1,5 @@
 """Expand xacro files with the xacro package in a separate process, and trace elements to where they were written."""
 
-from linkforge_compile.importers.xacro.places import moved_back
-from linkforge_compile.importers.xacro.run import Expanded, Failed, Place, run_xacro
+from linkforge_compile.importers.xacro.run import Expanded, Failed, Place, moved_back, run_xacro
 
 __all__ = ["Expanded", "Failed", "Place", "moved_back", "run_xacro"]

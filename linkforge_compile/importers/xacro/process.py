@@ -1,9 +1,10 @@
 """The program that expands one xacro file with the xacro package, with limits on memory and on what it may do.
 
-It reads a request from standard input, a line of JSON, and answers with one. In between it asks where a package is,
-`{"find": NAME}`, and reads the folder or null, and whether it may read a file, `{"may_read": PATH}`, and reads true or
-false. Every element is marked with the index of its file and its index there, because the expanded text has no
-places, and so is every comment that follows an element on the same line, because xacro drops whitespace.
+It reads a request from standard input, a line of JSON, and answers with one. In between it sends questions:
+`{"find": NAME}` for the folder of a package, or null, and `{"may_read": PATH}` for true or false.
+
+Every element is marked with the index of its file and its index there, because the expanded text has no places, and
+so is every comment that follows an element on the same line, because xacro drops whitespace.
 """
 
 from __future__ import annotations

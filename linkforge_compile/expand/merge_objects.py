@@ -1,21 +1,17 @@
-"""Merge `defaults` into the links, joints and sensors of their file."""
+"""Convert objects to their long form, and merge `defaults` into links, joints and sensors."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from functools import lru_cache
+from collections.abc import Callable, Iterator, Mapping
 
-from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import REPEATED_DEFAULT
 from linkforge_compile.diagnostics.codes.schema import WRONG_KIND
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.expand_tree import expand_part
-from linkforge_compile.expand.normal_form import CHOICES, is_set, long_form, long_object
 from linkforge_compile.expand.values import describe_node
 from linkforge_compile.schema.shapes import Shape, shapes
-from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null, read
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 
 _SECTIONS: Mapping[str, str] = {"links": "link", "joints": "joint", "sensors": "sensor"}
 """By section, the key of `defaults` for its entries."""
@@ -189,18 +185,148 @@ def _without_for(node: YamlNode, shape: Shape) -> YamlNode:
     return node
 
 
-def is_default(place: Span) -> bool:
-    """Whether a place of a compiled spec lies in its `defaults`.
+SHORT_FORMS: Mapping[str, str] = {
+    "an origin": "xyz",
+    "a box": "size",
+    "a sphere": "radius",
+    "a mesh": "file",
+    "a color": "rgba",
+    "a module's joint": "name",
+    "a collision pair": "reason",
+    "a sphere approximation": "spheres",
+}
+"""By the title of an object, the key whose value may be written in place of the whole object."""
 
-    Only `explain` asks, for a few places, so the file is read again instead of marking every merged entry.
+GEOMETRIES = ("box", "cylinder", "sphere", "capsule", "mesh")
+
+CHOICES: Mapping[str, tuple[str, ...]] = {
+    "a visual": GEOMETRIES,
+    "a collision": GEOMETRIES,
+    "an inertial": ("mass", "density"),
+}
+"""By the title of an object, keys that exclude each other: setting one removes the others."""
+
+
+def is_set(node: YamlNode | None) -> bool:
+    """Whether a node exists and is not null."""
+    return node is not None and not (isinstance(node, YamlScalar) and node.value is None)
+
+
+def lists_objects(shape: Shape) -> bool:
+    """Whether a list of objects may be written at a place, so that a single object is a list of one."""
+    return shape.item is not None and shape.item.is_object and not shape.has_names
+
+
+def long_form(node: YamlNode, shape: Shape) -> YamlNode:
+    """Return a node in its long form; what is inside of it is not converted.
+
+    A single object in place of a list becomes a list of one, `origin: [..]` becomes `{xyz: [..]}`, and a list of
+    names in place of a map becomes a map of empty entries.
     """
-    section = _defaults_section(place.file)
-    return section is not None and place.lies_in(section.span)
+    if not is_set(node) or isinstance(node, YamlFault):
+        return node
+    if isinstance(node, YamlMap):
+        return YamlList((node,), node.span) if lists_objects(shape) else node
+    if shape.is_object and shape.title in SHORT_FORMS:
+        return YamlMap({SHORT_FORMS[shape.title]: _entry(SHORT_FORMS[shape.title], node)}, node.span)
+    if shape.has_names and isinstance(node, YamlList):
+        names = [item for item in node if isinstance(item, YamlScalar)]
+        if len(names) == len(node):
+            return YamlMap({name.text: YamlEntry(name, YamlScalar("", None, name.span)) for name in names}, node.span)
+    return node
 
 
-@lru_cache(maxsize=8)
-def _defaults_section(file: SourceFile) -> YamlNode | None:
-    if "defaults" not in file.text:
+def long_object(node: YamlMap, shape: Shape) -> YamlMap:
+    """Return an object without short forms that refer to its other keys, such as `collision: visual`."""
+    return _OBJECTS[shape.title](node) if shape.title in _OBJECTS else node
+
+
+def with_frames_as_joints(tree: YamlMap) -> YamlMap:
+    """Return a file's tree with each frame replaced by a link and a fixed joint, after those of the file.
+
+    A faulty frame stays, as does one with the name of another link or joint, so that it is reported as a frame. A
+    faulty section stays as well.
+    """
+    frames = tree.get("frames")
+    if not isinstance(frames, YamlMap):
+        return tree
+    links, joints, left = _section(tree, "links"), _section(tree, "joints"), {}
+    for entry in frames:
+        joint = _joint_of(entry)
+        if joint is None or entry.name in links or joint.name in joints:
+            left[entry.name] = entry
+        else:
+            links[entry.name] = YamlEntry(entry.key, YamlMap({}, entry.key.span))
+            joints[joint.name] = joint
+    sections = {"links": links, "joints": joints, "frames": left}
+    spans = {name: section.span if (section := tree.get(name)) else frames.span for name in sections}
+    made = {
+        name: _entry(name, YamlMap(entries, spans[name]))
+        for name, entries in sections.items()
+        if entries and not isinstance(tree.get(name), YamlFault)
+    }
+    return YamlMap({**{name: entry for name, entry in tree.entries.items() if name != "frames"}, **made}, tree.span)
+
+
+def _joint_of(frame: YamlEntry) -> YamlEntry | None:
+    """Return the joint of a frame as an entry, None if the frame is not a map or has no parent."""
+    fields = frame.value
+    if not isinstance(fields, YamlMap) or not isinstance(fields.get("parent"), YamlScalar):
         return None
-    tree = read(file, Diagnostics())
-    return tree.get("defaults") if tree else None
+    key = fields.get("joint")
+    if key is None:
+        key = YamlScalar(f"{frame.name}_joint", f"{frame.name}_joint", frame.key.span)
+    if not isinstance(key, YamlScalar):
+        return None
+    kept = {name: entry for name in ("parent", "origin") if (entry := fields.entries.get(name))}
+    type_ = _entry("type", YamlScalar("fixed", "fixed", frame.key.span))
+    return YamlEntry(key, YamlMap({"type": type_, **kept, "child": _entry("child", frame.key)}, fields.span))
+
+
+def _with_copied_collision(link: YamlMap) -> YamlMap:
+    """Return a link with the shapes of its visuals in place of `collision: visual`."""
+    collision, visual = link.entries.get("collision"), link.get("visual")
+    if not (collision and visual and isinstance(collision.value, YamlScalar) and collision.value.text == "visual"):
+        return link
+    visuals = visual if isinstance(visual, YamlList) else YamlList((visual,), visual.span)
+    copied = YamlList(tuple(_without_look(each) for each in visuals), collision.value.span)
+    return YamlMap({**link.entries, "collision": YamlEntry(collision.key, copied)}, link.span)
+
+
+def _without_look(visual: YamlNode) -> YamlNode:
+    if not isinstance(visual, YamlMap):
+        return visual
+    kept = {name: entry for name, entry in visual.entries.items() if name in {"origin", *GEOMETRIES}}
+    return YamlMap(kept, visual.span)
+
+
+def _with_listed_chain(group: YamlMap) -> YamlMap:
+    """Return a group with its `chain` as the first of its `chains`."""
+    chain, chains = group.entries.get("chain"), group.get("chains")
+    if chain is None:
+        return group
+    listed = chain.value
+    if isinstance(chains, YamlList):
+        first = listed.items if isinstance(listed, YamlList) else (listed,)
+        listed = YamlList((*first, *chains), listed.span)
+    kept = {name: entry for name, entry in group.entries.items() if name not in {"chain", "chains"}}
+    return YamlMap({"chains": _entry("chains", listed), **kept}, group.span)
+
+
+_OBJECTS: Mapping[str, Callable[[YamlMap], YamlMap]] = {
+    "a link": _with_copied_collision,
+    "a group": _with_listed_chain,
+}
+"""By the title of an object, what `long_object` does with it."""
+
+
+def _section(tree: YamlMap, name: str) -> dict[str, YamlEntry]:
+    section = tree.get(name)
+    return dict(section.entries) if isinstance(section, YamlMap) else {}
+
+
+def _entry(name: str, value: YamlNode) -> YamlEntry:
+    return YamlEntry(YamlScalar(name, name, value.span), value)
+
+
+# Gazebo tags have keys of their own, and an import puts some under `properties` instead.

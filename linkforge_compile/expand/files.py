@@ -1,0 +1,304 @@
+"""Follow paths as specs write them, find packages, and read files of limited size."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import chain, islice
+from pathlib import Path
+from typing import TypeAlias
+
+from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
+from linkforge_compile.limits import MAX_FILE_BYTES
+from linkforge_compile.roots import Roots, as_walked, is_file, is_folder, package_name
+from linkforge_compile.source import Span
+from linkforge_compile.source.characters import EncodingError, begins_xml, xml_text
+from linkforge_compile.source.span import Located
+from linkforge_compile.syntax import YamlScalar
+
+_MAX_NAMES = 10_000
+
+
+def follow(folder: Path, target: str) -> Path:
+    """Return where a relative path leads from a folder, with `a/..` removed unless `a` is a symbolic link."""
+    for part in Path(target).parts:
+        # os.path handles names that no file can have; pathlib raises.
+        can_drop = part == ".." and folder.name not in ("", "..") and not os.path.islink(folder)  # noqa: PTH114
+        folder = folder.parent if can_drop else folder / part
+    return folder
+
+
+def as_typed(path: Path) -> Path:
+    """Return the path as a user in the working directory would type it: relative if it lies below."""
+    here = Path.cwd()
+    return path.relative_to(here) if path.is_relative_to(here) else path
+
+
+def names_in(folder: Path) -> tuple[str, ...]:
+    """Return the names in a folder, as suggestions for a missing one; empty if it cannot be read."""
+    try:
+        return tuple(entry.name for entry in islice(folder.iterdir(), _MAX_NAMES))
+    except OSError:
+        return ()
+
+
+def misspelt_part(path: Path) -> tuple[str, tuple[str, ...]]:
+    """Return the first part of a path that does not exist, and the names in the folder where it should be."""
+    missing = path
+    while not is_folder(missing.parent) and missing.parent != missing:
+        missing = missing.parent
+    return missing.name, names_in(missing.parent)
+
+
+def path_base(path: Located) -> Span:
+    """Return the span whose file a relative path is relative to.
+
+    That is the file in which the text was written, even if an expression of an including or included file passes it
+    on. A parameter of type `file` is already relative to the file that uses it.
+    """
+    where = path.span
+    origin = where.origin
+    if origin is None or origin.is_data or _comes_from_other_spec(where):
+        return where
+    return where if isinstance(path, YamlScalar) and _is_rebased(path.value) else origin.span
+
+
+def searched_note(path: Path, text: str, where: Span) -> Note:
+    """Return a note that shows where the file named by a text was looked for, and why there if that is surprising."""
+    is_relative = "://" not in text and not Path(text).is_absolute()
+    if not is_relative or not _comes_from_other_spec(where) or _is_rebased(text):
+        return Note(f"looked for it at {as_typed(path)}")
+    why = "a path in text starts at the file that uses it; declare 'type: file' for one that starts where it is written"
+    return Note(f"looked for it at {as_typed(path)}: {why}")
+
+
+def _is_rebased(value: object) -> bool:
+    """Whether an expression computed the path relative to the file that uses it."""
+    from linkforge_compile.expressions import PathText  # imported already if any expression was computed
+
+    return isinstance(value, PathText)
+
+
+def _comes_from_other_spec(where: Span) -> bool:
+    """Whether the value at a place was written in another spec; included files belong to the including spec."""
+    origin = where.origin
+    return origin is not None and origin.span.file.outermost is not where.file.outermost
+
+
+_NAME = re.compile(r"\w[\w.-]*")
+"""What may be the name of a package folder; excludes paths such as those of `$(find ../..)` in a xacro."""
+
+_WORKSPACE_SOURCES = "src"
+"""The folder of a ROS workspace that holds its packages and repositories."""
+
+_LEVELS_UP = 6
+_MIN_PARTS = 2
+"""The nearby search stops at folders with no more parts in their path than `/home` has."""
+
+_MAX_FOLDERS = 500
+"""How many nearby folders are searched for a package that was not found."""
+
+NearbyPackages: TypeAlias = "dict[Path, Mapping[str, Path]]"
+"""The packages near a folder by name, for each folder around which a package was missed; filled on demand."""
+
+
+@dataclass(frozen=True)
+class Package:
+    """A package and the folder that its `package://` stands for."""
+
+    name: str
+    folder: Path
+
+
+def find_package(name: str, declared: Mapping[str, Path], start: Path | None, roots: Roots) -> Path | None:
+    """Return the folder of a package, None if it is not found within the roots.
+
+    `declared` are the folders that the user or the spec names. After them come the folders upward from `start` whose
+    package.xml has the name, AMENT_PREFIX_PATH and ROS_PACKAGE_PATH.
+    """
+    if name in declared:
+        return declared[name]
+    if not _NAME.fullmatch(name):
+        return None
+    return next(chain(_in_source_tree(name, start, roots), _in_ament(name), _in_ros_1(name, roots)), None)
+
+
+def _in_source_tree(name: str, start: Path | None, roots: Roots) -> Iterator[Path]:
+    folder = as_walked(start) if start else None
+    for candidate in (folder, *folder.parents) if folder else ():
+        if package_name(candidate, roots) == name:
+            yield candidate
+
+
+def _in_ament(name: str) -> Iterator[Path]:
+    for prefix in _search_path("AMENT_PREFIX_PATH"):
+        folder = prefix / "share" / name
+        if is_folder(folder):
+            yield folder
+
+
+def _in_ros_1(name: str, roots: Roots) -> Iterator[Path]:
+    """Yield matches of ROS_PACKAGE_PATH, which lists packages, folders of packages and folders of repositories."""
+    for root in _search_path("ROS_PACKAGE_PATH"):
+        if package_name(root, roots) == name:
+            yield root
+        # Links in an untrusted repository may lead out of the roots; do not reveal whether they lead to a package.
+        manifests = (root / name / "package.xml", *sorted(root.glob(f"*/{name}/package.xml")))
+        yield from (path.parent for path in manifests if roots.hold(path) and is_file(path))
+
+
+def unknown_package(
+    where: Span | None,
+    name: str,
+    start: Path | None,
+    roots: Roots,
+    nearby: NearbyPackages,
+    *,
+    near: Iterable[str],
+    notes: Iterable[Note] = (),
+) -> Diagnostic:
+    """Return the diagnostic for a package that was not found, with a note if one of that name is nearby.
+
+    `nearby` caches the search of the workspace around `start`. Packages found there are only suggested, never used: a
+    workspace that is not sourced may hold another version. Outside the roots only --package helps, because the
+    `packages` of a file cannot add roots.
+    """
+    seen = _packages_around(start, roots, nearby).get(name) if start else None
+    option = f"--package {name}=FOLDER"
+    way = option if seen and not roots.hold(seen) else f"'packages' of this file or {option}"
+    found = [Note(f"there is one; write --package {name}={shlex.quote(_shortest(seen))}")] if seen else []
+    return UNKNOWN_PACKAGE.at(where, name=name, way=way, near=near, notes=(*notes, *found))
+
+
+def _packages_around(start: Path, roots: Roots, nearby: NearbyPackages) -> Mapping[str, Path]:
+    """Return the packages near a folder, the nearest of each name."""
+    if start not in nearby:
+        folders = reversed([*islice(_folders_around(as_walked(start), roots), _MAX_FOLDERS)])
+        nearby[start] = {name: folder for folder in folders if (name := package_name(folder, roots))}
+    return nearby[start]
+
+
+def _folders_around(start: Path, roots: Roots) -> Iterator[Path]:
+    """Yield the siblings of each folder upward and their subfolders, up to the sources of the workspace.
+
+    Top-level folders, where networks may be mounted, and the home folder itself are not searched.
+    """
+    for above in islice((start, *start.parents), _LEVELS_UP):
+        if len(above.parts) <= _MIN_PARTS or str(above) == os.path.expanduser("~"):  # noqa: PTH111 - home() may raise
+            return
+        siblings = _folders_in(above, roots)
+        yield from siblings
+        for folder in siblings:
+            yield from _folders_in(folder, roots)
+        if above.name == _WORKSPACE_SOURCES:
+            return
+
+
+def _folders_in(folder: Path, roots: Roots) -> list[Path]:
+    """Return the folders in a folder, without hidden ones and links that leave the roots."""
+    try:
+        with os.scandir(folder) as entries:
+            found = [
+                entry.name
+                for entry in islice(entries, _MAX_FOLDERS)
+                if not entry.name.startswith(".") and not roots.are_left_by(folder / entry.name) and entry.is_dir()
+            ]
+    except OSError:
+        return []
+    return [folder / name for name in sorted(found)]
+
+
+def _shortest(folder: Path) -> str:
+    """Return the shorter of a folder's absolute path and its path from the working directory."""
+    try:
+        return min(str(folder), os.path.relpath(folder), key=len)
+    except ValueError:  # another drive of Windows
+        return str(folder)
+
+
+def _search_path(variable: str) -> Iterator[Path]:
+    return (Path(entry) for entry in os.environ.get(variable, "").split(os.pathsep) if entry)
+
+
+class UnreadableError(Exception):
+    """There is something at the path that cannot be read as text; `undecoded` has the byte at fault, if any."""
+
+    def __init__(self, reason: str, undecoded: UnicodeDecodeError | None = None) -> None:
+        self.undecoded = undecoded
+        super().__init__(reason)
+
+
+class TooLargeError(UnreadableError):
+    """The file at the path is above the size limit."""
+
+
+def read_utf8(path: Path, *, only_regular: bool) -> str | None:
+    """Return the text of a UTF-8 file, None if there is no file.
+
+    `only_regular` rejects pipes and terminals, on which reading would block. Raises UnreadableError.
+    """
+    content = read_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
+    return None if content is None else _decode_utf8(content)
+
+
+def read_xml(path: Path, *, only_regular: bool) -> str | None:
+    """Return the text of an XML file in the encoding that it declares, None if there is no file."""
+    content = read_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
+    return None if content is None else _decode_xml(content)
+
+
+def read_spec(path: Path, *, only_regular: bool) -> str | None:
+    """Return the text of a spec, which is UTF-8, or of XML that was passed as one; None if there is no file."""
+    content = read_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
+    if content is None:
+        return None
+    return _decode_xml(content) if begins_xml(content) else _decode_utf8(content)
+
+
+def read_bytes(path: Path, limit: int, *, only_regular: bool) -> bytes | None:
+    """Return the content of a file, None if there is none.
+
+    Raises UnreadableError for a folder and the like, TooLargeError above `limit` bytes, of which no more are read.
+    """
+    try:
+        if path.is_dir():
+            raise UnreadableError("it is a folder")
+        if only_regular and path.exists() and not path.is_file():
+            raise UnreadableError("it is no regular file")
+        with path.open("rb") as stream:
+            # read(n) allocates n bytes, so ask for no more than the file has; a pipe or /proc reports size 0.
+            content = stream.read(min(os.fstat(stream.fileno()).st_size or limit, limit) + 1)
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        raise UnreadableError((error.strerror or type(error).__name__).lower()) from error
+    except MemoryError as error:
+        raise TooLargeError("it does not fit into memory") from error
+    except ValueError as error:  # a NUL in the name
+        raise UnreadableError(str(error)) from error
+    if len(content) > limit:
+        raise TooLargeError(f"it is larger than {limit // 1024**2} MiB")
+    return content
+
+
+def _decode_utf8(content: bytes) -> str:
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+            raise UnreadableError("it is UTF-16, as PowerShell writes; save it as UTF-8") from error
+        line = error.object.count(b"\n", 0, error.start) + 1
+        reason = f"it is not UTF-8: line {line} has the byte {error.object[error.start]:#04x}; save it as UTF-8"
+        raise UnreadableError(reason, error) from error
+
+
+def _decode_xml(content: bytes) -> str:
+    try:
+        return xml_text(content)
+    except EncodingError as error:
+        raise UnreadableError(str(error), error.undecoded) from error
