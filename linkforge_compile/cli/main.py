@@ -51,7 +51,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:  # as in `linkforge compile … | head`
-        _discard_stdout()
+        # Redirected, so that the final flush does not meet the closed pipe.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return OK
     except MemoryError:
         pass  # reported below, once the frames that hold the memory are released
@@ -88,7 +89,10 @@ def _run(words: list[str]) -> int:
 def _run_without_command(words: list[str]) -> int:
     """Handle options such as `--help`, and report an unknown command."""
     summary = "a declarative compiler for robots: YAML specs in, URDF and SRDF out"
-    parser = _make_parser("linkforge", summary, _add_version)
+    version = f"linkforge {__version__}"
+    parser = _make_parser(
+        "linkforge", summary, lambda it: it.add_argument("-V", "--version", action="version", version=version)
+    )
     parser.usage = "linkforge [-h] [-V] COMMAND ..."
     width = max(map(len, COMMANDS))
     parser.epilog = "\n".join(
@@ -109,12 +113,8 @@ def _run_without_command(words: list[str]) -> int:
     return parser.error(f"'{words[0]}' is no command{did_you_mean(words[0], COMMANDS)}")
 
 
-def _add_version(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("-V", "--version", action="version", version=f"linkforge {__version__}")
-
-
 def _make_parser(
-    program: str, summary: str, add_arguments: Callable[[argparse.ArgumentParser], None]
+    program: str, summary: str, add_arguments: Callable[[argparse.ArgumentParser], object]
 ) -> argparse.ArgumentParser:
     from argparse import RawDescriptionHelpFormatter
 
@@ -138,28 +138,16 @@ def _usage_error_of(error: OSError) -> str | None:
     """Return the message for a system error that the command line caused; None for a bug of linkforge."""
     if error.errno in (errno.ENAMETOOLONG, errno.EACCES, errno.EPERM) and error.filename:
         return f"'{_shorten(str(error.filename))}': {error.strerror}"
-    if not error.filename and not _has_working_folder():
+    try:
+        if not error.filename:
+            os.getcwd()  # noqa: PTH109
+    except FileNotFoundError:
         return "the folder it is called in is gone; enter one that exists"
     return None
 
 
-def _has_working_folder() -> bool:
-    from pathlib import Path
-
-    try:
-        Path.cwd()
-    except FileNotFoundError:
-        return False
-    return True
-
-
 def _shorten(name: str) -> str:
     return name if len(name) <= 80 else f"{name[:40]}…{name[-30:]}"
-
-
-def _discard_stdout() -> None:
-    """Redirect standard output to the null device, so that the final flush does not meet the closed pipe."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _report_crash(error: Exception, words: Sequence[str]) -> int:

@@ -76,11 +76,11 @@ def report(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> 
     """Print the diagnostics that the options select, and return whether there is an error among them."""
     chosen = select(diagnostics, arguments)
     write_to_stderr(format_diagnostics(chosen, arguments))
-    return has_errors(chosen)
+    return bool(errors_of(chosen))
 
 
-def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
-    return any(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)
+def errors_of(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    return [diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR]
 
 
 def print_status(line: str, arguments: argparse.Namespace) -> None:

@@ -14,11 +14,11 @@ from linkforge_compile.editor.completions import (
     ARGUMENT,
     NAMES,
     Completions,
+    SpecPaths,
     complete_module,
     if_used,
     marked_names,
 )
-from linkforge_compile.editor.spec_paths import SpecPaths
 from linkforge_compile.editor.vocabulary import Vocabulary
 from linkforge_compile.schema.bundle import bundle
 from linkforge_compile.schema.json_schema import Json, Schema, mapping

@@ -207,13 +207,18 @@ def leaf(part: Element, tag: str = "", /, **changes: Spellable | None) -> Xml:
 
 def attributes_of(part: Element, /, **changes: Spellable | None) -> Xml:
     """Return the attributes of a part, by the specs of its fields; `changes` are values by attribute, None for none."""
-    return attributes(part, **_attribute_values(part, changes))
+    values = _attribute_values(part, changes)
+    if part.extra_attributes or active_origins():
+        return attributes(part, **values)
+    return Xml(_stated_alone(values)) if values else NOTHING
 
 
 def _attribute_values(part: object, changes: Mapping[str, Spellable | None]) -> dict[str, Spellable | None]:
     kind: type = type(part)
     getters, implied = _attribute_getters(kind)
     values = {name: get(part) for name, get in getters}
+    if not (implied or changes):
+        return values  # most parts
     for name, value in implied:  # not written, unless the author did
         if values[name] == value and name not in part.stated:  # type: ignore[attr-defined]  # of classes that have it
             values[name] = None

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 
 import pytest
 
-from linkforge_compile.editor.spec_paths import SpecPaths
+from linkforge_compile.editor.completions import SpecPaths
 from linkforge_compile.schema.json_schema import Json, mapping
 
 SPECS = [

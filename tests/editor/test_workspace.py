@@ -11,8 +11,8 @@ from linkforge_compile.editor import (
     TooManyFilesError,
     Vocabulary,
     find_specs,
+    folders,
     read_vocabulary,
-    spec_files,
     workspace_text,
 )
 from linkforge_compile.roots import Roots
@@ -356,6 +356,6 @@ def test_a_folder_of_more_than_robots_is_refused(tmp_path: Path, monkeypatch: py
     root = written(tmp_path)
     with pytest.raises(TooManyFilesError, match="more than 2 specs"):
         find_specs(root, at_most=2)
-    monkeypatch.setattr(spec_files, "MAX_FOLDERS", 2)
+    monkeypatch.setattr(folders, "MAX_FOLDERS", 2)
     with pytest.raises(TooManyFilesError, match="more than 2 folders"):
         find_specs(root)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -15,7 +15,7 @@ from linkforge_compile.cli.options import (
     packages_of,
     split_assignments,
 )
-from linkforge_compile.cli.reports import add_report_options, format_diagnostics, has_errors, select, write_to_stderr
+from linkforge_compile.cli.reports import add_report_options, errors_of, format_diagnostics, select, write_to_stderr
 
 if TYPE_CHECKING:
     import argparse
@@ -58,6 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from linkforge_compile.diagnostics.codes.modules import NO_SPEC_BELOW
     from linkforge_compile.diagnostics.render_text import summary
 
     words, assignments = split_assignments(arguments.words)
@@ -69,7 +70,10 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.all_variants and "-" in specs:
         raise UsageError("--all-variants takes files, not standard input")
     # Specs that use the same module repeat its diagnostics: report and count each once.
-    found = {str(one): one for one in unread or _report_empty(specs_by_word)}
+    found = {str(one): one for one in unread}
+    if not unread:
+        empty = (NO_SPEC_BELOW.at(None, path=word) for word, below in specs_by_word.items() if not below)
+        found = {str(one): one for one in empty}
     reports = _without_parts({spec: _merge_runs(_check(spec, assignments, arguments)) for spec in specs})
     for report in reports.values():
         for diagnostic in report.diagnostics:
@@ -79,7 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.quiet:
         variants = _variants_summary(reports.values()) if arguments.all_variants else ""
         write_to_stderr(f"checked {_count(len(reports), 'spec')}{variants}: {summary(chosen)}\n")
-    return FAULTY_SPEC if has_errors(chosen) else OK
+    return FAULTY_SPEC if errors_of(chosen) else OK
 
 
 def _find_specs(word: str, arguments: argparse.Namespace, report: Callable[[Diagnostic], object]) -> tuple[str, ...]:
@@ -92,7 +96,7 @@ def _find_specs(word: str, arguments: argparse.Namespace, report: Callable[[Diag
         return (word,)
     from linkforge_compile.diagnostics import Note
     from linkforge_compile.diagnostics.codes.modules import OUTSIDE_ROOTS, UNREADABLE_FILE
-    from linkforge_compile.editor.spec_files import TooManyFilesError, find_specs
+    from linkforge_compile.editor.folders import TooManyFilesError, find_specs
     from linkforge_compile.roots import ANYWHERE, Roots
 
     folder = Path(word)
@@ -108,13 +112,6 @@ def _find_specs(word: str, arguments: argparse.Namespace, report: Callable[[Diag
         return tuple(map(str, find_specs(folder, _MAX_SPECS, roots=roots, unread=unread, outside=outside)))
     except TooManyFilesError as error:
         raise UsageError(f"there are {error} below '{word}'; name the folders of the robots") from error
-
-
-def _report_empty(specs_by_word: Mapping[str, tuple[str, ...]]) -> Iterator[Diagnostic]:
-    """Report folders without a spec."""
-    from linkforge_compile.diagnostics.codes.modules import NO_SPEC_BELOW
-
-    return (NO_SPEC_BELOW.at(None, path=word) for word, specs in specs_by_word.items() if not specs)
 
 
 def _check(spec: str, assignments: list[str], arguments: argparse.Namespace) -> _Compilations:
@@ -171,17 +168,16 @@ def _without_parts(reports: Mapping[str, _Report]) -> dict[str, _Report]:
 
     For a nameless file that is used as a module, that report includes the missing name.
     """
-    nameless = {spec for spec, report in reports.items() if _lacks_name(spec, report)}
+    from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
+
+    def lacks_name(spec: str, report: _Report) -> bool:
+        spans = (one.span for one in report.diagnostics if one.code is MISSING_NAME)
+        return any(span is not None and span.file.path == Path(spec) for span in spans)
+
+    nameless = {spec for spec, report in reports.items() if lacks_name(spec, report)}
     checked = {file for spec, report in reports.items() if spec not in nameless for file in report.files}
     parts = {spec for spec in nameless if os.path.realpath(spec) in checked}
     return {spec: report for spec, report in reports.items() if spec not in parts}
-
-
-def _lacks_name(spec: str, report: _Report) -> bool:
-    from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
-
-    spans = (one.span for one in report.diagnostics if one.code is MISSING_NAME)
-    return any(span is not None and span.file.path == Path(spec) for span in spans)
 
 
 def _count(count: int, noun: str) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -19,7 +20,7 @@ from linkforge_compile.cli.options import (
     require_file,
     split_assignments,
 )
-from linkforge_compile.cli.reports import add_report_options, report
+from linkforge_compile.cli.reports import add_report_options, errors_of, report
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 
     from linkforge_compile.compare import Difference, RemovedName
     from linkforge_compile.core import Robot
-    from linkforge_compile.diagnostics import Diagnostic
 
 DIFFERENT, NO_ROBOT = 1, 2
 """The exit codes of diff(1): 0 for no difference, 2 for trouble."""
@@ -132,13 +132,12 @@ class _Side(NamedTuple):
 class _Comparison(NamedTuple):
     """What differs between two robots.
 
-    `is_semantic_compared` is False if one of them is a URDF without SRDF, and `is_semantic_missed` is True if the other
-    one then has a semantic part. `not_read_back` is the reason why a spec was compared as it is written, if it was.
+    `is_semantic_missed` is True if one has a semantic part that the other, a URDF without SRDF, cannot have.
+    `not_read_back` is the reason why a spec was compared as it is written, if it was.
     """
 
     sides: Sequence[_Side]
     tolerance: float
-    is_semantic_compared: bool
     is_semantic_missed: bool
     not_read_back: str | None
     differences: Sequence[Difference]
@@ -165,7 +164,6 @@ def run(arguments: argparse.Namespace) -> int:
     comparison = _Comparison(
         sides,
         tolerance,
-        semantic,
         not semantic and (before.has_semantic or after.has_semantic),
         not_read_back,
         compare(before, after, tolerance=tolerance, semantic=semantic),
@@ -205,17 +203,15 @@ def _share_out(common: Sequence[str], sides: Sequence[_Side], arguments: argpars
     is_unknown = any(side.text is not None and not side.is_urdf for side in sides)  # a spec that can be read only once
     if not common or is_unknown or len({(side.word, side.srdf) for side in sides}) == 1:
         return [list(common) for _ in sides]
-    names = [_parameter_names(side, arguments) for side in sides]
-    known = frozenset().union(*names)
-    return [[pair for pair in common if (name := name_set_by(pair)) in own or name not in known] for own in names]
-
-
-def _parameter_names(side: _Side, arguments: argparse.Namespace) -> frozenset[str]:
     from linkforge_compile.pipeline import parameters_of
 
-    packages, allow_outside = packages_of(arguments), arguments.allow_outside
-    listings = (parameters_of(file, packages=packages, allow_outside=allow_outside)[0] for file in side.parameter_files)
-    return frozenset(one.name for listing in listings if listing for one in listing.parameters)
+    packages, outside = packages_of(arguments), arguments.allow_outside
+    names: list[set[str]] = []
+    for side in sides:
+        listings = (parameters_of(file, packages=packages, allow_outside=outside)[0] for file in side.parameter_files)
+        names.append({one.name for listing in listings if listing for one in listing.parameters})
+    known = set().union(*names)
+    return [[pair for pair in common if (name := name_set_by(pair)) in own or name not in known] for own in names]
 
 
 def _load(side: _Side, common: Iterable[str], arguments: argparse.Namespace) -> Robot | None:
@@ -238,18 +234,12 @@ def _load(side: _Side, common: Iterable[str], arguments: argparse.Namespace) -> 
             allow_outside=arguments.allow_outside,
             text=side.text,
         )
-        if report((*_errors(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
+        if report((*errors_of(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
             return None
         compilation = compile_text(imported.text, name=name, folder=Path(side.word).parent)
     else:
         compilation = compile_spec(side.word, [], own, text=side.text)
-    return None if report(_errors(compilation.diagnostics), arguments) else compilation.robot
-
-
-def _errors(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-    from linkforge_compile.diagnostics import Severity
-
-    return [diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR]
+    return None if report(errors_of(compilation.diagnostics), arguments) else compilation.robot
 
 
 def _as_urdfs(
@@ -278,7 +268,8 @@ def _lines(comparison: _Comparison) -> Iterator[str]:
     """Yield the numbers of differences, the removed names, each part by section, and what was not compared."""
     before, after = (side.label for side in comparison.sides)
     if comparison.differences:
-        yield f"{before} → {after}: {_count(comparison.differences)}"
+        kinds = Counter[str](difference.kind for difference in comparison.differences)
+        yield f"{before} → {after}: {', '.join(f'{kinds[kind]} {kind}' for kind in _SIGNS if kind in kinds)}"
         yield from _removed_lines(comparison.removed)
         for section, members in groupby(comparison.differences, key=lambda difference: difference.path[0]):
             yield from ("", section)
@@ -300,11 +291,6 @@ _DEPTH = {"semantic": 3}
 _SIGNS = {"added": "+", "removed": "-", "renamed": ">", "moved": ">", "changed": "~"}
 
 _INTERFACE = " interface"
-
-
-def _count(differences: Sequence[Difference]) -> str:
-    kinds = [difference.kind for difference in differences]
-    return ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds), key=list(_SIGNS).index))
 
 
 def _removed_lines(removed: Sequence[RemovedName]) -> Iterator[str]:
@@ -346,19 +332,13 @@ def _json_text(comparison: _Comparison) -> str:
     """Return the comparison as docs/diff.schema.json describes it."""
     import json
 
-    before, after = comparison.sides
-
-    def settings(side: _Side) -> Mapping[str, object]:
-        return {"parameters": side.parameters, "variant": side.variant, "srdf": side.srdf}
-
-    document = {
-        "version": 1,
-        "before": before.word,
-        "before_settings": settings(before),
-        "after": after.word,
-        "after_settings": settings(after),
+    document: dict[str, object] = {"version": 1}
+    for name, side in zip(_SIDES, comparison.sides, strict=True):
+        settings = {"parameters": side.parameters, "variant": side.variant, "srdf": side.srdf}
+        document |= {name: side.word, f"{name}_settings": settings}
+    document |= {
         "tolerance": comparison.tolerance,
-        "semantic_compared": comparison.is_semantic_compared,
+        "semantic_compared": all(side.has_semantic for side in comparison.sides),
         "not_read_back": comparison.not_read_back,
         "same": not comparison.differences,
         "breaking": [name._asdict() for name in comparison.removed],

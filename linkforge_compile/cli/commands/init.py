@@ -10,7 +10,7 @@ from linkforge_compile.cli import OK, UsageError
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.editor.robot_folder import RobotFolder
+    from linkforge_compile.editor.folders import RobotFolder
 
 _EXAMPLES = """\
 Writes a first spec NAME.robot.yaml, the schema with which editors complete it, settings of VS Code, .gitignore,
@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.reports import print_line
-    from linkforge_compile.editor.robot_folder import NAME, RobotFolder
+    from linkforge_compile.editor.folders import NAME, RobotFolder
 
     name = arguments.name
     if not NAME.fullmatch(name):
@@ -57,7 +57,7 @@ def _write_files(place: RobotFolder, name: str) -> list[str]:
         write_changed,
         write_if_changed,
     )
-    from linkforge_compile.editor.robot_folder import SCHEMA
+    from linkforge_compile.editor.folders import SCHEMA
 
     files, schema = place.files(name), place.workspace / SCHEMA
     new = {path: text for path, text in files.items() if not (path.exists() or path.is_symlink())}

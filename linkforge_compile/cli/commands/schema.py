@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.workspace is None:
         write_json(bundle_text(), arguments.output, arguments)
         return OK
-    from linkforge_compile.editor.robot_folder import SCHEMA
+    from linkforge_compile.editor.folders import SCHEMA
 
     packages = {name: Path(folder) for name, folder in packages_of(arguments).items()}
     roots = (Path(arguments.workspace),) if arguments.workspace else _workspaces(Path(), packages)
@@ -70,7 +70,7 @@ def workspace_schema(root: Path, packages: Mapping[str, Path], *, runs_xacro: bo
     UsageError if there is no spec, or more than a repository has.
     """
     from linkforge_compile.editor import read_vocabulary, without_parts, workspace_text
-    from linkforge_compile.editor.robot_folder import schemas_below
+    from linkforge_compile.editor.folders import schemas_below
 
     specs = _find_specs(root, packages)
     for folder in schemas_below(root, specs):
@@ -85,7 +85,7 @@ def workspace_schema(root: Path, packages: Mapping[str, Path], *, runs_xacro: bo
 
 def _workspaces(here: Path, packages: Mapping[str, Path]) -> tuple[Path, ...]:
     """Return the folder at or above this one that has a schema, else those below that have one, else this one."""
-    from linkforge_compile.editor.robot_folder import SCHEMA, schemas_below, workspace_of
+    from linkforge_compile.editor.folders import SCHEMA, schemas_below, workspace_of
 
     root = workspace_of(here)
     if (root / SCHEMA).is_file():

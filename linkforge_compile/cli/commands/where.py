@@ -47,7 +47,11 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("takes a line of a file, such as robot.urdf:81, or a file and a name in it")
     document = _text_of(path)
     source_map = _map_of(path, document)
-    sources = _Sources(path.parent, source_map, _faults_of(path, document, source_map))
+    from linkforge_compile.formats.map_file import hash_of
+
+    is_changed = source_map.sha256 != hash_of(document)
+    faults = [_changed(SourceFile(str(path), document), "its map was written")] if is_changed else []
+    sources = _Sources(path.parent, source_map, faults)
     lines = _named(path, document, arguments.name) if line is None else [_Query(line, column, "")]
     from linkforge_compile.cli.output import write_to_stdout
 
@@ -100,14 +104,6 @@ def _map_of(path: Path, document: str) -> MapFile:
         return read_map(_text_of(beside))
     except NoMapError as error:
         raise UsageError(f"'{beside}' cannot be read: {error}") from None
-
-
-def _faults_of(path: Path, document: str, source_map: MapFile) -> list[Diagnostic]:
-    from linkforge_compile.formats.map_file import hash_of
-
-    if source_map.sha256 == hash_of(document):
-        return []
-    return [_changed(SourceFile(str(path), document), "its map was written")]
 
 
 def _changed(file: SourceFile, when: str) -> Diagnostic:

@@ -17,8 +17,8 @@ from linkforge_compile.core.models.link import InertiaTensor
 from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.importing import LACKS_PART, NAME_IS_TAKEN, NO_NUMBERS, NO_TYPE_OF_JOINT
+from linkforge_compile.importers.link import JOINT_TYPES
 from linkforge_compile.importers.spec_draft import number_of
-from linkforge_compile.importers.urdf.joint import JOINT_TYPES
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 
 _UNBOUNDED = re.compile(r"[+-]?(?:inf|infinity|nan)", re.IGNORECASE)
