@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkforge_compile.core.fields import Child, Parameters, Spec, Text, field_specs
 from linkforge_compile.core.part import Element
-from linkforge_compile.formats.element import attributes_of, elements, leaf, leaf_at, placed
-from linkforge_compile.formats.parameters import parameter_elements
+from linkforge_compile.formats.element import attributes_of, elements, leaf, leaf_at, parameter_elements, placed
 from linkforge_compile.formats.xml_text import NOTHING, spelled
 
 if TYPE_CHECKING:
