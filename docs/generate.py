@@ -18,13 +18,12 @@ from linkforge_compile.diagnostics.render_text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_COUNTED, MAX_KEPT, MAX_REPORTED
 from linkforge_compile.expand import includes, parameters
 from linkforge_compile.expand.expand_uses import MAX_DEPTH
-from linkforge_compile.expressions import grammar, operators, parse
+from linkforge_compile.expressions import operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.limits import MAX_FILE_BYTES, Limit
 from linkforge_compile.lower import mesh_solids
-from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
+from linkforge_compile.schema.json_schema import LONG_FORM, WORDS, Json, Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import definitions
-from linkforge_compile.schema.repetition import LONG_FORM, WORDS
 from linkforge_compile.syntax import nodes
 from linkforge_compile.units import Dimension, number_text, spellings_of, units_of
 
@@ -234,7 +233,7 @@ def _bounds() -> str:
         "files included from included files": includes.MAX_DEPTH,
         "included files in all": includes.MAX_INCLUDES,
         "characters of one expression": parse.MAX_LENGTH,
-        "depth of one expression": grammar.MAX_DEPTH,
+        "depth of one expression": parse.MAX_DEPTH,
         "bits of a whole number": operators.MAX_INTEGER_BITS,
         "characters of a computed text": operators.MAX_TEXT,
         "characters of a `pattern`, and of the text it is held against": (

@@ -226,7 +226,7 @@ def read_unseekable(word: str) -> str | None:
 
 def is_xml(word: str, text: str | None) -> bool:
     """Whether a robot is XML, by its name or its first bytes; `text` is its content if it was read already."""
-    from linkforge_compile.source.encoding import begins_xml
+    from linkforge_compile.source.characters import begins_xml
 
     if Path(word).suffix.lower() in {".urdf", ".xml", ".xacro"}:
         return True
@@ -243,7 +243,7 @@ def _read_text(stream: BinaryIO, name: str) -> str:
     content = stream.read(MAX_FILE_BYTES + 1)
     if len(content) > MAX_FILE_BYTES:
         raise UsageError(f"{name} is larger than {MAX_FILE_BYTES // 1024**2} MiB")
-    from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
+    from linkforge_compile.source.characters import EncodingError, begins_xml, xml_text
 
     try:
         return xml_text(content) if begins_xml(content) else content.decode("utf-8")

@@ -8,9 +8,8 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from linkforge_compile.editor.vocabulary import Vocabulary
 from linkforge_compile.expand.listing import ListedParameter
-from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
-from linkforge_compile.schema.patches import PATCH_SUFFIX
-from linkforge_compile.syntax.scalars import scalar_value
+from linkforge_compile.schema.json_schema import PATCH_SUFFIX, Json, Schema, branches, mapping, reference
+from linkforge_compile.syntax.nodes import scalar_value
 
 NAMES, KEYS = "names", "keys"
 """The start of a `$comment` in a schema whose values, or whose keys, are names: `names: link, joint`."""

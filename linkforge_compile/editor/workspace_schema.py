@@ -21,7 +21,7 @@ from linkforge_compile.editor.completions import (
 )
 from linkforge_compile.editor.vocabulary import Vocabulary
 from linkforge_compile.schema.bundle import bundle
-from linkforge_compile.schema.json_types import Json, Schema, mapping
+from linkforge_compile.schema.json_schema import Json, Schema, mapping
 
 
 def without_parts(vocabularies: Iterable[Vocabulary]) -> tuple[Vocabulary, ...]:

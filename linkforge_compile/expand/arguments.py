@@ -15,7 +15,7 @@ from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_T
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.loader import Loader, SpecFile
 from linkforge_compile.expand.uses import XACRO
-from linkforge_compile.schema.words import alternatives
+from linkforge_compile.schema.shapes import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar, scalar_value
 from linkforge_compile.units import Quantity

@@ -13,7 +13,7 @@ from linkforge_compile.expand.repeat import occurrences, without_words
 from linkforge_compile.expand.values import node_of, with_final_paths
 from linkforge_compile.expressions import FAULT, Value
 from linkforge_compile.schema import validate_computed
-from linkforge_compile.schema.repetition import WORDS
+from linkforge_compile.schema.json_schema import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.nodes import fault_of

@@ -17,8 +17,8 @@ from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
 from linkforge_compile.limits import MAX_FILE_BYTES
 from linkforge_compile.roots import Roots, as_walked, is_file, is_folder, package_name
 from linkforge_compile.source import Span
-from linkforge_compile.source.encoding import EncodingError, begins_xml, xml_text
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.characters import EncodingError, begins_xml, xml_text
+from linkforge_compile.source.span import Located
 from linkforge_compile.syntax import YamlScalar
 
 _MAX_NAMES = 10_000

@@ -24,10 +24,10 @@ from linkforge_compile.expand.spec_tree import cached_source, read_tree
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.roots import ANYWHERE, Roots, identity
 from linkforge_compile.source import SourceFile, Span, place_of_byte
-from linkforge_compile.source.encoding import begins_xml
+from linkforge_compile.source.characters import begins_xml
 from linkforge_compile.source.provenance import uses_in
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
-from linkforge_compile.syntax.suppressions import IGNORE_WORDS, suppressions_in
+from linkforge_compile.syntax.parser import IGNORE_WORDS, suppressions_in
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Suppression

@@ -25,9 +25,8 @@ from linkforge_compile.expand.merge_objects import (
     long_form,
     long_object,
 )
-from linkforge_compile.schema.repetition import WORDS
-from linkforge_compile.schema.shapes import FREE, Shape, shapes
-from linkforge_compile.schema.words import alternatives
+from linkforge_compile.schema.json_schema import WORDS
+from linkforge_compile.schema.shapes import FREE, Shape, alternatives, shapes
 from linkforge_compile.source import Change, TracedSpan
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, parse_quantity
@@ -218,7 +217,7 @@ def _items(base: YamlNode | None, shape: Shape) -> tuple[YamlNode, ...]:
 
 def _nesting_hint(name: str, base: YamlMap, shape: Shape) -> str:
     """Return how to write a path such as `elbow/limits` that was written as a name; "" for any other name."""
-    from linkforge_compile.schema.words import nested, split_path
+    from linkforge_compile.schema.shapes import nested, split_path
 
     first, *steps = split_path(name)
     is_path = steps and first in base.entries and steps[0] in shape.under(first).keys

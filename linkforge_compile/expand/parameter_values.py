@@ -36,7 +36,7 @@ from linkforge_compile.expand.uses import rebased
 from linkforge_compile.expand.values import Setting, plain_value
 from linkforge_compile.expressions import FAULT, Fault, Value
 from linkforge_compile.limits import Limit
-from linkforge_compile.schema.words import alternatives
+from linkforge_compile.schema.shapes import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression, read
 

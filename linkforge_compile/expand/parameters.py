@@ -23,7 +23,7 @@ from linkforge_compile.expressions import FAULT, Value, forgotten_expression
 from linkforge_compile.expressions.types import as_text, dimension_name
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS
+from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS
 from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, unit_text, units_of
 
 _CONSTRAINTS = ("minimum", "maximum", "enum", "pattern")

@@ -21,11 +21,11 @@ from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.values import Setting, describe
 from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression
 from linkforge_compile.limits import Limit
-from linkforge_compile.schema.repetition import WORDS
+from linkforge_compile.schema.json_schema import WORDS
 from linkforge_compile.schema.shapes import Shape
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, has_expression
-from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS
+from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS
 
 Occurrence: TypeAlias = tuple[Evaluator, YamlNode]
 """A node without its `for` and `when`, and an evaluator that knows the `for` names."""

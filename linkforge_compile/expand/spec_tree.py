@@ -15,13 +15,11 @@ from linkforge_compile.diagnostics.codes.modules import NAME_OUTSIDE_TEXT, PATH_
 from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.schema import validate
-from linkforge_compile.schema.json_types import LinkedSchema
-from linkforge_compile.schema.repetition import WORDS
-from linkforge_compile.schema.shapes import FREE, Shape, shapes
-from linkforge_compile.schema.words import field
+from linkforge_compile.schema.json_schema import WORDS, LinkedSchema
+from linkforge_compile.schema.shapes import FREE, Shape, field, shapes
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression, read
-from linkforge_compile.syntax.scalars import xacro_facts
+from linkforge_compile.syntax.nodes import xacro_facts
 
 if TYPE_CHECKING:
     from linkforge_compile.expressions import Expression

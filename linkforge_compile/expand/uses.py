@@ -17,7 +17,7 @@ from linkforge_compile.expand.files import follow
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
 
 if TYPE_CHECKING:

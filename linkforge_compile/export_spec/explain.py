@@ -14,7 +14,7 @@ from linkforge_compile.export_spec.provenance import place_of
 from linkforge_compile.export_spec.robot import spec_of
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Link, Provenance, join_links, outward, uses_of
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.span import Located
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.writer import write
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from typing import TypeAlias, TypeVar
+from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
@@ -16,20 +16,20 @@ from linkforge_compile.expressions.operators import (
     ARITHMETIC,
     COMPARISONS,
     MAX_TEXT,
+    Operation,
     field,
     is_too_long,
     item,
     signed,
     truth,
-    wrong_kind,
 )
-from linkforge_compile.expressions.scope import Scope
 from linkforge_compile.expressions.types import (
     FAULT,
     Expression,
     Fault,
     PathText,
     RefusedError,
+    Scope,
     Template,
     Value,
     as_text,
@@ -39,8 +39,6 @@ from linkforge_compile.expressions.types import (
 from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
 from linkforge_compile.units import WIDEST_ANGLE
-
-T = TypeVar("T")
 
 Trace: TypeAlias = Callable[[str, Span], Span]
 """Takes the text of a part of an expression and its span; returns a span that records where its value comes from."""
@@ -103,7 +101,10 @@ def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagn
         instead = "write constants and functions without a module: pi"
         return codes.NOT_IN_EXPRESSIONS.at(expression.span(name), what=f"'{name.id}'", instead=instead)
     near = [*scope, *CONSTANTS]
-    is_text = _is_compared(name, expression.tree) and nearest(name.id, near) is None
+    # Users often intend text on one side of a comparison.
+    comparisons = (node for node in ast.walk(expression.tree) if isinstance(node, ast.Compare))
+    is_compared = any(name is side for node in comparisons for side in (node.left, *node.comparators))
+    is_text = is_compared and nearest(name.id, near) is None
     hint = f"; write text in quotes: '{name.id}'" if is_text else ""
     return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, hint=hint, near=near)
 
@@ -112,20 +113,8 @@ _PYTHON_MODULES = ("math", "numpy", "np")
 """Modules that Python programs use pi and sin from."""
 
 
-def _is_compared(name: ast.Name, tree: ast.expr) -> bool:
-    """Whether a name is one side of a comparison, where users often intend text."""
-    comparisons = (node for node in ast.walk(tree) if isinstance(node, ast.Compare))
-    return any(name is side for node in comparisons for side in (node.left, *node.comparators))
-
-
 class _FaultError(Exception):
     """A part of the expression has no value; the error has been reported."""
-
-
-def _text(taker: str, value: Value) -> str:
-    if isinstance(value, str):
-        return value
-    raise wrong_kind(taker, "text", value, operand=0)
 
 
 class _Evaluation:
@@ -228,7 +217,8 @@ class _Evaluation:
             self._sink.report(codes.WIDE_LITERAL.at(self._expression.span(argument), function=function, found=found))
 
     def _call_file_function(self, name: ast.Name, argument: ast.expr) -> Value:
-        text = self._apply(partial(_text, f"{name.id}()"), name, argument)
+        text = self._apply(FILE_FUNCTIONS[name.id], name, argument)
+        assert isinstance(text, str), "the functions of the file accept only text"
         function = self._scope.function(name.id)
         if function is None:
             self._sink.report(codes.UNKNOWN_FUNCTION.at(self._expression.span(name), name=name.id))
@@ -238,8 +228,8 @@ class _Evaluation:
             raise _FaultError
         return value
 
-    def _truth(self, node: ast.expr, taker: str) -> bool:
-        return self._apply(lambda value: truth(value, taker), node, node)
+    def _truth(self, node: ast.expr, name: str) -> bool:
+        return bool(self._apply(Operation(name, truth), node, node))
 
     def _compare(self, node: ast.Compare) -> bool:
         """Compare neighbours of a chain from left to right until one comparison fails."""
@@ -252,10 +242,10 @@ class _Evaluation:
             left_node, left = right_node, right
         return True
 
-    def _counted(self, operation: Callable[..., T]) -> Callable[..., T]:
+    def _counted(self, operation: Callable[..., Value]) -> Callable[..., Value]:
         """Return an operation that charges the budget for the items and characters of its operands."""
 
-        def counting(*values: Value) -> T:
+        def counting(*values: Value) -> Value:
             for value in values:
                 if isinstance(value, tuple):
                     self._scope.budget.spend(Limit.STEPS, len(value), self._expression.place.span)
@@ -265,12 +255,12 @@ class _Evaluation:
 
         return counting
 
-    def _apply(self, operation: Callable[..., T], node: ast.expr, *operands: ast.expr) -> T:
+    def _apply(self, operation: Callable[..., Value], node: ast.expr, *operands: ast.expr) -> Value:
         return self._compute(operation, node, operands, [self._value(operand) for operand in operands])
 
     def _compute(
-        self, operation: Callable[..., T], node: ast.expr, operands: Sequence[ast.expr], values: Sequence[Value]
-    ) -> T:
+        self, operation: Callable[..., Value], node: ast.expr, operands: Sequence[ast.expr], values: Sequence[Value]
+    ) -> Value:
         """Return the result of an operation; report a RefusedError at the operand that is wrong."""
         try:
             return operation(*values)

@@ -1,12 +1,16 @@
-"""Operators of expressions: arithmetic with dimensions, comparisons, and access to items and fields."""
+"""Operators of expressions: arithmetic with dimensions, comparisons, and access to items and fields.
+
+An operation raises a RefusedError for operands that it does not accept.
+"""
 
 from __future__ import annotations
 
 import ast
 import math
 import operator
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, TypeAlias
 
 from linkforge_compile.diagnostics.codes import expressions as codes
@@ -19,13 +23,16 @@ from linkforge_compile.expressions.types import (
     kind_name,
     seen_from_compiled,
 )
-from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS
+from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS
 from linkforge_compile.units import UNITS, Dimension, Quantity, parse_quantity, suggested_unit, unit_text
 
 Number: TypeAlias = int | float
 
-Predicate: TypeAlias = Callable[[Any, Any], bool]
+_Predicate: TypeAlias = Callable[[Any, Any], bool]
 """A comparison of the operator module, whose types are no narrower."""
+
+_DimensionOf: TypeAlias = Callable[[Dimension | None, Dimension | None], Dimension | None]
+"""Gives the dimension of a result by those of the operands."""
 
 MAX_INTEGER_BITS = 1023
 """Integers may be as large as a double, so that each can be converted to one."""
@@ -34,21 +41,59 @@ MAX_TEXT = 65_536
 """The longest text that an expression may make, in characters."""
 
 
-def wrong_kind(taker: str, expected: str, value: Value, operand: int | None = None) -> RefusedError:
-    """Return the error for an operand of the wrong kind; `taker` is the operator or function."""
-    return RefusedError(codes.WRONG_KIND, operand=operand, taker=taker, expected=expected, found=kind_name(value))
+@dataclass(frozen=True)
+class Operation:
+    """An operator or a function: its name in messages and what it computes.
+
+    A function has a signature and accepts `least` to `most` arguments (None: any number).
+    """
+
+    name: str
+    compute: Callable[..., Value]
+    signature: str = ""
+    least: int = 1
+    most: int | None = 1
+
+    def __call__(self, *values: Value) -> Value:
+        """Compute the value; reject a number beyond a double and a text beyond MAX_TEXT."""
+        try:
+            value = self.compute(*values)
+        except ZeroDivisionError:
+            raise RefusedError(codes.DIVISION_BY_ZERO, operand=1, operation=self.name) from None
+        except (OverflowError, ValueError):  # ValueError: the sine of infinity, the integer of nan
+            raise RefusedError(codes.RESULT_TOO_LARGE, operation=self.name) from None
+        except RefusedError as refused:
+            refused.facts.setdefault("operation", self.name)
+            raise
+        match value.value if isinstance(value, Quantity) else value:
+            case float() as size if not math.isfinite(size):
+                raise RefusedError(codes.RESULT_TOO_LARGE, operation=self.name)
+            case int() as size if size.bit_length() > MAX_INTEGER_BITS:
+                raise RefusedError(codes.RESULT_TOO_LARGE, operation=self.name)
+            case str() as text if is_too_long(text):
+                raise RefusedError(codes.TEXT_TOO_LONG, limit=f"{MAX_TEXT:,}")
+        return value
+
+    def accepts(self, count: int) -> bool:
+        """Whether the function may be called with this many arguments."""
+        return count >= self.least and (self.most is None or count <= self.most)
+
+
+def wrong_kind(expected: str, value: Value, operand: int | None = None, **facts: str) -> RefusedError:
+    """Return the error for an operand of the wrong kind."""
+    return RefusedError(codes.WRONG_KIND, operand=operand, expected=expected, found=kind_name(value), **facts)
 
 
 # Numbers and dimensions
 
 
-def number(value: Value, taker: str, operand: int | None = None) -> tuple[Number, Dimension | None]:
+def number(value: Value, operand: int = 0, **facts: str) -> tuple[Number, Dimension | None]:
     """Return the number in SI units and its dimension; reject anything else, booleans included."""
     if isinstance(value, Quantity):
         return value.value, value.dimension
     if isinstance(value, bool) or not isinstance(value, int | float):
         found = kind_name(value) + _unit_hint(value)
-        raise RefusedError(codes.WRONG_KIND, operand=operand, taker=taker, expected="a number", found=found)
+        raise RefusedError(codes.WRONG_KIND, operand=operand, expected="a number", found=found, **facts)
     return value, None
 
 
@@ -67,12 +112,12 @@ def with_dimension(value: Number, dimension: Dimension | None) -> Value:
     return value if dimension is None else Quantity(float(value), dimension)
 
 
-def shared_dimension(dimensions: Sequence[Dimension | None], taker: str) -> Dimension | None:
+def shared_dimension(*dimensions: Dimension | None) -> Dimension | None:
     """Return the common dimension; bare numbers (None) adopt it, two different dimensions are rejected."""
     found = list(dict.fromkeys(dimension for dimension in dimensions if dimension is not None))
     if len(found) > 1:
         left, right = map(dimension_name, found[:2])
-        raise RefusedError(codes.DIMENSIONS_DIFFER, taker=taker, left=left, right=right)
+        raise RefusedError(codes.DIMENSIONS_DIFFER, left=left, right=right)
     return found[0] if found else None
 
 
@@ -81,65 +126,35 @@ def is_too_long(text: str) -> bool:
     return max(len(text), len(seen_from_compiled(text))) > MAX_TEXT
 
 
-def bounded(compute: Callable[[], Value], taker: str) -> Value:
-    """Return the computed value; reject a number beyond a double and a text beyond MAX_TEXT."""
-    try:
-        value = compute()
-    except (OverflowError, ValueError):  # ValueError: the sine of infinity, the integer of nan
-        raise RefusedError(codes.RESULT_TOO_LARGE, taker=taker) from None
-    match value.value if isinstance(value, Quantity) else value:
-        case float() as size if not math.isfinite(size):
-            raise RefusedError(codes.RESULT_TOO_LARGE, taker=taker)
-        case int() as size if size.bit_length() > MAX_INTEGER_BITS:
-            raise RefusedError(codes.RESULT_TOO_LARGE, taker=taker)
-        case str() as text if is_too_long(text):
-            raise RefusedError(codes.TEXT_TOO_LONG, limit=f"{MAX_TEXT:,}")
-    return value
-
-
 # Arithmetic
 
 
-@dataclass(frozen=True)
-class Arithmetic:
-    """An operator on two numbers; `dimension` gives that of the result."""
-
-    symbol: str
-    compute: Callable[[Number, Number], Number]
-    dimension: Callable[[Dimension | None, Dimension | None, str], Dimension | None]
-
-    def __call__(self, left: Value, right: Value) -> Value:
-        taker = f"'{self.symbol}'"
-        return bounded(lambda: self._result(left, right, taker), taker)
-
-    def _result(self, left: Value, right: Value, taker: str) -> Value:
-        if self.symbol == "+" and isinstance(left, str) and isinstance(right, str):
-            return joined(left, right)
-        (a, left_dimension), (b, right_dimension) = number(left, taker, 0), number(right, taker, 1)
-        dimension = self.dimension(left_dimension, right_dimension, taker)
-        try:
-            return with_dimension(self.compute(a, b), dimension)
-        except ZeroDivisionError:
-            raise RefusedError(codes.DIVISION_BY_ZERO, operand=1, taker=taker) from None
+def _calculate(
+    compute: Callable[[Number, Number], Number], dimension_of: _DimensionOf, left: Value, right: Value
+) -> Value:
+    (a, left_dimension), (b, right_dimension) = number(left), number(right, 1)
+    dimension = dimension_of(left_dimension, right_dimension)
+    return with_dimension(compute(a, b), dimension)
 
 
-def _shared(left: Dimension | None, right: Dimension | None, taker: str) -> Dimension | None:
-    return shared_dimension((left, right), taker)
+def _add(left: Value, right: Value) -> Value:
+    if isinstance(left, str) and isinstance(right, str):
+        return joined(left, right)
+    return _calculate(operator.add, shared_dimension, left, right)
 
 
-def _product(left: Dimension | None, right: Dimension | None, _taker: str) -> Dimension | None:
+def _product(left: Dimension | None, right: Dimension | None) -> Dimension | None:
     return (left or right) if left is None or right is None else None
 
 
-def _quotient(left: Dimension | None, right: Dimension | None, _taker: str) -> Dimension | None:
+def _quotient(left: Dimension | None, right: Dimension | None) -> Dimension | None:
     return left if right is None else None
 
 
-def _power_dimension(_left: Dimension | None, right: Dimension | None, taker: str) -> None:
+def _power_dimension(_left: Dimension | None, right: Dimension | None) -> None:
     """Drop the dimension, as a product does; reject an exponent that has one."""
     if right is not None:
-        found = dimension_name(right)
-        raise RefusedError(codes.WRONG_DIMENSION, operand=1, taker=taker, expected="a bare exponent", found=found)
+        raise RefusedError(codes.WRONG_DIMENSION, operand=1, expected="a bare exponent", found=dimension_name(right))
 
 
 def _power(base: Number, exponent: Number) -> Number:
@@ -149,113 +164,101 @@ def _power(base: Number, exponent: Number) -> Number:
         raise OverflowError
     result = base**exponent
     if isinstance(result, complex):
-        raise RefusedError(codes.OUTSIDE_DOMAIN, operand=0, taker="'**'", expected="a base of 0 or more", found=base)
+        raise RefusedError(codes.OUTSIDE_DOMAIN, operand=0, expected="a base of 0 or more", found=base)
     return result
 
 
-ARITHMETIC: dict[type[ast.operator], Arithmetic] = {
-    ast.Add: Arithmetic("+", operator.add, _shared),
-    ast.Sub: Arithmetic("-", operator.sub, _shared),
-    ast.Mod: Arithmetic("%", operator.mod, _shared),
-    ast.Mult: Arithmetic("*", operator.mul, _product),
-    ast.Div: Arithmetic("/", operator.truediv, _quotient),
-    ast.FloorDiv: Arithmetic("//", operator.floordiv, _quotient),
-    ast.Pow: Arithmetic("**", _power, _power_dimension),
+ARITHMETIC = {
+    ast.Add: Operation("'+'", _add),
+    ast.Sub: Operation("'-'", partial(_calculate, operator.sub, shared_dimension)),
+    ast.Mod: Operation("'%'", partial(_calculate, operator.mod, shared_dimension)),
+    ast.Mult: Operation("'*'", partial(_calculate, operator.mul, _product)),
+    ast.Div: Operation("'/'", partial(_calculate, operator.truediv, _quotient)),
+    ast.FloorDiv: Operation("'//'", partial(_calculate, operator.floordiv, _quotient)),
+    ast.Pow: Operation("'**'", partial(_calculate, _power, _power_dimension)),
 }
 """The operators between two numbers; `+` also joins two texts."""
 
 
 def signed(sign: ast.unaryop, value: Value) -> Value:
-    """Return a number or quantity with a sign `+` or `-` applied."""
+    """Return a number or quantity with a sign `+` or `-` applied, infinite if it was."""
     is_minus = isinstance(sign, ast.USub)
-    magnitude, dimension = number(value, "'-'" if is_minus else "'+'", 0)
+    magnitude, dimension = number(value, operation="'-'" if is_minus else "'+'")
     return with_dimension(-magnitude if is_minus else magnitude, dimension)
 
 
-def truth(value: Value, taker: str, operand: int | None = None) -> bool:
+def truth(value: Value) -> bool:
     """Return a boolean; reject other values, such as the text 'false', which is true in Python."""
     if isinstance(value, bool):
         return value
     if isinstance(value, str) and (intended := YAML_1_1_BOOLEANS.get(value.lower())):
-        raise RefusedError(codes.TRUTH_AS_TEXT, operand=operand, name=value, meant=intended)
-    raise wrong_kind(taker, "true or false", value, operand)
+        raise RefusedError(codes.TRUTH_AS_TEXT, name=value, meant=intended)
+    raise wrong_kind("true or false", value)
 
 
 # Comparisons
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """An operator between two values that gives true or false."""
-
-    symbol: str
-    compare: Callable[[Value, Value, str, Predicate], bool]
-    predicate: Predicate
-
-    def __call__(self, left: Value, right: Value) -> bool:
-        return self.compare(left, right, f"'{self.symbol}'", self.predicate)
 
 
 def _is_number(value: Value) -> bool:
     return isinstance(value, int | float | Quantity) and not isinstance(value, bool)
 
 
-def _compare_numbers(left: Value, right: Value, taker: str, predicate: Predicate) -> bool:
-    (a, left_dimension), (b, right_dimension) = number(left, taker, 0), number(right, taker, 1)
-    shared_dimension((left_dimension, right_dimension), taker)
+def _compare_numbers(predicate: _Predicate, left: Value, right: Value) -> bool:
+    (a, left_dimension), (b, right_dimension) = number(left), number(right, 1)
+    shared_dimension(left_dimension, right_dimension)
     return predicate(a, b)
 
 
-def _compare_equality(left: Value, right: Value, taker: str, predicate: Predicate) -> bool:
+def _compare_equality(predicate: _Predicate, left: Value, right: Value) -> bool:
     """Test equality; reject different kinds, because `simulated == "true"` is never true."""
     if left is None or right is None:
         return predicate(left is None, right is None)
     if _is_number(left) and _is_number(right):
-        return _compare_numbers(left, right, taker, predicate)
+        return _compare_numbers(predicate, left, right)
     for operand, value in enumerate((left, right)):
         if isinstance(value, tuple | Mapping):
-            raise wrong_kind(taker, "single values", value, operand)
+            raise wrong_kind("single values", value, operand)
     # A PathText is text as well.
     left_kind, right_kind = (str if isinstance(value, str) else type(value) for value in (left, right))
     if left_kind is not right_kind:
-        raise RefusedError(codes.KINDS_DIFFER, taker=taker, left=kind_name(left), right=kind_name(right))
+        raise RefusedError(codes.KINDS_DIFFER, left=kind_name(left), right=kind_name(right))
     return predicate(left, right)
 
 
-def _compare_order(left: Value, right: Value, taker: str, predicate: Predicate) -> bool:
+def _compare_order(predicate: _Predicate, left: Value, right: Value) -> bool:
     if isinstance(left, str) and isinstance(right, str):
         return predicate(left, right)
-    return _compare_numbers(left, right, taker, predicate)
+    return _compare_numbers(predicate, left, right)
 
 
-def _compare_membership(item: Value, whole: Value, taker: str, predicate: Predicate) -> bool:
+def _is_in(item: Value, whole: Value) -> bool:
     """Search a list for an item, a map for a key, a text for a part; an item of another kind is absent."""
     match whole:
         case tuple():
-            return predicate(any(_is_equal(item, one) for one in whole), True)
+            return any(_is_equal(item, one) for one in whole)
         case Mapping():
-            return predicate(key_text(item) in whole, True)
+            return key_text(item) in whole
         case str() if isinstance(item, str):
-            return predicate(item in whole, True)
-    raise wrong_kind(taker, "a list or a map on its right", whole, operand=1)
+            return item in whole
+    raise wrong_kind("a list or a map on its right", whole, operand=1)
 
 
 def _is_equal(left: Value, right: Value) -> bool:
     try:
-        return _compare_equality(left, right, "'in'", operator.eq)
+        return _compare_equality(operator.eq, left, right)
     except RefusedError:
         return False
 
 
-COMPARISONS: dict[type[ast.cmpop], Comparison] = {
-    ast.Eq: Comparison("==", _compare_equality, operator.eq),
-    ast.NotEq: Comparison("!=", _compare_equality, operator.ne),
-    ast.Lt: Comparison("<", _compare_order, operator.lt),
-    ast.LtE: Comparison("<=", _compare_order, operator.le),
-    ast.Gt: Comparison(">", _compare_order, operator.gt),
-    ast.GtE: Comparison(">=", _compare_order, operator.ge),
-    ast.In: Comparison("in", _compare_membership, operator.is_),
-    ast.NotIn: Comparison("not in", _compare_membership, operator.is_not),
+COMPARISONS = {
+    ast.Eq: Operation("'=='", partial(_compare_equality, operator.eq)),
+    ast.NotEq: Operation("'!='", partial(_compare_equality, operator.ne)),
+    ast.Lt: Operation("'<'", partial(_compare_order, operator.lt)),
+    ast.LtE: Operation("'<='", partial(_compare_order, operator.le)),
+    ast.Gt: Operation("'>'", partial(_compare_order, operator.gt)),
+    ast.GtE: Operation("'>='", partial(_compare_order, operator.ge)),
+    ast.In: Operation("'in'", _is_in),
+    ast.NotIn: Operation("'not in'", lambda item, whole: not _is_in(item, whole)),
 }
 """The operators that give true or false; a chain such as `0 < x < 1` compares each two neighbours."""
 
@@ -269,13 +272,17 @@ def item(whole: Value, index: Value) -> Value:
     """Return `list[index]`, negative indexes from the end, or `map[key]`."""
     match whole:
         case tuple():
-            return _list_item(whole, index)
+            if isinstance(index, bool) or not isinstance(index, int):
+                raise wrong_kind("a whole number in its brackets", index, operand=1, operation="a list")
+            if not -len(whole) <= index < len(whole):
+                raise RefusedError(codes.NO_SUCH_ITEM, operand=1, index=index, length=len(whole))
+            return whole[index]
         case Mapping():
             key = key_text(index)
             if key is None:
-                raise wrong_kind("a map", "a key", index, operand=1)
+                raise wrong_kind("a key", index, operand=1, operation="a map")
             return _entry(whole, key)
-    raise wrong_kind("'[...]'", "a list or a map before it", whole, operand=0)
+    raise wrong_kind("a list or a map before it", whole, operand=0, operation="'[...]'")
 
 
 def key_text(index: Value) -> str | None:
@@ -291,16 +298,7 @@ def field(whole: Value, key: str) -> Value:
         return _entry(whole, key)
     if isinstance(whole, tuple) and len(whole) == 3 and key in _AXES:
         return whole[_AXES[key]]
-    raise wrong_kind(f"'.{key}'", "a map or a vector's x, y, z", whole)
-
-
-def _list_item(whole: tuple[Value, ...], index: Value) -> Value:
-    if isinstance(index, bool) or not isinstance(index, int):
-        raise wrong_kind("a list", "a whole number in its brackets", index, operand=1)
-    try:
-        return whole[index]
-    except IndexError:
-        raise RefusedError(codes.NO_SUCH_ITEM, operand=1, index=index, length=len(whole)) from None
+    raise wrong_kind("a map or a vector's x, y, z", whole, operation=f"'.{key}'")
 
 
 def _entry(whole: Mapping[str, Value], key: str) -> Value:

@@ -1,18 +1,24 @@
-"""Find the expressions in a scalar's text and parse them with `ast`; nothing is ever evaluated by Python."""
+"""Parse the expressions in a text with Python's ast, and reject syntax that the language does not have."""
 
 from __future__ import annotations
 
 import ast
+import keyword
+import math
 import re
 import warnings
-from collections.abc import Container
+from collections.abc import Container, Iterable, Iterator
+from dataclasses import replace
 
-from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
-from linkforge_compile.expressions.grammar import explain_syntax_error, refusals, with_names
+from linkforge_compile.expressions.functions import CONSTANTS, SIGNATURES
+from linkforge_compile.expressions.operators import ARITHMETIC, COMPARISONS, MAX_INTEGER_BITS
 from linkforge_compile.expressions.types import Expression, Template
 from linkforge_compile.source import Span
+from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.source.text_place import TextPlace
+from linkforge_compile.units import UNITS
 
 MAX_LENGTH = 2_000
 """The longest expression, in characters."""
@@ -73,7 +79,11 @@ def _parse_expression(text: str, offset: int, place: TextPlace, sink: Diagnostic
         return None
     text = _STRINGS_AND_SPACES.sub(lambda found: found[0] if found[0][0] in "'\"" else " ", text)
     try:
-        tree = _parse_python(text)
+        with warnings.catch_warnings():
+            # Python warns on standard error of `1if` and of unknown escapes, in a file that does not exist.
+            warnings.simplefilter("ignore")
+            # The parentheses make leading spaces valid.
+            tree = ast.parse(f"({text})", mode="eval").body
     except (SyntaxError, MemoryError, RecursionError, ValueError) as error:
         if isinstance(error, SyntaxError) and error.msg != "too many nested parentheses":
             start, length, problem = explain_syntax_error(text, error)
@@ -85,14 +95,6 @@ def _parse_expression(text: str, offset: int, place: TextPlace, sink: Diagnostic
     faults = tuple(refusals(expression))
     sink.report_all(faults)
     return None if faults else with_names(expression)
-
-
-def _parse_python(text: str) -> ast.expr:
-    with warnings.catch_warnings():
-        # Python warns on standard error of `1if` and of unknown escapes, in a file that does not exist.
-        warnings.simplefilter("ignore")
-        # The parentheses make leading spaces valid.
-        return ast.parse(f"({text})", mode="eval").body
 
 
 # Text in which `$( )` was forgotten
@@ -118,16 +120,225 @@ def as_one_expression(text: str, where: Span, names: Container[str]) -> str | No
     """Return text around expressions as one expression: "$(track / 2)" for "$(track) / 2"; None if that fails."""
     template = parse_template(text, where, Diagnostics())
     parts = template.parts if template else ()
-    inside = "".join(part if isinstance(part, str) else _as_operand(part) for part in parts)
+    inside = ""
+    for part in parts:
+        text = part if isinstance(part, str) else part.text.strip()
+        needs_none = isinstance(part, str) or isinstance(part.tree, _NEEDS_NO_PARENTHESES)
+        inside += text if needs_none else f"({text})"
     return forgotten_expression(inside, where, names) if len(parts) > 1 else None
-
-
-def _as_operand(expression: Expression) -> str:
-    text = expression.text.strip()
-    return text if isinstance(expression.tree, _NEEDS_NO_PARENTHESES) else f"({text})"
 
 
 def _is_literal(tree: ast.expr) -> bool:
     while isinstance(tree, ast.UnaryOp):
         tree = tree.operand
     return isinstance(tree, ast.Constant) or (isinstance(tree, ast.Name) and tree.id in _LITERAL_NAMES)
+
+
+MAX_DEPTH = 100
+"""How deep an expression may nest; a sum nests as deep as it has terms."""
+
+_LIST_ELSEWHERE = "declare lists and maps in 'variables'"
+_IN_FOR = "repeat entries with 'for'"
+_NO_BITS = "there are no bitwise operators"
+
+_REFUSED: dict[type[ast.AST], tuple[str, str]] = {
+    ast.List: ("a list in brackets", _LIST_ELSEWHERE),
+    ast.Tuple: ("a list of values", _LIST_ELSEWHERE),
+    ast.Dict: ("a map in braces", _LIST_ELSEWHERE),
+    ast.Set: ("a set in braces", _LIST_ELSEWHERE),
+    ast.ListComp: ("a comprehension", _IN_FOR),
+    ast.SetComp: ("a comprehension", _IN_FOR),
+    ast.DictComp: ("a comprehension", _IN_FOR),
+    ast.GeneratorExp: ("a comprehension", _IN_FOR),
+    ast.Lambda: ("a lambda", "only functions of the language can be called"),
+    ast.NamedExpr: ("':='", "declare names in 'variables'"),
+    ast.JoinedStr: ("an f-string", "write the text around the expression: wheel_$(side)"),
+    ast.Starred: ("'*' before a value", "pass the list itself to min() or max()"),
+    ast.Slice: ("a slice", "read items one by one: list[0]"),
+    ast.Await: ("'await'", "there are no coroutines or generators"),
+    ast.Yield: ("'yield'", "there are no coroutines or generators"),
+    ast.YieldFrom: ("'yield'", "there are no coroutines or generators"),
+    ast.BitXor: ("'^'", "write '**' for powers"),
+    ast.BitAnd: ("'&'", "write 'and' between conditions"),
+    ast.BitOr: ("'|'", "write 'or' between conditions"),
+    ast.Invert: ("'~'", "write 'not' to negate a condition"),
+    ast.LShift: ("'<<'", _NO_BITS),
+    ast.RShift: ("'>>'", _NO_BITS),
+    ast.MatMult: ("'@'", "there are no matrices"),
+    ast.Is: ("'is'", "compare values with '=='"),
+    ast.IsNot: ("'is not'", "compare values with '!='"),
+}
+"""Syntax of Python that expressions do not have: what it is called, and what to write instead."""
+
+_PYTHON_CONSTANTS = {True: "true", False: "false", None: "null"}
+
+
+def refusals(expression: Expression) -> Iterator[Diagnostic]:
+    """Yield an error for each part that expressions do not have, none for what is inside such a part."""
+    waiting = [(expression.tree, 1)]
+    while waiting:
+        node, depth = waiting.pop()
+        if depth > MAX_DEPTH:
+            yield codes.EXPRESSION_TOO_LARGE.at(
+                expression.span(expression.tree), fault=f"nests more than {MAX_DEPTH} deep"
+            )
+            return
+        fault = _fault(node, expression)
+        if fault:
+            yield fault
+        else:
+            waiting.extend((operand, depth + 1) for operand in _operands(node))
+
+
+def with_names(expression: Expression) -> Expression:
+    """Return the expression with its names, spelled as written: Python normalizes µ and other letters."""
+    names = []
+    waiting = [expression.tree]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Name) and node.id not in CONSTANTS:
+            node.id = expression.written(node)
+            names.append(node)
+        waiting.extend(_operands(node))
+    return replace(expression, names=tuple(names))
+
+
+def _operands(node: ast.expr) -> Iterable[ast.expr]:
+    if isinstance(node, ast.Constant | ast.Name):
+        return ()  # nearly all nodes; iter_child_nodes would look at each of their fields
+    if isinstance(node, ast.Call):
+        return node.args
+    return (child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr))
+
+
+def _fault(node: ast.expr, expression: Expression) -> Diagnostic | None:
+    match node:
+        case ast.Constant(value=value):
+            return _constant_fault(node, value, expression)
+        case ast.Name(id=name) if name in SIGNATURES:
+            signature = SIGNATURES[name].signature
+            return codes.FUNCTION_NOT_CALLED.at(expression.span(node), function=name, signature=signature)
+        case ast.Name():
+            return None
+        case ast.Call():
+            return _call_fault(node, expression)
+        case ast.BinOp(left=left, op=operator, right=right) if type(operator) not in ARITHMETIC:
+            return _operator_fault(operator, left, right, expression)
+        case ast.Compare():
+            return _comparison_fault(node, expression)
+        case ast.UnaryOp(op=ast.Invert()):
+            return _refused(node, ast.Invert, expression)
+        case ast.BinOp() | ast.BoolOp() | ast.UnaryOp() | ast.IfExp() | ast.Subscript() | ast.Attribute():
+            return None
+    return _refused(node, type(node), expression)
+
+
+def _refused(node: ast.expr, kind: type[ast.AST], expression: Expression) -> Diagnostic:
+    what, instead = _REFUSED.get(kind, ("this syntax", "the language has operators, conditions and functions"))
+    return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=what, instead=instead)
+
+
+def _comparison_fault(chain: ast.Compare, expression: Expression) -> Diagnostic | None:
+    lefts = [chain.left, *chain.comparators[:-1]]
+    for operator, left, right in zip(chain.ops, lefts, chain.comparators, strict=True):
+        if type(operator) not in COMPARISONS:
+            return _operator_fault(operator, left, right, expression)
+    return None
+
+
+def _operator_fault(operator: ast.AST, left: ast.expr, right: ast.expr, expression: Expression) -> Diagnostic:
+    """Report an operator at its place, which the tree does not hold: it is between the operands."""
+    what, instead = _REFUSED[type(operator)]
+    symbol = what.strip("'")
+    begin = expression.index(left.end_col_offset or 0)
+    between = expression.text[begin : expression.index(right.col_offset)]
+    start, length = begin + max(between.find(symbol), 0), len(symbol)
+    return codes.NOT_IN_EXPRESSIONS.at(
+        expression.place.part(expression.offset + start, length), what=what, instead=instead
+    )
+
+
+def _constant_fault(node: ast.Constant, value: object, expression: Expression) -> Diagnostic | None:
+    match value:
+        case bool() | None:
+            instead = f"write '{_PYTHON_CONSTANTS[value]}'"
+            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=f"'{value}'", instead=instead)
+        case str() if forbidden := FORBIDDEN_CHARACTER.search(value):
+            what = f"the character {code_point(forbidden[0])}"
+            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=what, instead="no file may contain it")
+        case int() if value.bit_length() > MAX_INTEGER_BITS:
+            return codes.RESULT_TOO_LARGE.at(expression.span(node), operation="this number")
+        case float() if not math.isfinite(value):
+            return codes.RESULT_TOO_LARGE.at(expression.span(node), operation="this number")
+        case str() | int() | float():
+            return None
+    return codes.NOT_IN_EXPRESSIONS.at(
+        expression.span(node),
+        what=f"'{expression.written(node)}'",
+        instead="values are numbers, text, true, false and null",
+    )
+
+
+def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
+    span = expression.span(call.func)
+    if not isinstance(call.func, ast.Name):
+        known = SIGNATURES.get(call.func.attr) if isinstance(call.func, ast.Attribute) else None
+        instead = f"call functions by their name only: {known.signature if known else 'sqrt(x)'}"
+        return codes.NOT_IN_EXPRESSIONS.at(span, what=f"a call of '{expression.written(call.func)}'", instead=instead)
+    name = call.func.id
+    function = SIGNATURES.get(name)
+    if function is None:
+        return codes.UNKNOWN_FUNCTION.at(span, name=name, near=SIGNATURES)
+    if call.keywords:
+        instead = f"arguments are given in order: {function.signature}"
+        return codes.NOT_IN_EXPRESSIONS.at(expression.span(call), what="an argument with a name", instead=instead)
+    if any(isinstance(argument, ast.Starred) for argument in call.args) or function.accepts(len(call.args)):
+        return None
+    whole = expression.span(call)
+    return codes.WRONG_ARGUMENT_COUNT.at(whole, signature=function.signature, count=len(call.args))
+
+
+# Syntax errors
+
+_UNITS = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
+_KEYWORDS = "|".join(keyword.kwlist)
+
+_HABITS = (
+    (r"^\s*find\s+([\w-]+)\s*$", "'$(find ...)' is xacro; write package://{1}/..."),
+    (r"^\s*(?:arg|eval)\s+(.*?)\s*$", "'$(arg ...)' and '$(eval ...)' are xacro; write $({1})"),
+    (r"^\s*(?:env|optenv)\s.*", "the environment is not read; declare a parameter"),
+    (r"&&", "write 'and' for '&&'"),
+    (r"\|\|", "write 'or' for '||'"),
+    (r"!(?!=)", "write 'not' for '!'"),
+    (r"\?", "write: a if condition else b"),
+    (r"\$[({]?", "write names without '$' here"),
+    (r"#", "expressions cannot contain comments"),
+    (r"(?<![=!<>:])=(?!=)", "compare two values with '=='"),
+    (
+        rf"(?<![\w.])((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*(?!in\b)(?:{_UNITS}))(?!\w)",
+        "units are not allowed here; declare '{1}' in 'variables'",
+    ),
+    (r"[×·⋅∙]", "write '*' for '{0}'"),
+    (r"÷", "write '/' for '{0}'"),
+    (r"[−–—]", "write '-' for '{0}'"),
+    (r"≤", "write '<=' for '{0}'"),
+    (r"≥", "write '>=' for '{0}'"),
+    (r"≠", "write '!=' for '{0}'"),
+    (r"²", "write '** 2' for '{0}'"),
+    (r"³", "write '** 3' for '{0}'"),
+    (rf"\.\s*({_KEYWORDS})\b", "'{1}' is a reserved word; read that key with ['{1}']"),
+    (r"(?<![\w.])0[0-9]+\b(?!\.)", "a number cannot begin with 0"),
+    (r"\bif\b(?!.*\belse\b)", "'if' needs an 'else'"),
+)
+"""Habits from other languages, searched in the text without its strings, and the problem; the first match wins."""
+
+
+def explain_syntax_error(text: str, error: SyntaxError) -> tuple[int, int, str]:
+    """Return the offset and length of a syntax error in an expression, and what is wrong."""
+    bare = re.sub(_STRING, lambda found: found[0][0] + " " * (len(found[0]) - 2) + found[0][0], text, flags=re.DOTALL)
+    for habit, problem in _HABITS:
+        if found := re.search(habit, bare):
+            return found.start(), len(found[0]), problem.format(found[0], *found.groups())
+    # Python counts from 1 and saw one more parenthesis. Its own message differs between versions.
+    start = min(max((error.offset or 0) - 2, 0), len(text))
+    return start, 1, "something is missing or unexpected here"

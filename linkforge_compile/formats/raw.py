@@ -13,8 +13,7 @@ from linkforge_compile.formats.xml_text import KEEPS_SPACE, RawXmlError, Xml, el
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, SourceRef
 from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
-from linkforge_compile.source.xml_places import Places
-from linkforge_compile.source.xml_tree import XmlElement, document_of
+from linkforge_compile.source.xml_tree import Places, XmlElement, document_of
 
 _BEGIN, _END = "<raw-xml-of-a-spec>", "</raw-xml-of-a-spec>"
 """Stand around raw XML, so that any number of elements is one document and a DOCTYPE is a fault.

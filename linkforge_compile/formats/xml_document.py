@@ -14,7 +14,7 @@ from typing import TypeAlias
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.formats.source_map import Mapped, Origins, Segment, SourceMap
 from linkforge_compile.formats.xml_text import KEEPS_SPACE, RESERVED, escaped
-from linkforge_compile.source.xml_places import ATTRIBUTE
+from linkforge_compile.source.xml_tree import ATTRIBUTE
 
 INDENT = "  "
 

@@ -29,7 +29,7 @@ from linkforge_compile.core.models.srdf import (
 )
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator
 from linkforge_compile.core.part import Element
-from linkforge_compile.source.xml_places import ATTRIBUTE, MARKUP
+from linkforge_compile.source.xml_tree import ATTRIBUTE, MARKUP
 from linkforge_compile.syntax import YamlScalar
 
 _PREFIX = "$(prefix)"

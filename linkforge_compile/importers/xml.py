@@ -20,8 +20,7 @@ from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
-from linkforge_compile.source.xml_places import MARKUP, Places
-from linkforge_compile.source.xml_tree import XmlDocument, document_of
+from linkforge_compile.source.xml_tree import MARKUP, Places, XmlDocument, document_of
 
 MOST_ELEMENTS = 250_000
 MOST_INSIDE = 100_000

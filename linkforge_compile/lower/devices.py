@@ -36,7 +36,7 @@ from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.joint import joints_of, position_type_of_node
 from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, BARE, LENGTH, NumberType
 from linkforge_compile.source import SourceRef
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension, is_in_full, number_text
 

@@ -24,8 +24,17 @@ from linkforge_compile.lower.numbers import (
 )
 from linkforge_compile.lower.object_context import ObjectContext
 from linkforge_compile.source.characters import code_point
-from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
-from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS, xacro_facts
+from linkforge_compile.syntax.nodes import (
+    YAML_1_1_BOOLEANS,
+    YamlEntry,
+    YamlFault,
+    YamlList,
+    YamlMap,
+    YamlNode,
+    YamlScalar,
+    is_null,
+    xacro_facts,
+)
 
 T = TypeVar("T")
 Choice = TypeVar("Choice", bound=StrEnum)

@@ -19,8 +19,7 @@ from linkforge_compile.diagnostics.codes.model import (
     WRONG_DIMENSION,
     WRONG_KIND,
 )
-from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.syntax.scalars import scalar_value
+from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
 from linkforge_compile.units import (
     WIDEST_ANGLE,
     Dimension,

@@ -35,7 +35,7 @@ from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.lower.numbers import EXTENT, FRACTION, NumberType
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.source.ref import Located
+from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 
 _FACTOR = NumberType(bound=NOT_ZERO)

@@ -12,7 +12,7 @@ from linkforge_compile.core.part import FreePart
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.model import ABSOLUTE_TOPIC, UNPREFIXED_NAME, UNPREFIXED_TOPICS
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.source.xml_places import ATTRIBUTE, MARKUP
+from linkforge_compile.source.xml_tree import ATTRIBUTE, MARKUP
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
 _NAMED_ELEMENTS = ("visual", "collision", "material")

@@ -9,9 +9,8 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 
-from linkforge_compile.schema.json_types import Json, Schema, branches, mapping, reference
+from linkforge_compile.schema.json_schema import LONG_FORM, Json, Schema, branches, is_list, mapping, reference
 from linkforge_compile.schema.registry import IDENTIFIER, ROOT, definitions, definitions_with_patches
-from linkforge_compile.schema.repetition import LONG_FORM, is_list
 
 
 def bundle() -> Schema:

@@ -1,42 +1,194 @@
-"""Turn an error of jsonschema into diagnostics, with a function for each keyword."""
+"""Report what jsonschema finds wrong in a tree, and return the tree without it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from functools import cache
+from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostic
-from linkforge_compile.diagnostics.codes.schema import (
-    MISSING_NAME,
-    MISSING_VERSION,
-    OTHER_VERSION,
-    UNKNOWN_KEY,
-    UNKNOWN_WORD,
-    WRONG_KIND,
-    WRONG_LENGTH,
-)
+from jsonschema import Draft7Validator
+
+from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics, notes_of, too_many_errors
+from linkforge_compile.diagnostics.codes import schema as codes
 from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, TAB_INDENTATION, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.schema.json_types import Schema, linked_part, mapping
-from linkforge_compile.schema.key_hints import find_like_space, group_unknown_keys
-from linkforge_compile.schema.number_hints import is_row
-from linkforge_compile.schema.shapes import Shape, shape_of, shapes
-from linkforge_compile.schema.value_hints import Path, SchemaMismatch, value_hint, word_hint
-from linkforge_compile.schema.words import (
+from linkforge_compile.schema.hint_rules import is_row, value_hint, word_hint
+from linkforge_compile.schema.json_schema import LinkedSchema, Schema, linked_part, mapping
+from linkforge_compile.schema.misplaced_keys import find_like_space, group_unknown_keys
+from linkforge_compile.schema.registry import HEADER, linked, plain
+from linkforge_compile.schema.shapes import (
+    FREE,
+    Path,
+    SchemaMismatch,
+    Shape,
     expected,
     field,
     find_branch,
     found,
+    is_text,
+    node_at,
+    shape_of,
+    shapes,
     shortened,
     words_of,
 )
+from linkforge_compile.source import SourceRef
 from linkforge_compile.source.characters import code_point
+from linkforge_compile.source.provenance import aliases_of, join_links
 from linkforge_compile.syntax.entries import STUCK
-from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
-from linkforge_compile.syntax.scalars import xacro_facts
+from linkforge_compile.syntax.nodes import (
+    YamlEntry,
+    YamlFault,
+    YamlList,
+    YamlMap,
+    YamlNode,
+    YamlScalar,
+    fault_of,
+    is_null,
+    xacro_facts,
+)
 
 if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError
+
+
+_LEVEL_HINT = "; so are all entries here: is a line with a name missing above, or the indentation wrong?"
+
+
+def report_mismatches(tree: YamlMap, sink: Diagnostics, *, is_included: bool) -> YamlMap:
+    """Report each node of a file that does not match the schema; return the file without them."""
+    absent = {name for name in HEADER if tree.get(name) is None}
+    data = {entry.name: plain(entry.value) for entry in tree if entry.name not in absent}
+    errors = (error for error in _validator(is_included).iter_errors(data) if not _is_under_reserved_name(error))
+    # A hostile file has a hundred thousand errors; explaining more than are shown would take long.
+    return _report(tree, list(islice(_findings(errors, tree), MAX_KEPT + 1)), sink)
+
+
+def report_computed_mismatches(
+    node: YamlNode, written: YamlNode, key: str, schema: LinkedSchema, sink: Diagnostics
+) -> YamlNode:
+    """Report what is wrong in a map or list that an expression made under a key; return it without that.
+
+    `written` is the node with its quantities as text, as the schema expects them.
+    """
+    name = YamlScalar(key, key, node.span)
+    tree = YamlMap({key: YamlEntry(name, node)}, node.span)
+    shown = YamlMap({key: YamlEntry(name, written)}, node.span)
+    whole: Schema = {"type": "object", "properties": {key: schema}}
+    errors = Draft7Validator(whole).iter_errors({key: plain(written)})
+    findings = [finding for finding in _findings(errors, shown) if len(finding.path) > 1]
+    return _report(tree, findings, sink).entries[key].value
+
+
+@cache
+def _validator(is_included: bool) -> Draft7Validator:
+    if is_included:
+        return Draft7Validator(linked())
+    root = LinkedSchema(linked())
+    root["required"] = [*HEADER]
+    return Draft7Validator(root)
+
+
+def _is_under_reserved_name(error: ValidationError) -> bool:
+    """Whether an error is in an entry that is named `for`; expanding reports that name, and nothing else in it."""
+    shape = shapes()
+    for step in error.absolute_path:
+        if isinstance(step, int):
+            shape = shape.item or FREE
+        elif shape.reserves(step):
+            return True
+        else:
+            shape = shape.under(step)
+    return False
+
+
+def _findings(errors: Iterable[ValidationError], tree: YamlMap) -> Iterator[Finding]:
+    for error in errors:
+        yield from _explain(error, tree)
+        _break_cycles(error)
+
+
+def _break_cycles(error: ValidationError) -> None:
+    """Detach an error from those in its context; the garbage collector is paused and would not free them."""
+    for inner in error.context or ():
+        inner.parent = None
+        _break_cycles(inner)
+
+
+def _report(tree: YamlMap, findings: Sequence[Finding], sink: Diagnostics) -> YamlMap:
+    """Report the findings in the order of the file; return the tree without their nodes."""
+    if not findings:
+        return tree
+    findings = _merge_missing_levels(findings, tree)
+    found = [(one.diagnostic, tuple(join_links(aliases_of(SourceRef(tree), *one.path)) or ())) for one in findings]
+    # If several aliases of one anchor do not match, the sink keeps the first; jsonschema's order is that of a set.
+    for diagnostic, aliases in sorted(found, key=lambda one: (one[0].order, [alias.span.start for alias in one[1]])):
+        notes = (*diagnostic.notes, *notes_of(aliases))
+        sink.report(replace(diagnostic, notes=notes) if aliases else diagnostic)
+    if sum(1 + len(finding.also) for finding in findings) > MAX_KEPT:
+        raise too_many_errors(findings[-1].diagnostic.span)
+    return _prune(tree, findings)
+
+
+def _prune(tree: YamlMap, findings: Iterable[Finding]) -> YamlMap:
+    """Replace the nodes of the findings by faults."""
+    faulty = {path for finding in findings for path in (finding.path, *finding.also)}
+    touched = {path[:length] for path in faulty for length in range(len(path) + 1)}
+
+    def prune(node: YamlNode, path: Path) -> YamlNode:
+        if path in faulty:
+            return fault_of(node)
+        if path not in touched:
+            return node
+        if isinstance(node, YamlList):
+            return YamlList(tuple(prune(item, (*path, i)) for i, item in enumerate(node)), node.span)
+        return prune_map(node, path) if isinstance(node, YamlMap) else node
+
+    def prune_map(node: YamlMap, path: Path) -> YamlMap:
+        entries = {entry.name: YamlEntry(entry.key, prune(entry.value, (*path, entry.name))) for entry in node}
+        return YamlMap(entries, node.span)
+
+    if () in faulty:
+        faulty |= {(entry.name,) for entry in tree if entry.name not in HEADER}
+        touched |= faulty
+    return prune_map(tree, ())
+
+
+# A missing level of names: every entry of a map is then wrong in the same way, and reported once
+
+
+def _merge_missing_levels(findings: Sequence[Finding], tree: YamlMap) -> list[Finding]:
+    """Merge the findings on all entries of a map that are of the same wrong kind, and those on all maps of such."""
+    groups: dict[tuple[Path, int], list[Finding]] = defaultdict(list)
+    for finding in sorted(findings, key=lambda one: one.diagnostic.order):
+        if finding.wrong_kind:
+            groups[finding.path[:-1], finding.wrong_kind].append(finding)
+    complete = {key: group for key, group in groups.items() if _is_every_entry(tree, key[0], len(group))}
+    above: dict[tuple[Path, int], list[Finding]] = defaultdict(list)
+    for (path, kind), group in complete.items():
+        above[path[:-1], kind].append(_merge(group))
+    merged: list[Finding] = []
+    for (path, _), group in above.items():
+        merged += [_merge(group)] if _is_every_entry(tree, path, len(group)) else group
+    replaced = {id(finding) for group in complete.values() for finding in group}
+    return [*(finding for finding in findings if id(finding) not in replaced), *merged]
+
+
+def _is_every_entry(tree: YamlMap, path: Path, count: int) -> bool:
+    """Whether a map has this many entries with a value, and more than one."""
+    node = node_at(tree, path)
+    entries = [entry for entry in node if not is_null(entry.value)] if isinstance(node, YamlMap) else []
+    return count > 1 and len(entries) == count
+
+
+def _merge(group: Sequence[Finding]) -> Finding:
+    first, *others = group
+    message = first.diagnostic.message.removesuffix(_LEVEL_HINT) + _LEVEL_HINT
+    also = (*first.also, *(path for other in others for path in (other.path, *other.also)))
+    return Finding(replace(first.diagnostic, message=message), first.path, also, first.wrong_kind)
 
 
 _MOST_COMPARED = 100
@@ -56,21 +208,22 @@ class Finding(NamedTuple):
     wrong_kind: int = 0
 
 
-def explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
+def _explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
     """Yield the findings of one error; none for an empty field and for what the reader has reported."""
     path = tuple(error.absolute_path)
-    node = _node_at(tree, path)
+    node = node_at(tree, path)
+    assert node is not None, "jsonschema reports only what is in the tree"
     if isinstance(node, YamlFault) or (is_null(node) and not isinstance(path[-1], int)):
         return
     if nameless := _object_without_name(tree, path):
         yield nameless
         return
     mismatch = SchemaMismatch(node, path, mapping(error.schema), tree)
-    branch = None if error.validator != "anyOf" or _is_text(node) else find_branch(mismatch.schema, node)
+    branch = None if error.validator != "anyOf" or is_text(node) else find_branch(mismatch.schema, node)
     if branch is not None:
         for inner in error.context or ():
             if inner.schema_path[0] == branch:
-                yield from explain(inner, tree)
+                yield from _explain(inner, tree)
     elif isinstance(node, YamlScalar) and _lacks_space(node, mismatch.schema):
         yield Finding(SPACE_AFTER_COLON.at(node.span, text=node.text), path)
     elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
@@ -93,7 +246,7 @@ def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
     for entries, hint, near in group_unknown_keys(node, schema) if isinstance(node, YamlMap) else ():
         first, *others = entries
         hinted = f"; {hint}" if hint else ""
-        fault = UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
+        fault = codes.UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
         if space_like := find_like_space(first):
             fault = TAB_INDENTATION.at(space_like, found=f"{code_point(space_like.text or '')}, which looks like one")
         yield Finding(fault, (*path, first.name), tuple((*path, other.name) for other in others))
@@ -114,12 +267,12 @@ def _missing_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
             entry.value.child(name) or nearest(entry.name, known) == name for entry in unknown[:_MOST_COMPARED]
         )
         if node.get(name) is None and not is_reported:
-            code = MISSING_VERSION if name == "linkforge" else MISSING_NAME
+            code = codes.MISSING_VERSION if name == "linkforge" else codes.MISSING_NAME
             yield Finding(code.at(first), (*path, name))
 
 
 def _other_version(mismatch: SchemaMismatch) -> Iterator[Finding]:
-    yield Finding(OTHER_VERSION.at(mismatch.node.span, found=found(mismatch.node)), mismatch.path)
+    yield Finding(codes.OTHER_VERSION.at(mismatch.node.span, found=found(mismatch.node)), mismatch.path)
 
 
 def _wrong_word(mismatch: SchemaMismatch) -> Iterator[Finding]:
@@ -129,18 +282,18 @@ def _wrong_word(mismatch: SchemaMismatch) -> Iterator[Finding]:
         words = words_of(schema)
         hint = word_hint(mismatch, words)
         facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint}
-        yield Finding(UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
+        yield Finding(codes.UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
 
 
 def _wrong_kind(mismatch: SchemaMismatch) -> Iterator[Finding]:
     node, path, schema, _ = mismatch
     actual = f"{found(node)}{value_hint(mismatch)}"
-    fault = WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=actual)
+    fault = codes.WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=actual)
     yield Finding(fault, path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0)
 
 
 def _no_branch(mismatch: SchemaMismatch) -> Iterator[Finding]:
-    word = _is_text(mismatch.node) and not is_row(mismatch.node) and words_of(mismatch.schema)
+    word = is_text(mismatch.node) and not is_row(mismatch.node) and words_of(mismatch.schema)
     yield from (_wrong_word if word else _wrong_kind)(mismatch)
 
 
@@ -149,7 +302,8 @@ def _wrong_length(mismatch: SchemaMismatch) -> Iterator[Finding]:
     # A row of numbers without commas is reported at its item.
     if isinstance(node, YamlList) and not any(map(is_row, node)):
         actual = f"{len(node)}{value_hint(mismatch)}"
-        yield Finding(WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=actual), path)
+        fault = codes.WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=actual)
+        yield Finding(fault, path)
 
 
 def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:
@@ -163,8 +317,8 @@ def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:
             known = next(one for one in node if one.name in entry.keys)
             name = "NAME" if first is known else first.name
             actual = f"the keys of a single one; write '{field}: {{{name}: {{{known.name}: …}}}}'"
-            where = known.key.span
-            return Finding(WRONG_KIND.at(where, field=f"'{field}'", expected=shape.title, found=actual), path[:length])
+            fault = codes.WRONG_KIND.at(known.key.span, field=f"'{field}'", expected=shape.title, found=actual)
+            return Finding(fault, path[:length])
         inner = node.child(key)
         if not isinstance(inner, YamlMap):
             return None
@@ -191,16 +345,3 @@ _EXPLAIN: dict[str, Callable[[SchemaMismatch], Iterator[Finding]]] = {
     "minItems": _wrong_length,
     "maxItems": _wrong_length,
 }
-
-
-def _node_at(tree: YamlMap, path: Path) -> YamlNode:
-    node: YamlNode | None = tree
-    for key in path:
-        node = node.child(key) if node else None
-    if node is None:
-        raise LookupError(f"no node at {path}")
-    return node
-
-
-def _is_text(node: YamlNode) -> bool:
-    return isinstance(node, YamlScalar) and isinstance(node.value, str)

@@ -1,6 +1,6 @@
 """The table of hints: keys, words and colors that users write out of habit, and what to write instead.
 
-A new hint is a row here. Keys without a row get a did-you-mean or the list of keys, from `key_hints`.
+A new hint is a row here. Keys without a row get a did-you-mean or the list of keys, from `misplaced_keys`.
 """
 
 from __future__ import annotations
@@ -140,3 +140,24 @@ def color_as_list(text: str) -> str | None:
     if digits is None:
         return _COLORS.get(text.lower())
     return f"[{', '.join(f'{part / 255:.3g}' for part in bytes.fromhex(digits[1]))}]"
+
+
+# Sections, by which misplaced ones are recognized
+
+MAY_BE_EMPTY = {"links"}
+"""Sections whose entries may be empty: a link may, and have any name."""
+
+OF_ANY_VALUE = {"metadata", "variables"}
+"""Sections whose entries may have any value, or none."""
+
+ESSENTIAL_KEYS = {
+    "joints": "child",
+    "frames": "parent",
+    "modules": "use",
+    "sensors": "link",
+    "transmissions": "joints",
+    "ros2_control blocks": "hardware_plugin",
+    "virtual joints": "child_link",
+    "end effectors": "parent_link",
+}
+"""The key that every entry of a section has."""

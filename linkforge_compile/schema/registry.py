@@ -1,13 +1,26 @@
-"""Load the files of schemas/ and join them into one schema, each concept one of its definitions."""
+"""The schemas of all files as one linked schema, and its fast validator."""
 
 from __future__ import annotations
 
 import json
 from functools import cache
+from typing import TYPE_CHECKING
 
 from linkforge_compile.resources import linked_schema_file, schemas_folder
-from linkforge_compile.schema.json_types import Json, LinkedSchema, Schema, mapping, reference
-from linkforge_compile.schema.repetition import add_repetition
+from linkforge_compile.schema.json_schema import (
+    Json,
+    LinkedSchema,
+    Schema,
+    add_patches,
+    add_repetition,
+    mapping,
+    reference,
+)
+from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
+
+if TYPE_CHECKING:
+    from jsonschema_rs import Draft7Validator, Registry
+
 
 IDENTIFIER = "https://linkforge.dev/schema/v1/robot.schema.json"
 """The `$id` of the schema of version 1 of the language; it is never fetched."""
@@ -45,9 +58,6 @@ def definitions() -> dict[str, Schema]:
 @cache
 def definitions_with_patches() -> dict[str, Schema]:
     """Return all definitions and their patch forms for `override` and `defaults`, such as `link_patch`."""
-    # An installed package reads the whole schema from a file and needs no patches.
-    from linkforge_compile.schema.patches import add_patches
-
     return add_patches(definitions(), ROOT)
 
 
@@ -105,12 +115,58 @@ def _with_local_references(node: Json) -> Json:
         return [_with_local_references(item) for item in node]
     if not isinstance(node, dict):
         return node
-    return {
-        key: _with_local_references(value) if key != "$ref" else _local_reference(str(value))
-        for key, value in node.items()
-    }
+    local = {key: _with_local_references(value) for key, value in node.items()}
+    if "$ref" in node:
+        file, _, pointer = str(node["$ref"]).partition("#/definitions/")
+        local["$ref"] = f"#/definitions/{pointer or file.removesuffix(_SUFFIX)}"
+    return local
 
 
-def _local_reference(reference: str) -> str:
-    file, _, pointer = reference.partition("#/definitions/")
-    return f"#/definitions/{pointer or file.removesuffix(_SUFFIX)}"
+HEADER = ("linkforge", "name")
+"""The keys that every file needs; an included file needs the first only."""
+
+FAULTY = object()
+"""Takes the place of a YamlFault in plain data; it has no JSON type, so every schema with a type rejects it."""
+
+
+def accepts(schema: LinkedSchema, node: YamlNode) -> bool:
+    """Whether a node is valid by a part of the linked schema; jsonschema then finds no error in it either.
+
+    False does not imply that an error is reported: faults and fields without a value are skipped, and only
+    jsonschema accepts infinity as a number.
+    """
+    try:
+        return _validator(schema).is_valid(plain(node))
+    except ValueError:
+        return False  # it contains FAULTY
+
+
+def plain(node: YamlNode) -> object:
+    """Return a node as dicts, lists and scalars."""
+    if isinstance(node, YamlScalar):
+        return node.value
+    if isinstance(node, YamlMap):
+        return {name: plain(entry.value) for name, entry in node.entries.items()}
+    if isinstance(node, YamlList):
+        return [plain(item) for item in node.items]
+    return FAULTY
+
+
+@cache
+def _validator(schema: LinkedSchema) -> Draft7Validator:
+    import jsonschema_rs
+
+    return jsonschema_rs.Draft7Validator(
+        schema.source,
+        registry=_registry(),
+        offline=True,
+        # The regex engine that runs in linear time.
+        pattern_options=jsonschema_rs.RegexOptions(),
+    )
+
+
+@cache
+def _registry() -> Registry:
+    import jsonschema_rs
+
+    return jsonschema_rs.Registry([(IDENTIFIER, whole_schema())], draft=jsonschema_rs.Draft7)

@@ -1,16 +1,33 @@
-"""Shapes of nodes by the schema: objects with known keys, maps keyed by names, lists and scalars."""
+"""Shapes of nodes by the schema, and how messages describe schemas and nodes."""
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from functools import cache
-from typing import Final
+from typing import Final, NamedTuple, TypeAlias
 
-from linkforge_compile.schema.json_types import LinkedSchema, Schema, branches, linked_part, mapping
-from linkforge_compile.schema.patches import POSITION
+from linkforge_compile.schema.json_schema import (
+    EXPRESSION,
+    LONG_FORM,
+    POSITION,
+    RAW,
+    WORDS,
+    XML,
+    LinkedSchema,
+    Schema,
+    branches,
+    has_names,
+    is_list,
+    is_plain,
+    is_short_form,
+    linked_part,
+    mapping,
+)
 from linkforge_compile.schema.registry import linked
-from linkforge_compile.schema.repetition import LONG_FORM, RAW, WORDS, XML, has_names, is_list, is_plain, is_short_form
+from linkforge_compile.syntax.entries import kind_of
+from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
 
 
 class Shape:
@@ -117,9 +134,6 @@ class Shape:
 _UNIT = re.compile(r"number \[(\S+)\]")
 """The unit of a number in a schema's message, if there is only one: "[kg]", not "[rad or m]"."""
 
-_EXPRESSION = r"\$\("
-"""The pattern of a text that must be an expression."""
-
 
 def _is_free_part(schema: Schema) -> bool:
     values = schema.get("additionalProperties")
@@ -130,7 +144,7 @@ def _read_as(schema: Schema) -> str | None:
     """Return the first kind of scalar that a schema names; None if it allows only expressions."""
     kinds = schema.get("type")
     first = kinds[0] if isinstance(kinds, list) else kinds
-    is_expression = first == "string" and schema.get("pattern") == _EXPRESSION
+    is_expression = first == "string" and schema.get("pattern") == EXPRESSION
     return None if is_expression or first in ("object", "array") or first is None else str(first)
 
 
@@ -148,3 +162,171 @@ FREE = Shape(LinkedSchema({}))
 def shapes() -> Shape:
     """Return the shape of a whole file."""
     return Shape(linked())
+
+
+Path: TypeAlias = tuple[str | int, ...]
+
+
+class SchemaMismatch(NamedTuple):
+    """A node, the path to it in its file, and the schema that it does not match."""
+
+    node: YamlNode
+    path: Path
+    schema: Schema
+    file: YamlMap
+
+    @property
+    def field(self) -> str | int:
+        """The key or index of the node; "" for the whole file."""
+        return self.path[-1] if self.path else ""
+
+    @property
+    def shape(self) -> Shape:
+        """The shape that the schema describes."""
+        return shape_of(linked_part(self.schema))
+
+    @property
+    def titles(self) -> set[str]:
+        """The titles of the schema's branches."""
+        return {str(branch.get("title")) for branch in branches(self.schema)}
+
+    def accepts_kind(self, kind: str) -> bool:
+        """Whether the schema accepts nodes of a JSON type."""
+        return any(kind in str(branch.get("type")) for branch in branches(self.schema))
+
+
+COMMON_KEYS = frozenset({*WORDS, *RAW})
+"""Keys that most objects have, so that messages do not list them."""
+
+_SHOWN_KEYS = 4
+_SHOWN_TEXT = 40
+_SHOWN_ITEMS = 6
+
+_SCALAR_KINDS = {type(None): "null", str: "string", bool: "boolean", int: "number", float: "number"}
+
+
+def alternatives(words: Sequence[str], last: str = "or") -> str:
+    """Return "a", "a or b", "a, b or c"."""
+    return f"{', '.join(words[:-1])} {last} {words[-1]}" if len(words) > 1 else words[0]
+
+
+def find_branch(schema: Schema, node: YamlNode) -> int | None:
+    """Return the index of the first branch of a union that accepts the kind of a node, None if none does.
+
+    Not for text, which may match several branches: words, quantities and expressions are all text.
+    """
+    return next((position for position, branch in enumerate(branches(schema)) if _accepts_kind_of(branch, node)), None)
+
+
+def _accepts_kind_of(schema: Schema, node: YamlNode) -> bool:
+    """Whether a schema that is no union accepts the kind of a node, whatever the node contains."""
+    if schema.get("title") == LONG_FORM and isinstance(node, YamlMap) and not node.entries.keys() & set(WORDS):
+        return False  # a map without these keys is not intended as the long form
+    kinds = schema.get("type")
+    return kinds is None or _kind(node) in (kinds if isinstance(kinds, list) else [kinds])
+
+
+def _kind(node: YamlNode) -> str | None:
+    """Return the JSON type of a node, None for a fault."""
+    match node:
+        case YamlMap():
+            return "object"
+        case YamlList():
+            return "array"
+        case YamlScalar(value=value):
+            return _SCALAR_KINDS.get(type(value))
+        case _:
+            return None
+
+
+def expected(schema: Schema) -> str:
+    """Return what the schema accepts: "a number [kg] or a quantity such as '3 kg'", "'x', 'y' or three numbers".
+
+    Expressions and repetition are not mentioned, because any value may be one.
+    """
+    if "anyOf" in schema:
+        return alternatives([word for branch in branches(schema) for word in _nouns(branch)])
+    sentence = schema.get("patternErrorMessage")
+    return str(sentence).removeprefix("expected ") if sentence else alternatives(_nouns(schema))
+
+
+def _nouns(schema: Schema) -> list[str]:
+    if "enum" in schema:
+        return [f"'{word}'" for word in words_of(schema)]
+    if schema.get("title") in {"an expression", LONG_FORM}:
+        return []
+    keys = [key for key in mapping(schema.get("properties", {})) if key not in COMMON_KEYS]
+    return [f"a map ({', '.join(keys)})"] if 0 < len(keys) <= _SHOWN_KEYS else [str(schema["title"])]
+
+
+def words_of(schema: Schema) -> list[str]:
+    """Return the words of the enums of a schema and its branches, without the null of patches."""
+    listed = [branch.get("enum") for branch in branches(schema)]
+    return [str(word) for words in listed if isinstance(words, list) for word in words if word is not None]
+
+
+def found(node: YamlNode) -> str:
+    """Return what a node is: "a map", "a list", "3", "'three'", "the text '3'"."""
+    match node:
+        case YamlFault():
+            raise TypeError("a fault has been reported already")
+        case YamlScalar(text=text, value=str()):
+            return f"the text '{text}'" if is_number(text) else f"'{shortened(text)}'"
+        case YamlScalar(text=text, value=value) if value is not None:
+            return text
+    return kind_of(node)
+
+
+def shortened(text: str) -> str:
+    """Return the first line of a text, shortened to fit into a message."""
+    line = text.partition("\n")[0]
+    return line if line == text and len(line) <= _SHOWN_TEXT else f"{line[:_SHOWN_TEXT].rstrip()}…"
+
+
+def shown(node: YamlNode) -> str:
+    """Return a value as it may be written on one line, "…" if it is too long for a message."""
+    match node:
+        case YamlScalar(text=text):
+            written = text
+        case YamlList(items=items) if len(items) <= _SHOWN_ITEMS:
+            written = f"[{', '.join(map(shown, items))}]"
+        case _:
+            return "…"
+    return "…" if len(written) > _SHOWN_TEXT or "\n" in written else written
+
+
+def field(path: Sequence[str | int]) -> str:
+    """Return the name of the field at a path: "'xyz'", "item 2 of 'xyz'"."""
+    name = next(key for key in reversed(path) if isinstance(key, str))
+    return f"item {path[-1] + 1} of '{name}'" if isinstance(path[-1], int) else f"'{name}'"
+
+
+def is_number(text: str) -> bool:
+    """Whether a text without quotes is a finite number."""
+    value = scalar_value(text)
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def split_path(key: str) -> Sequence[str]:
+    """Return the keys of a path written as one key, `limits/effort`; the key itself if it is none."""
+    return re.split(r"[/.]", key)
+
+
+def nested(keys: Sequence[str], value: str) -> str:
+    """Return a value under a path of keys on one line: `limits: {effort: 20}`."""
+    first, *steps = keys
+    inside = "".join(f"{{{step}: " for step in steps)
+    return f"{first}: {inside}{value}{'}' * len(steps)}"
+
+
+def is_text(node: YamlNode) -> bool:
+    """Whether a node is a scalar whose value is text."""
+    return isinstance(node, YamlScalar) and isinstance(node.value, str)
+
+
+def node_at(tree: YamlNode, path: Path) -> YamlNode | None:
+    """Return the node at a path, None if there is none."""
+    node: YamlNode | None = tree
+    for key in path:
+        node = node.child(key) if node else None
+    return node

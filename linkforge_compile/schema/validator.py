@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.schema.gate import HEADER, accepts
-from linkforge_compile.schema.registry import linked
+from linkforge_compile.schema.registry import HEADER, accepts, linked
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.units import Quantity
 
@@ -24,8 +23,8 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     if _is_valid(tree, is_included) and not _may_lack_section_line(tree):
         return tree
     # Imported here because importing jsonschema costs 90 ms.
-    from linkforge_compile.schema.misplaced_sections import restore_sections
-    from linkforge_compile.schema.report import report_mismatches
+    from linkforge_compile.schema.explain import report_mismatches
+    from linkforge_compile.schema.misplaced_keys import restore_sections
 
     return report_mismatches(restore_sections(tree, sink), sink, is_included=is_included)
 
@@ -38,7 +37,7 @@ def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics)
     written = _with_units(node)
     if accepts(shape.schema, written):
         return node
-    from linkforge_compile.schema.report import report_computed_mismatches
+    from linkforge_compile.schema.explain import report_computed_mismatches
 
     return report_computed_mismatches(node, written, key, shape.schema, sink)
 

@@ -1,11 +1,14 @@
 """Files that were read, places in them, and references from later values back to these places."""
 
-from linkforge_compile.source.ref import Key, Located, Sourced, SourceRef
 from linkforge_compile.source.span import (
     Change,
+    Key,
+    Located,
     Origin,
     Position,
+    Sourced,
     SourceFile,
+    SourceRef,
     Span,
     Trace,
     TracedSpan,

@@ -1,7 +1,8 @@
-"""Characters that specs may not hold, and escapes for those that messages cannot show."""
+"""Characters and encodings: what files may hold, and escapes for what messages cannot show."""
 
 from __future__ import annotations
 
+import codecs
 import re
 
 # Characters that YAML or XML refuses or that they count differently: U+0085, U+2028 and U+2029 are line breaks to YAML
@@ -26,3 +27,74 @@ def on_one_line(text: str) -> str:
     if text.isprintable():
         return text
     return "".join(each if each.isprintable() else each.encode("unicode_escape").decode() for each in text)
+
+
+_MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be"))
+_DECLARED = re.compile(rb"""<\?xml\s(?:(?!\?>).)*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""", re.DOTALL)
+_SEARCHED = 4096
+"""How many bytes are searched for a declaration: some generators write a comment before it."""
+
+_BEGINS = re.compile(rb"(?:\xef\xbb\xbf|\xff\xfe|\xfe\xff)?[\s\x00]*<\x00?[?!A-Za-z_]")
+"""Matches XML after a byte order mark and blanks, but not the merge key of YAML, which begins with `<` too."""
+
+# Names as Python has them. Not every codec: some are no encodings of text, and some decompress.
+_KNOWN = frozenset(
+    (
+        *("utf-8", "utf-16", "utf-16-le", "utf-16-be", "ascii", "iso8859-1", "iso8859-2", "iso8859-15"),
+        *("cp1250", "cp1251", "cp1252", "koi8-r", "gb2312", "gbk", "gb18030", "big5", "shift_jis", "euc_jp", "euc_kr"),
+    )
+)
+
+
+_TWO_BYTES = ("utf-16", "utf-16-le", "utf-16-be")
+_WAY_OUT = (
+    "save the file as UTF-8, or declare the encoding that it has, as in <?xml version='1.0' encoding='iso-8859-1'?>"
+)
+
+
+class EncodingError(Exception):
+    """The bytes are not in the encoding that they declare; `undecoded` is the error at the first wrong byte."""
+
+    def __init__(self, reason: str, undecoded: UnicodeDecodeError | None = None) -> None:
+        self.undecoded = undecoded
+        super().__init__(reason)
+
+
+def begins_xml(data: bytes | str) -> bool:
+    """Whether a file begins as XML, whatever its name."""
+    if isinstance(data, str):
+        data = data[:_SEARCHED].encode("utf-8", errors="replace")
+    return _BEGINS.match(data) is not None
+
+
+def xml_text(data: bytes) -> str:
+    """Return the text of an XML file without byte order mark; UTF-8 if the file declares no encoding.
+
+    Raises:
+        EncodingError: if the bytes are not in the encoding.
+
+    """
+    for mark, encoding in _MARKS:
+        if data.startswith(mark):
+            return _decoded(data.removeprefix(mark), encoding)
+    declared = _DECLARED.search(data[:_SEARCHED])
+    encoding = declared[1].decode("ascii") if declared else "utf-8"
+    if encoding.lower() in _TWO_BYTES:
+        # Each letter of the declaration was one byte.
+        raise EncodingError(f"it declares the encoding {encoding}, which it is not in; write encoding='utf-8'")
+    return _decoded(data, encoding)
+
+
+def _decoded(data: bytes, encoding: str) -> str:
+    try:
+        known = codecs.lookup(encoding).name
+    except LookupError:
+        known = ""
+    if known not in _KNOWN:
+        raise EncodingError(f"there is no encoding '{encoding}' of text here")
+    try:
+        return data.decode(known)
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        reason = f"line {line} has the byte {data[error.start]:#04x}, which is not {encoding}; {_WAY_OUT}"
+        raise EncodingError(reason, error) from error

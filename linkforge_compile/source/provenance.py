@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.source.ref import Key, Located, SourceRef
-from linkforge_compile.source.span import Change, Span
+from linkforge_compile.source.span import Change, Key, Located, SourceRef, Span
 
 
 class Kind(Enum):
@@ -69,7 +68,7 @@ WORDS = {
 
 @dataclass(frozen=True)
 class Provenance:
-    """One link of a chain, which iterates from the inside out; `name` is what its kind says."""
+    """One link of a chain, which iterates from the inside out; `name` is described at its kind."""
 
     kind: Kind
     span: Span
@@ -103,7 +102,7 @@ class Provenance:
 
 
 class Location(Enum):
-    """Where a diagnostic points if an expression takes the value from elsewhere."""
+    """Where a diagnostic points if an expression gets the value from elsewhere."""
 
     USE = auto()
     """At the expression."""
@@ -167,7 +166,7 @@ def overrides_of(changes: Iterable[Change], place: Span) -> tuple[Link, ...]:
 
 
 def aliases_of(source: SourceRef, *path: str | int) -> tuple[Link, ...]:
-    """Return a link for each alias and `<<` that inserts what stands on a path."""
+    """Return a link for each alias and `<<` that inserts what is on a path."""
     return tuple((Kind.ALIAS, place, "") for place in aliases_on(_steps(source, path)))
 
 

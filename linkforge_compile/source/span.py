@@ -1,4 +1,7 @@
-"""Text that was read, and stretches of it; lines and columns count from 1, columns in characters."""
+"""Text that was read, stretches of it, and references from a robot's values to where they were written.
+
+Lines and columns count from 1, columns in characters.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +12,7 @@ from itertools import accumulate
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
-from linkforge_compile.source.characters import on_one_line
-from linkforge_compile.source.encoding import begins_xml
+from linkforge_compile.source.characters import begins_xml, on_one_line
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,7 +151,7 @@ class Span(NamedTuple):
 
     @property
     def origin(self) -> Origin | None:
-        """Where an expression here takes its value from; None for a value that is written or made here."""
+        """Where an expression here gets its value from; None for a value that is written or made here."""
         return None
 
     @property
@@ -195,7 +197,7 @@ class Trace(Protocol):
 class TracedSpan(Span):
     """The place of a value that an expression computes, or in which overrides changed something.
 
-    `trace` follows the value of the expression, and `path` leads from its whole value to the part that stands here.
+    `trace` follows the value of the expression, and `path` leads from its whole value to the part that is here.
     """
 
     trace: Trace | None
@@ -253,3 +255,68 @@ def place_of_byte(error: UnicodeDecodeError, name: str) -> Span:
     lines = before.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     line, column = len(lines), len(lines[-1]) + 1
     return Span(SourceFile(name, text), line, column, line, column + 1)
+
+
+class Key(str):
+    """The last step of a path that leads to a key itself, not to the value under it."""
+
+    __slots__ = ()
+
+
+class Located(Protocol):
+    """A node of a tree with places, of YAML or XML; all that a reference needs."""
+
+    @property
+    def span(self) -> Span: ...
+
+    def child(self, key: str | int) -> Located | None:
+        """Return the node under a key or position, None if there is none."""
+        ...
+
+    def key_span(self, key: str) -> Span | None:
+        """Return the place of a key, None if there is none."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class SourceRef:
+    """Where an object was written.
+
+    `node` is the object's own node, `key` the node of its name in a map of names. `trail` lists the `use` of its file,
+    then the use of the file that wrote that, and so on outwards.
+    """
+
+    node: Located
+    key: Located | None = None
+    trail: tuple[Span, ...] = ()
+
+    @property
+    def span(self) -> Span:
+        """The name if the object has one, else the whole node."""
+        return self.node.span if self.key is None else self.key.span
+
+    def at(self, *path: str | int) -> Span:
+        """Return the span of the deepest node that exists on the path; this object's own if none does."""
+        node = self.node
+        span = self.span
+        for key in path:
+            if isinstance(key, Key):
+                return node.key_span(key) or span
+            inner = node.child(key)
+            if inner is None:
+                break
+            node, span = inner, inner.span
+        return span
+
+    def __deepcopy__(self, memo: object) -> SourceRef:
+        return self
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sourced:
+    """A frozen value with the place where it was written, which is neither compared nor hashed nor shown.
+
+    The field is not called `origin`: half of the IR has an `origin` that is a pose.
+    """
+
+    source: SourceRef | None = field(default=None, compare=False, repr=False)

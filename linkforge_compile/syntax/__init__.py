@@ -9,11 +9,13 @@ from linkforge_compile.syntax.nodes import (
     YamlMap,
     YamlNode,
     YamlScalar,
+    has_expression,
     is_null,
     leaves_in,
+    scalar_value,
+    word_value,
 )
 from linkforge_compile.syntax.reader import read, read_data
-from linkforge_compile.syntax.scalars import has_expression, scalar_value, word_value
 
 __all__ = [
     "ScalarValue",

@@ -14,8 +14,8 @@ from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.source import Span
 from linkforge_compile.source.characters import LIKE_SPACES, code_point
-from linkforge_compile.syntax.marks import Marks
-from linkforge_compile.syntax.scalars import IN_QUOTES, XACRO_EXPRESSION, is_cut_expression, xacro_facts
+from linkforge_compile.syntax.nodes import IN_QUOTES, XACRO_EXPRESSION, is_cut_expression, xacro_facts
+from linkforge_compile.syntax.parser import Marks
 
 _LINE = re.compile(r"[^\r\n]+")
 _MARK_OF_COMMENT = re.compile(r"(?<!\S)#")
@@ -276,10 +276,6 @@ def _find_comment_with(closing: str, failure: _Failure) -> Span | None:
     return None
 
 
-def _explain_unclosed_quote(failure: _Failure) -> Diagnostic:
-    return codes.UNCLOSED_QUOTE.at(failure.marks.part(failure.began, 1))
-
-
 def _explain_after_quote(failure: _Failure, quoted: Span) -> Diagnostic:
     """Report a missing closing quote, whose text ends at the next quote lines below, or text after a closing quote."""
     opening = Span(quoted.file, quoted.line, quoted.column, quoted.line, quoted.column + 1)
@@ -334,7 +330,7 @@ _EXPLANATIONS: tuple[tuple[str, Callable[[_Failure], Diagnostic]], ...] = (
     (r"sequence entries are not allowed", lambda failure: codes.LIST_ON_KEY_LINE.at(failure.here)),
     (r"expected key|expected '-' indicator|expected <block end>", _explain_line),
     (r"expected ',' or", _explain_bracket),
-    (r"unexpected (end of stream|document)", _explain_unclosed_quote),
+    (r"unexpected (end of stream|document)", lambda each: codes.UNCLOSED_QUOTE.at(each.marks.part(each.began, 1))),
     (r"URI|UTF-8 octet", _explain_tag),
     (r"escape|hexdecimal|hexadecimal", _explain_escape),
     (r"node content", _explain_missing_value),

@@ -24,7 +24,6 @@ from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.syntax.entries import STUCK, kind_of, make_entries
-from linkforge_compile.syntax.marks import Marks
 from linkforge_compile.syntax.nodes import (
     MAX_DEPTH,
     ScalarValue,
@@ -34,19 +33,14 @@ from linkforge_compile.syntax.nodes import (
     YamlMap,
     YamlNode,
     YamlScalar,
+    is_cut_expression,
+    is_overflow,
+    scalar_value,
 )
-from linkforge_compile.syntax.scalars import is_cut_expression, is_overflow, scalar_value
+from linkforge_compile.syntax.parser import MAX_READ_TWICE, PARSER, Marks, Parser
 
 _cached_value = lru_cache(maxsize=4096)(scalar_value)
 """A robot repeats a few words and numbers."""
-
-MAX_READ_TWICE = 250_000
-"""The largest file, in characters, that PyYAML's slow parser reads after libyaml has failed."""
-
-Parser: TypeAlias = type["yaml.BaseLoader | yaml.CBaseLoader"]
-
-PARSER: Parser = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
-"""libyaml's parser; PyYAML's own, which gives the same events, where libyaml is not installed."""
 
 _Beginning: TypeAlias = ScalarEvent | SequenceStartEvent | MappingStartEvent
 """The first event of a node that is no alias."""

@@ -8,8 +8,15 @@ from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import TypeAlias
 
-from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.syntax.scalars import is_cut_expression, scalar_value
+from linkforge_compile.syntax.nodes import (
+    YamlFault,
+    YamlList,
+    YamlMap,
+    YamlNode,
+    YamlScalar,
+    is_cut_expression,
+    scalar_value,
+)
 from linkforge_compile.units import Quantity, number_text
 
 WIDTH = 100

@@ -1,6 +1,6 @@
 """Quantities, their units, and numbers as text."""
 
-from linkforge_compile.units.field_unit import (
+from linkforge_compile.units.quantity import (
     ANGLE,
     BARE,
     CONTACT_DAMPING,
@@ -17,12 +17,16 @@ from linkforge_compile.units.field_unit import (
     STIFFNESS,
     TURN_RATE,
     VELOCITY,
+    WIDEST_ANGLE,
+    Dimension,
     FieldUnit,
     Motion,
+    Quantity,
+    double_text,
+    is_in_full,
+    number_text,
     unit_of,
 )
-from linkforge_compile.units.numbers import double_text, is_in_full, number_text
-from linkforge_compile.units.quantity import WIDEST_ANGLE, Dimension, Quantity
 from linkforge_compile.units.table import UNITS, Unit, parse_quantity, spellings_of, suggested_unit, unit_text, units_of
 
 __all__ = [

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 import pytest
 
 from linkforge_compile.editor.completions import SpecPaths
-from linkforge_compile.schema.json_types import Json, mapping
+from linkforge_compile.schema.json_schema import Json, mapping
 
 SPECS = [
     *(f"robots/arm{number}.robot.yaml" for number in range(11)),

@@ -14,7 +14,7 @@ from xml.parsers import expat
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics
 from linkforge_compile.expressions import RESERVED_NAMES, Scope, evaluate, parse_template
 from linkforge_compile.limits import Budget
-from linkforge_compile.schema.json_types import mapping
+from linkforge_compile.schema.json_schema import mapping
 from linkforge_compile.schema.registry import definitions
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import read

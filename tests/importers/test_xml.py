@@ -9,7 +9,7 @@ from linkforge_compile.importers import xml as reader
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.source.encoding import EncodingError, xml_text
+from linkforge_compile.source.characters import EncodingError, xml_text
 from linkforge_compile.source.xml_tree import XmlComment, XmlElement
 
 

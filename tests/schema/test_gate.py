@@ -15,8 +15,7 @@ from jsonschema import Draft7Validator
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.schema import registry, validate
-from linkforge_compile.schema.gate import accepts, plain
-from linkforge_compile.schema.registry import linked, linked_schema_text, whole_schema
+from linkforge_compile.schema.registry import accepts, linked, linked_schema_text, plain, whole_schema
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER

@@ -4,8 +4,8 @@ import pytest
 from jsonschema import Draft7Validator
 
 from linkforge_compile.schema.bundle import bundle
+from linkforge_compile.schema.json_schema import PLAIN, WORDS
 from linkforge_compile.schema.registry import definitions, load_files
-from linkforge_compile.schema.repetition import PLAIN, WORDS
 
 EDITOR = Draft7Validator(bundle())
 OBJECTS = {

@@ -7,8 +7,8 @@ import pytest
 import yaml
 from jsonschema import Draft7Validator
 
+from linkforge_compile.schema.json_schema import RAW, WORDS
 from linkforge_compile.schema.registry import Schema, definitions, load_files
-from linkforge_compile.schema.repetition import RAW, WORDS
 from linkforge_compile.units import Dimension, parse_quantity, units_of
 
 WHOLE = definitions()

@@ -10,7 +10,7 @@ from linkforge_compile.diagnostics.reports import merge_reports
 from linkforge_compile.limits import Limit
 from linkforge_compile.pipeline import check_variants
 from linkforge_compile.source import SourceFile
-from linkforge_compile.syntax.suppressions import suppressions_in
+from linkforge_compile.syntax.parser import suppressions_in
 from tests.yaml_case import compile_yaml
 
 

@@ -3,68 +3,34 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias
+from itertools import pairwise
+from typing import Any
 
 from linkforge_compile.expressions import forgotten_expression
 from linkforge_compile.schema.hints import FIELDS_IN_ORDER, NO_BALL_JOINT, color_as_list, intended_word
-from linkforge_compile.schema.json_types import Schema, branches, linked_part, mapping
-from linkforge_compile.schema.number_hints import (
-    corrected_number,
-    is_row,
-    list_lengths,
-    number_hint,
-    numbers_in_row,
-    numbers_of_items,
-    with_decimal_points,
+from linkforge_compile.schema.json_schema import Schema, branches, mapping
+from linkforge_compile.schema.shapes import (
+    FREE,
+    SchemaMismatch,
+    expected,
+    is_number,
+    is_text,
+    nested,
+    node_at,
+    shapes,
+    shown,
+    split_path,
 )
-from linkforge_compile.schema.shapes import FREE, Shape, shape_of, shapes
-from linkforge_compile.schema.words import expected, is_number, nested, shown, split_path
-from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.syntax.scalars import YAML_1_1_BOOLEANS
-
-Path: TypeAlias = tuple[str | int, ...]
-
-
-class SchemaMismatch(NamedTuple):
-    """A node, the path to it in its file, and the schema that it does not match."""
-
-    node: YamlNode
-    path: Path
-    schema: Schema
-    file: YamlMap
-
-    @property
-    def field(self) -> str | int:
-        """The key or index of the node; "" for the whole file."""
-        return self.path[-1] if self.path else ""
-
-    @property
-    def shape(self) -> Shape:
-        """The shape that the schema describes."""
-        return shape_of(linked_part(self.schema))
-
-    @property
-    def titles(self) -> set[str]:
-        """The titles of the schema's branches."""
-        return {str(branch.get("title")) for branch in branches(self.schema)}
-
-    def accepts_kind(self, kind: str) -> bool:
-        """Whether the schema accepts nodes of a JSON type."""
-        return any(kind in str(branch.get("type")) for branch in branches(self.schema))
+from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.units import parse_quantity
 
 
 def value_hint(mismatch: SchemaMismatch) -> str:
     """Return what to write for a value of the wrong kind, as the end of a message; "" for no hint."""
-    match mismatch.node:
-        case YamlScalar() as scalar:
-            hint = next(filter(None, (rule(scalar, mismatch) for rule in _SCALAR_RULES)), "")
-        case YamlList() as items:
-            hint = next(filter(None, (rule(items, mismatch) for rule in _LIST_RULES)), "")
-        case YamlMap() as entries:
-            hint = next(filter(None, (rule(entries, mismatch) for rule in _MAP_RULES)), "")
-        case _:
-            hint = ""
+    rules = _RULES.get(type(mismatch.node), ())
+    hint = next(filter(None, (rule(mismatch.node, mismatch) for rule in rules)), "")
     return f"; write {hint}" if hint else ""
 
 
@@ -86,21 +52,15 @@ _PYTHON_MODULE = re.compile(r"\b(?:math|numpy|np)\.")
 
 
 def _intended_expression(mismatch: SchemaMismatch) -> str | None:
-    """Return the expression for a text without `$( )`; None for other text."""
+    """Return the expression of declared names for a text without `$( )`; None for other text."""
     node, path, _, file = mismatch
     if not isinstance(node, YamlScalar) or not isinstance(node.value, str):
         return None
-    return forgotten_expression(_PYTHON_MODULE.sub("", node.text), node.span, _names_in_scope(path, file))
-
-
-def _names_in_scope(path: Path, file: YamlMap) -> frozenset[str]:
-    """Return the names that the file, and each `for` around the path, declare for expressions."""
-    maps: list[YamlNode | None] = [file.get(section) for section in _DECLARING_SECTIONS]
-    node: YamlNode | None = file
-    for key in path:
-        node = node.child(key) if node else None
-        maps.append(node.get("for") if isinstance(node, YamlMap) else None)
-    return _PREDEFINED | {entry.name for each in maps if isinstance(each, YamlMap) for entry in each}
+    maps = [file.get(section) for section in _DECLARING_SECTIONS]
+    around = (node_at(file, path[:length]) for length in range(1, len(path) + 1))
+    maps += [one.get("for") for one in around if isinstance(one, YamlMap)]
+    names = _PREDEFINED | {entry.name for each in maps if isinstance(each, YamlMap) for entry in each}
+    return forgotten_expression(_PYTHON_MODULE.sub("", node.text), node.span, names)
 
 
 # Rules for scalars: each returns what to write, or "" if it does not apply
@@ -137,15 +97,14 @@ def _row(node: YamlScalar, mismatch: SchemaMismatch) -> str:
 
 
 def _list_around(mismatch: SchemaMismatch) -> str:
-    """The whole list of an item that holds several numbers."""
-    around: YamlNode | None = mismatch.file
-    shape = shapes()
+    """The whole list of an item that holds several numbers, or a part of one."""
+    around, shape = node_at(mismatch.file, mismatch.path[:-1]), shapes()
     for key in mismatch.path[:-1]:
-        around = around.child(key) if around else None
         shape = shape.under(key) if isinstance(key, str) else shape.item or FREE
-    if not isinstance(around, YamlList):
+    if not isinstance(around, YamlList) or len(around) > _MOST_ITEMS:
         return ""
-    numbers = numbers_of_items(around, list_lengths(shape.schema))
+    parts = [f"{',' if _is_adjacent(before, item) else ', '}{shown(item)}" for before, item in pairwise(around)]
+    numbers = numbers_in_row("".join((*map(shown, around.items[:1]), *parts)), list_lengths(shape.schema))
     return _field_with(mismatch.path[-2], numbers) if numbers else ""
 
 
@@ -158,7 +117,7 @@ def _number(node: YamlScalar, mismatch: SchemaMismatch) -> str:
 
 
 def _mimicked_joint(node: YamlScalar, mismatch: SchemaMismatch) -> str:
-    return f"'{{joint: {node.text}}}'" if mismatch.field == "mimic" and isinstance(node.value, str) else ""
+    return f"'{{joint: {node.text}}}'" if mismatch.field == "mimic" and is_text(node) else ""
 
 
 def _group_state(node: YamlScalar, mismatch: SchemaMismatch) -> str:
@@ -186,7 +145,7 @@ def _module_file(node: YamlScalar, mismatch: SchemaMismatch) -> str:
 
 def _single_item(node: YamlScalar, mismatch: SchemaMismatch) -> str:
     """The only item of a list, without its brackets."""
-    if not isinstance(node.value, str):
+    if not is_text(node):
         return ""
     if "a group" in mismatch.titles:
         return f"'{{joints: [{node.text}]}}'"
@@ -201,9 +160,15 @@ def _single_item(node: YamlScalar, mismatch: SchemaMismatch) -> str:
 
 
 def _decimal_commas(node: YamlList, mismatch: SchemaMismatch) -> str:
-    """A list that is too long because the decimal commas of its numbers separate items."""
+    """A list that is too long because the decimal commas of its numbers separate items: `1,5 mm`."""
     lengths = {branch["maxItems"] for branch in branches(mismatch.schema) if "maxItems" in branch}
-    items = with_decimal_points(node)
+    items = [*map(shown, node.items[:1])]
+    for before, item in pairwise(node):
+        is_part = _is_adjacent(before, item) and re.fullmatch(r"[+-]?\d+", items[-1])
+        if is_part and corrected_number(f"{items[-1]},{shown(item)}"):
+            items[-1] += f".{shown(item)}"
+        else:
+            items.append(shown(item))
     return f"'[{', '.join(items)}]'" if len(items) < len(node) and len(items) in lengths else ""
 
 
@@ -276,17 +241,101 @@ def _field_with(field: str | int, value: str | Sequence[str]) -> str:
     return f"'{key}{value}'" if isinstance(value, str) else f"'{key}[{', '.join(value)}]'"
 
 
-_SCALAR_RULES: tuple[Callable[[YamlScalar, SchemaMismatch], str], ...] = (
-    _boolean,
-    _color,
-    _expression,
-    _row,
-    _number,
-    _mimicked_joint,
-    _group_state,
-    _path_in_key,
-    _module_file,
-    _single_item,
-)
-_LIST_RULES = (_decimal_commas, _fields_in_order, _pose_of_six, _entries_by_name)
-_MAP_RULES: tuple[Callable[[YamlMap, SchemaMismatch], str], ...] = (_interfaces, _axes, _attribute)
+_RULES: dict[type, tuple[Callable[[Any, SchemaMismatch], str], ...]] = {
+    YamlScalar: (
+        *(_boolean, _color, _expression, _row, _number),
+        *(_mimicked_joint, _group_state, _path_in_key, _module_file, _single_item),
+    ),
+    YamlList: (_decimal_commas, _fields_in_order, _pose_of_six, _entries_by_name),
+    YamlMap: (_interfaces, _axes, _attribute),
+}
+"""The rules by kind of node; the first that applies wins."""
+
+# Numbers that YAML reads as text
+
+_DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+)(\s*[^\d\s,]\S*|)")
+_UNDERSCORES = re.compile(r"(?<=[0-9a-fA-F])_+(?=[0-9a-fA-F])")
+"""Skipped between digits by YAML 1.1 and Python, but not by YAML 1.2."""
+_GROUPED = re.compile(r"([+-]?\d{1,3}(?:(?:\s\d{3})+|(?:,\d{3}){2,}))(?!\d)(.*)")
+"""A number whose thousands are separated by spaces or by several commas, and the text after it."""
+_THOUSANDS_COMMA = re.compile(r"([+-]?[1-9]\d{0,2}),(\d{3})(\s*[^\d\s,]\S*|)")
+"""A number whose only comma may separate thousands."""
+_MINUS_SIGNS = ("\u2212", "\u2013", "\u2014")
+"""What word processors write for the hyphen before a number."""
+_LEADING_ZERO = re.compile(r"0\d+")
+_MOST_ITEMS = 100
+"""The longest list that a hint writes anew."""
+_LONGEST_ROW = 2000
+"""The longest text, in characters, in which several numbers are looked for."""
+_ANY_LENGTH = range(2, sys.maxsize)
+
+
+def corrected_number(text: str) -> str | None:
+    """Return a number, with its unit if it has one, as the language writes it; None for any other text."""
+    if text[:1] in _MINUS_SIGNS:
+        text = f"-{text[1:]}"
+        return text if is_number(text) or parse_quantity(text) else corrected_number(text)
+    if comma := _DECIMAL_COMMA.fullmatch(text):
+        return f"{comma[1]}.{comma[2]}{comma[3]}"
+    joined = _UNDERSCORES.sub("", text)
+    if grouped := _GROUPED.fullmatch(joined):
+        joined = re.sub(r"[\s,]", "", grouped[1]) + grouped[2]
+    return joined if joined != text and (is_number(joined) or parse_quantity(joined)) else None
+
+
+def number_hint(text: str, unit: str | None) -> str:
+    """Return what to write for a number, both readings of `1,500`; "" for any other text.
+
+    `unit` is the SI unit of the field: a number of another dimension gets no hint; None for any dimension.
+    """
+    corrected = corrected_number(text)
+    quantity = parse_quantity(corrected) if corrected else None
+    if corrected is None or (unit and quantity and quantity.dimension.si_unit != unit):
+        return ""
+    if thousands := _THOUSANDS_COMMA.fullmatch(text):
+        return f"'{corrected}', or '{''.join(thousands.groups())}' if the comma separates thousands"
+    return f"'{corrected}'"
+
+
+def numbers_in_row(text: str, lengths: Sequence[range] = (_ANY_LENGTH,)) -> Sequence[str]:
+    """Return the numbers of a text that has several, separated by spaces or commas; () for other text.
+
+    `lengths` are the allowed counts. Commas between spaces are decimal commas if the count is then right.
+    """
+    if len(text) > _LONGEST_ROW or _DECIMAL_COMMA.fullmatch(text):
+        return ()
+    spaced = [word.strip(",") for word in text.split()]
+    rows = (_numbers(words) for words in (spaced, re.split(r"[\s,]+", text.strip())))
+    return next((row for row in rows if len(row) > 1 and any(len(row) in length for length in lengths)), ())
+
+
+def list_lengths(schema: Schema) -> list[range]:
+    """Return the allowed lengths of the lists that a schema accepts."""
+    lists = (branch for branch in branches(schema) if "items" in branch)
+    bounds = [(each.get("minItems", 2), each.get("maxItems", _MOST_ITEMS)) for each in lists]
+    return [range(least, most + 1) for least, most in bounds if isinstance(least, int) and isinstance(most, int)]
+
+
+def _numbers(words: Sequence[str]) -> Sequence[str]:
+    """Return words as numbers, a unit after a number as part of it; () if one word is neither."""
+    numbers: list[str] = []
+    for word in words:
+        if (is_number(word) and not _LEADING_ZERO.fullmatch(word)) or parse_quantity(word):
+            numbers.append(word)
+        elif numbers and is_number(numbers[-1]) and parse_quantity(f"{numbers[-1]} {word}"):
+            numbers[-1] += f" {word}"
+        elif corrected := corrected_number(word):
+            numbers.append(corrected)
+        else:
+            return ()
+    return numbers
+
+
+def is_row(node: YamlNode) -> bool:
+    """Whether a node is text of several numbers."""
+    return isinstance(node, YamlScalar) and is_text(node) and bool(numbers_in_row(node.text))
+
+
+def _is_adjacent(before: YamlNode, item: YamlNode) -> bool:
+    """Whether there is only a comma between two items."""
+    return before.span.end == (item.span.line, item.span.column - 1)

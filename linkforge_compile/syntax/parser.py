@@ -1,19 +1,82 @@
-"""Find comments such as `# linkforge: ignore LF6003` in the text of a file."""
+"""PyYAML's parser: the places of its events, and the comments that it drops."""
 
 from __future__ import annotations
 
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
+from typing import TypeAlias
 
 import yaml
-from yaml.events import ScalarEvent
+from yaml.events import Event, NodeEvent, ScalarEvent
 
 from linkforge_compile.diagnostics.reports import Suppression
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax.marks import Marks
-from linkforge_compile.syntax.reader import MAX_READ_TWICE, PARSER
+
+MAX_READ_TWICE = 250_000
+"""The largest file, in characters, that PyYAML's slow parser reads after libyaml has failed."""
+
+Parser: TypeAlias = type["yaml.BaseLoader | yaml.CBaseLoader"]
+
+PARSER: Parser = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+"""libyaml's parser; PyYAML's own, which gives the same events, where libyaml is not installed."""
+
+_TAG = re.compile(r"!\S*")
+_PROPERTIES = re.compile(r"(?:[&!]\S*\s*|#[^\r\n]*\s*)+")
+"""Anchors and tags before a value, and comments between them and it."""
+
+_BLOCK_STYLES = ("|", ">")
+
+
+class Marks:
+    """Turns the parser's marks, which count characters from 0, into spans; `text` is what the parser reads."""
+
+    def __init__(self, file: SourceFile) -> None:
+        self.file = file
+        self.text = file.counted
+
+    def event(self, event: Event, last: Event | None = None) -> Span:
+        """Return the span from the start of an event to its end, or to the end of `last`."""
+        return self.file.between(self.begin(event), self.end(last or event))
+
+    def begin(self, event: Event) -> int:
+        """Return the index of the first character of an event; a node's anchor and tag belong to it."""
+        assert event.start_mark is not None, "the parser marks every event"
+        return event.start_mark.index
+
+    def end(self, event: Event) -> int:
+        """Return the index after the last character of an event.
+
+        It may lie beyond the end of the text: libyaml reads every file as if it ended with a line break.
+        """
+        assert event.end_mark is not None, "the parser marks every event"
+        return event.end_mark.index
+
+    def part(self, index: int, length: int) -> Span:
+        """Return the span of up to `length` characters from `index`."""
+        return self.file.between(index, index + length)
+
+    def scalar(self, event: ScalarEvent) -> Span:
+        """Return the span of a scalar with its quotes, without its anchor; a block scalar ends with its last line."""
+        return self.file.between(*self.scalar_ends(event))
+
+    def scalar_ends(self, event: ScalarEvent) -> tuple[int, int]:
+        """Return the first index of a scalar and the index after it, as for `scalar`."""
+        assert event.start_mark is not None, "the parser marks every event"
+        assert event.end_mark is not None, "the parser marks every event"
+        begin, end = event.start_mark.index, event.end_mark.index
+        if event.anchor is None and event.tag is None and event.style not in _BLOCK_STYLES:
+            return begin, end
+        written = self.text[begin:end].rstrip()
+        properties = _PROPERTIES.match(written)
+        return begin + (properties.end() if properties else 0), begin + len(written)
+
+    def tag(self, event: NodeEvent) -> Span:
+        """Return the span of a node's tag."""
+        found = _TAG.search(self.text, event.start_mark.index) if event.start_mark else None
+        return self.part(found.start(), len(found[0])) if found else self.event(event)
+
 
 IGNORE_WORDS = re.compile(r"linkforge[: \t]+(?:ignore|disable|suppress|skip|noqa|nolint)\b")
 """Found in every text that has such a comment; a search for it is much faster than for a whole comment."""
