@@ -16,7 +16,7 @@ import yaml
 from linkforge_compile.core.meshes.read import MAX_TRIANGLES
 from linkforge_compile.diagnostics.render_text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_COUNTED, MAX_KEPT, MAX_REPORTED
-from linkforge_compile.expand import includes, parameter_types
+from linkforge_compile.expand import includes, parameters
 from linkforge_compile.expand.expand_uses import MAX_DEPTH
 from linkforge_compile.expressions import grammar, operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
@@ -238,7 +238,7 @@ def _bounds() -> str:
         "bits of a whole number": operators.MAX_INTEGER_BITS,
         "characters of a computed text": operators.MAX_TEXT,
         "characters of a `pattern`, and of the text it is held against": (
-            f"{parameter_types.MAX_PATTERN:,} and {parameter_types.MAX_TEXT:,}"
+            f"{parameters.MAX_PATTERN:,} and {parameters.MAX_TEXT:,}"
         ),
         "size of a mesh file that is read": f"{mesh_solids.MAX_BYTES // mebibyte} MiB",
     }

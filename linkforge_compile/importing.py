@@ -32,7 +32,7 @@ _IMPORTED = (URDF, SRDF)
 """The formats of the documents of an import, in their order."""
 
 _WRONG_ARGUMENTS = (NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER)
-"""Faults of arguments, after which the robot that was read may not be the one that was meant."""
+"""Faults of arguments, after which the robot that was read may be another one than intended."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def import_urdf(
 
     Errors are reported at their places in those files. A xacro is expanded first, with the arguments that it declares;
     its packages are searched in `packages` before other places, and it may read the files that `compile_file` reads,
-    or any with `allow_outside`. `output` is the folder of the spec: meshes beside the URDF but not there are reported.
+    or any with `allow_outside`. `output` is the folder of the spec: meshes next to the URDF but not there are reported.
     `text` is the URDF if it is no file; `path` is its name then, and relative paths start in the folder of `path`.
     """
     settings = Settings(arguments, packages, allow_outside=allow_outside, output=Path(output) if output else None)

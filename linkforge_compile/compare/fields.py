@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from decimal import Decimal
 from typing import NamedTuple
@@ -107,32 +107,15 @@ def compared_fields(part: object) -> tuple[str, ...]:
 
 def compared_value(part: object, name: str) -> object:
     """Return the value of a field in the form that is compared: raw XML parsed, attributes as a mapping."""
-    value: object = getattr(part, name)
-    convert = _CONVERT.get(name)
-    return value if convert is None or value is None else convert(value)
-
-
-def _to_interfaces(names: object) -> object:
-    assert isinstance(names, Sequence)
-    return tuple(map(Interface.of, names))
-
-
-def _to_raw_parts(texts: object) -> object:
-    assert isinstance(texts, Sequence)
-    return raw_parts(texts)
-
-
-def _to_mapping(pairs: object) -> object:
-    assert isinstance(pairs, Sequence)
-    return dict(pairs)
-
-
-_CONVERT: Mapping[str, Callable[[object], object]] = {
-    "command_interfaces": _to_interfaces,
-    "state_interfaces": _to_interfaces,
-    "extra_attributes": _to_mapping,
-    "extra_elements": _to_raw_parts,
-}
+    value = getattr(part, name)
+    match name:
+        case "command_interfaces" | "state_interfaces":
+            return tuple(map(Interface.of, value))
+        case "extra_attributes":
+            return dict(value)
+        case "extra_elements":
+            return raw_parts(value)
+    return value
 
 
 def match_key(value: object, without: Mapping[type, Collection[str]] = _NO_FIELDS) -> Hashable:

@@ -255,7 +255,7 @@ def _compare_fields(
         if name in without:
             continue
         old, new = compared_value(before, name), compared_value(after, name)
-        # A shape stands under its own tag, unless that has changed.
+        # A shape has its own tag in the path, unless that has changed.
         is_same_shape = name == "geometry" and type(old) is type(new)
         key = str(getattr(old, "type", name)) if is_same_shape else key_of_field(type(before), name)
         yield from walk((*path, key), old, new, context.for_field(before, name))

@@ -25,7 +25,7 @@ _SHORT_FORMS = {"origin": "xyz", "box": "size", "sphere": "radius", "mesh": "fil
 class UnknownPathError(LookupError):
     """A path leads nowhere: `owner` is as far as it leads, "" for the robot itself, and `names` is what is there.
 
-    `paths` lead to what has a name, by that name: for who gives the name alone.
+    `paths` has the path of each named part, by its name.
     """
 
     def __init__(self, owner: str, name: str, names: Sequence[str], paths: Mapping[str, str]) -> None:
@@ -55,7 +55,7 @@ class Explanation:
 
 
 class _Step(NamedTuple):
-    """A key, or a position in a list, and what stands there."""
+    """A key, or a position in a list, and the node at it."""
 
     key: str
     node: YamlNode
@@ -206,7 +206,7 @@ def _overridden(node: Located, path: str) -> Iterator[Link]:
 
 
 def _written_child(node: Located, name: str, key: str) -> Located | None:
-    """Return what was written for a key of the long form; what was written short stands for all of it."""
+    """Return what was written for a key of the long form; a short form is all that was written."""
     if not isinstance(node, YamlMap):
         is_short = key == _SHORT_FORMS.get(name) or (isinstance(node, YamlScalar) and key.isdecimal())
         return node if is_short else node.child(int(key)) if key.isdecimal() else None

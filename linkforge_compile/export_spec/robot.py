@@ -85,7 +85,10 @@ def export_link(
     builder: SpecBuilder, link: Link, materials: Mapping[str, Material], gazebo: YamlNode | None
 ) -> YamlMap:
     """Return a link with the Gazebo blocks about it; `materials` are the robot's, which visuals name."""
-    shapes = {VISUAL: _visuals(builder, link, materials), COLLISION: _collisions(builder, link)}
+    visuals = [
+        _shape(builder, one, material=_visual_material(builder, one.material, materials)) for one in link.visuals
+    ]
+    shapes = {VISUAL: _one_or_list(builder, visuals), COLLISION: _collisions(builder, link)}
     kinds = [VISUAL if isinstance(shape, Visual) else COLLISION for shape in link.shapes]
     order = shortest_setting(kinds)
     return builder.element(
@@ -96,13 +99,6 @@ def export_link(
         inertial=export_element(builder, link.inertial) if link.inertial else None,
         physics=_physics(builder, link.physics),
         gazebo=gazebo,
-    )
-
-
-def _visuals(builder: SpecBuilder, link: Link, materials: Mapping[str, Material]) -> YamlNode | None:
-    return _one_or_list(
-        builder,
-        [_shape(builder, one, material=_visual_material(builder, one.material, materials)) for one in link.visuals],
     )
 
 
@@ -169,9 +165,8 @@ def export_frame(builder: SpecBuilder, link: Link, joint: Joint) -> YamlMap:
 
 
 def _is_frame(link: Link, joint: Joint) -> bool:
-    if link.name != joint.child or link != Link(link.name):
-        return False
-    return joint == Joint(joint.name, JointType.FIXED, joint.parent, joint.child, joint.origin)
+    is_empty = link.name == joint.child and link == Link(link.name)
+    return is_empty and joint == Joint(joint.name, JointType.FIXED, joint.parent, joint.child, joint.origin)
 
 
 _AXES = {

@@ -103,7 +103,7 @@ def _read_number(reader: ElementReader, name: str, spec: Number, motion: Motion)
 
 
 _QUATERNION = "quat_xyzw"
-"""The attribute of URDF 1.1 that replaces `rpy`; it is kept beside the angles computed from it."""
+"""The attribute of URDF 1.1 that replaces `rpy`; it is kept with the angles computed from it."""
 _GIMBAL_LOCK = 1e-9
 """Below this cosine of the pitch, roll and yaw turn about the same axis, and all of the turn becomes yaw."""
 _NOISE = 4e-16

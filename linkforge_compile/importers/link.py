@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import partial
+from typing import TypeAlias
 
 from linkforge_compile.core.models.joint import HAVE_NO_AXIS, NEED_LIMITS, Joint, JointLimits, JointType
 from linkforge_compile.core.models.shape_order import COLLISION, KINDS, VISUAL, shortest_setting
@@ -17,7 +18,6 @@ from linkforge_compile.importers.elements import (
     read_pose,
     require_numbers,
 )
-from linkforge_compile.importers.losses import named_colors, visual_materials
 from linkforge_compile.importers.plugin_data import Blocks
 from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft, is_same, number_of
 from linkforge_compile.source import Span
@@ -27,6 +27,10 @@ from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 _MOMENTS = ("ixx", "iyy", "izz")
 _PRODUCTS = ("ixy", "ixz", "iyz")
 _SHAPE_AND_POSE = ("box", "cylinder", "sphere", "capsule", "mesh", "origin")
+
+
+Rgba: TypeAlias = tuple[float | None, ...]
+"""The numbers of a color; None for a word that is none."""
 
 
 def read_link(link: ElementReader, palette: Palette, blocks: Blocks) -> YamlMap:
@@ -243,3 +247,26 @@ def _declared_after_links(robot: XmlElement) -> set[XmlElement]:
     first: dict[str, object] = {}
     colors = ((material, first.setdefault(name, color) != color) for material, name, color in named_colors(robot))
     return {material for material, is_another in colors if is_another and material in own}
+
+
+def named_colors(robot: XmlElement) -> Iterator[tuple[XmlElement, str, Rgba]]:
+    """Yield each material with a color, its name and the color, in the order of the document."""
+    for child in robot.children:
+        shapes = child.children if child.tag == "link" else ()
+        for material in [child] if child.tag == "material" else [one for shape in shapes for one in shape.children]:
+            color = color_of(material) if material.tag == "material" else None
+            if color is not None:
+                yield material, material.get("name") or "", color
+
+
+def color_of(material: XmlElement) -> Rgba | None:
+    """Return the color of a `<material>`, None for one without."""
+    color = next((child for child in material.children if child.tag == "color"), None)
+    return tuple(map(number_of, (color.get("rgba") or "").split())) if color else None
+
+
+def visual_materials(robot: XmlElement) -> Iterator[XmlElement]:
+    """Yield the materials in the visuals of a robot, in the order of the document."""
+    for link in robot.children:
+        for visual in link.children if link.tag == "link" else ():
+            yield from (part for part in visual.children if visual.tag == "visual" and part.tag == "material")

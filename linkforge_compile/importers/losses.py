@@ -11,8 +11,10 @@ from collections import Counter, defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.core.fields import number_fields
-from linkforge_compile.core.models.joint import JointDynamics, JointMimic, JointSafetyController
+from linkforge_compile.core.fields import Number, Vector, field_specs
+from linkforge_compile.core.models.geometry import Mesh, Transform
+from linkforge_compile.core.models.joint import HAVE_NO_AXIS, JointDynamics, JointMimic, JointSafetyController
+from linkforge_compile.core.models.link import Collision, InertiaTensor, Visual
 from linkforge_compile.core.models.shape_order import KINDS, VISUAL, shown_colors
 from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Diagnostic
@@ -24,6 +26,7 @@ from linkforge_compile.diagnostics.codes.importing import (
     SHAPES_REORDERED,
     VERSION_FOR_CAPSULE,
 )
+from linkforge_compile.importers.link import Rgba, color_of, named_colors, visual_materials
 from linkforge_compile.importers.spec_draft import is_same, number_of
 from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import XmlDocument, XmlElement
@@ -32,7 +35,6 @@ from linkforge_compile.syntax import YamlFault, YamlMap, YamlNode, YamlScalar
 _MAX_TEXT = 40
 """Characters shown of a value."""
 
-_Key: TypeAlias = tuple[str | None, ...]
 _ShownShape: TypeAlias = "tuple[CanonicalElement, Rgba | None]"
 """A shape and the color in which MuJoCo shows it; None for its gray."""
 
@@ -105,7 +107,7 @@ def _shorten(text: str) -> str:
 
 def _child_differences(one: CanonicalElement, other: CanonicalElement) -> Iterator[Diagnostic]:
     missing, added = _without(one.children, other.children), _without(other.children, one.children)
-    candidates: defaultdict[_Key, deque[CanonicalElement]] = defaultdict(deque)
+    candidates: defaultdict[tuple[str | None, ...], deque[CanonicalElement]] = defaultdict(deque)
     for child in added:
         candidates[_key(child)].append(child)
     for child in missing:
@@ -129,7 +131,7 @@ def _without(children: Iterable[CanonicalElement], others: Iterable[CanonicalEle
     return unmatched
 
 
-def _key(one: CanonicalElement) -> _Key:
+def _key(one: CanonicalElement) -> tuple[str | None, ...]:
     """Return the tag and names that identify an element among others."""
     return one.tag, *(one.element.get(name) for name in ("name", "reference", "link1", "link2"))
 
@@ -201,9 +203,6 @@ def _first_colors(robot: XmlElement) -> dict[str, Rgba]:
 Value: TypeAlias = tuple[float | str, ...]
 """The words of a text, with numbers converted."""
 
-Rgba: TypeAlias = tuple[float | None, ...]
-"""The numbers of a color; None for a word that is none."""
-
 _NAMES = frozenset(("name", "link", "joint", "reference", "filename", "type"))
 """Attributes in which a number is a name."""
 
@@ -214,21 +213,20 @@ _WITH_NUMBERS = tuple(
 
 
 def _implied(kind: type[Element]) -> Mapping[str, Value]:
-    """Return what the absence of each number of a class means."""
-    return {name: (spec.implied,) for name, spec in number_fields(kind).items() if spec.implied is not None}
+    """Return what the absence of each attribute of a class with numbers means."""
+    specs = [spec for spec in field_specs(kind).values() if spec.xml and spec.implied is not None]
+    numbers = {spec.xml: (spec.implied,) for spec in specs if isinstance(spec, Number)}
+    vectors = {spec.xml: tuple(spec.implied) for spec in specs if isinstance(spec, Vector)}
+    return {xml.removeprefix("@"): value for xml, value in {**numbers, **vectors}.items() if xml}
 
 
-_ZERO: Value = (0.0, 0.0, 0.0)
-_POSE: Mapping[str, Value] = {"xyz": _ZERO, "rpy": _ZERO}
-_MESH: Mapping[str, Value] = {"scale": (1.0, 1.0, 1.0)}
 _DEFAULTS: Mapping[str, Mapping[str, Value]] = {
-    "robot/link/visual/origin": _POSE,
-    "robot/link/collision/origin": _POSE,
-    "robot/link/inertial/origin": _POSE,
-    "robot/joint/origin": _POSE,
-    "robot/link/visual/geometry/mesh": _MESH,
-    "robot/link/collision/geometry/mesh": _MESH,
-    "robot/link/inertial/inertia": {"ixy": (0.0,), "ixz": (0.0,), "iyz": (0.0,)},
+    **{
+        f"robot/{path}/origin": _implied(Transform)
+        for path in ("link/visual", "link/collision", "link/inertial", "joint")
+    },
+    **{f"robot/link/{kind.TAG}/geometry/mesh": _implied(Mesh) for kind in (Visual, Collision)},
+    "robot/link/inertial/inertia": _implied(InertiaTensor),
     "robot/joint/axis": {"xyz": (1.0, 0.0, 0.0)},
     **{f"robot/joint/{kind.TAG}": _implied(kind) for kind in (JointDynamics, JointMimic, JointSafetyController)},
 }
@@ -238,7 +236,6 @@ _MAY_BE_MISSING = frozenset(path for path in _DEFAULTS if path.endswith(("/origi
 _QUATERNION = "quat_xyzw"
 """The rotation of a pose in URDF 1.1, in the place of `rpy`; urdfdom refuses a pose with both, even if one is 0."""
 _AXIS = "robot/joint/axis"
-_WITHOUT_AXIS = ("fixed", "floating")
 _VISUAL_MATERIAL = "robot/link/visual/material"
 
 
@@ -257,22 +254,6 @@ def canonicalize(*robots: XmlElement) -> list[CanonicalElement]:
     """Return the canonical forms of the roots of documents that are to be compared."""
     cache = _Cache()
     return [_Canonicalizer(robot, cache).canonical(robot, "robot", robot) for robot in robots]
-
-
-def named_colors(robot: XmlElement) -> Iterator[tuple[XmlElement, str, Rgba]]:
-    """Yield each material with a color, its name and the color, in the order of the document."""
-    for child in robot.children:
-        shapes = child.children if child.tag == "link" else ()
-        for material in [child] if child.tag == "material" else [one for shape in shapes for one in shape.children]:
-            color = color_of(material) if material.tag == "material" else None
-            if color is not None:
-                yield material, material.get("name") or "", color
-
-
-def color_of(material: XmlElement) -> Rgba | None:
-    """Return the color of a `<material>`, None for one without."""
-    color = next((child for child in material.children if child.tag == "color"), None)
-    return tuple(map(number_of, (color.get("rgba") or "").split())) if color else None
 
 
 _Content: TypeAlias = tuple[str, frozenset[tuple[str, Value]], Value, tuple[int, ...]]
@@ -307,7 +288,7 @@ class _Canonicalizer:
         all_children = [(child_path, self.canonical(child, child_path, element)) for child_path, child in inside]
         children = tuple([child for child_path, child in all_children if not _is_default(child, child_path, element)])
         values = element.values if source is element else {**source.values, **element.values}
-        has_axis = path != _AXIS or parent.get("type") not in _WITHOUT_AXIS
+        has_axis = path != _AXIS or parent.get("type") not in HAVE_NO_AXIS
         attributes = self._attributes(path, values, has_axis=has_axis)
         text = self._value(path, element.text) if element.text else ()
         content = element.tag, attributes, text, tuple(sorted([child.number for child in children]))
@@ -350,11 +331,4 @@ def _is_default(child: CanonicalElement, path: str, parent: XmlElement) -> bool:
     """Whether a child means the same as its absence."""
     if path not in _MAY_BE_MISSING or child.attributes or child.children or child.text:
         return False
-    return path != _AXIS or parent.get("type") not in _WITHOUT_AXIS
-
-
-def visual_materials(robot: XmlElement) -> Iterator[XmlElement]:
-    """Yield the materials in the visuals of a robot, in the order of the document."""
-    for link in robot.children:
-        for visual in link.children if link.tag == "link" else ():
-            yield from (part for part in visual.children if visual.tag == "visual" and part.tag == "material")
+    return path != _AXIS or parent.get("type") not in HAVE_NO_AXIS
