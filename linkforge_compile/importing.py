@@ -146,7 +146,7 @@ def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
 def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
     from linkforge_compile.formats.limits import check_written_twice
     from linkforge_compile.formats.parts import doubtful_parts_of_urdf
-    from linkforge_compile.formats.relative_paths import lost_on_the_way
+    from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
     from linkforge_compile.importers.srdf_with_urdf import with_srdf
 
     loader = settings.loader(urdf.path)
@@ -175,7 +175,7 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
         sink.report_all(check_written_twice(doubtful_parts_of_urdf(compiled.robot).with_extras))
         sink.report_all(_losses(whole, compiled.robot, sink.places_of(LOSSES)))
         if settings.output is not None:
-            sink.report_all(lost_on_the_way(compiled.robot, settings.output, MESH_BESIDE_THE_URDF))
+            sink.report_all(check_relative_mesh_paths(compiled.robot, settings.output, MESH_BESIDE_THE_URDF))
     if sink.places_of(_WRONG_ARGUMENTS):
         return None
     return _spec_text(whole, sink) if text is None else text

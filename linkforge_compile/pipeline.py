@@ -294,9 +294,9 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
     if lowered.robot is not None:
         sink.report_all(report_limits(lowered.robot, settings.options, settings.formats))
         if settings.output is not None:
-            from linkforge_compile.formats.relative_paths import lost_on_the_way
+            from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
 
-            sink.report_all(lost_on_the_way(lowered.robot, settings.output))
+            sink.report_all(check_relative_mesh_paths(lowered.robot, settings.output))
     return lowered.robot
 
 

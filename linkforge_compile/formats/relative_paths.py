@@ -1,4 +1,4 @@
-"""Relative paths of meshes, which mean the file beside the URDF, wherever that is written."""
+"""Relative paths of meshes, which are relative to the URDF, wherever that is written."""
 
 from __future__ import annotations
 
@@ -14,24 +14,22 @@ from linkforge_compile.diagnostics.codes.formats import MESH_BESIDE_THE_SPEC
 _SHOWN = 3
 
 
-def lost_on_the_way(robot: Robot, folder: Path, code: Code = MESH_BESIDE_THE_SPEC) -> Iterator[Diagnostic]:
-    """Yield, once for all, the meshes that lie where the robot's file says, while from `folder` nothing does.
+def check_relative_mesh_paths(robot: Robot, folder: Path, code: Code = MESH_BESIDE_THE_SPEC) -> Iterator[Diagnostic]:
+    """Yield one warning about relative paths of meshes that exist beside the robot's file, but not from `folder`.
 
-    `folder` is where the other file goes that has the same paths: the URDF of a spec, or the spec of a URDF, which
-    `code` tells.
-
-    Those that lie in neither place are told as missing, and one that lies in both, as a build may copy it, is found.
+    `folder` is where the other file with the same paths is written: the URDF of a spec, or the spec of a URDF, by
+    `code`. A mesh that is in neither place is reported as missing elsewhere.
     """
     spec = robot.source.span.file.path if robot.source and robot.source.span else None
     if spec is None:
         return
-    lost = [
+    missing = [
         mesh
         for path, mesh in _relative_meshes(robot).items()
         if _is_file(spec.parent / path) and not _is_beside(folder, path)
     ]
-    if lost:
-        first, *others = lost
+    if missing:
+        first, *others = missing
         notes = [Note(f"nor '{mesh.resource}'", mesh.source.at("file") if mesh.source else None) for mesh in others]
         more = [Note(f"nor {len(others) - _SHOWN} more")] if len(others) > _SHOWN else []
         back = Path(os.path.relpath(spec.parent)).as_posix()

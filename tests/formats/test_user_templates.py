@@ -231,7 +231,7 @@ NO_TEXT = "has no text; write"
         ("{{ robot.links }}", f"a Link {NO_TEXT} one of its fields"),
         ("{{ [1, {'a': robot.joints.elbow}] }}", f"a Joint {NO_TEXT} one of its fields"),
         ("{{ [robot.joints.elbow.axis] }}", "a Vector3 has no text in a list; write '| join(\", \")'"),
-        ("{{ urdf.joints[0] }}", f"a JointView {NO_TEXT} one of its fields"),
+        ("{{ urdf.joints[0] }}", f"a View {NO_TEXT} one of its fields"),
         ("{{ robot.links | map(attribute='name') }}", f"a generator {NO_TEXT} '| list' or '| join(\", \")'"),
         ("{{ range(3) }}", f"a range {NO_TEXT} '| list'"),
         ("{{ {}.items() }}", f"a dict_items {NO_TEXT} '| list'"),
