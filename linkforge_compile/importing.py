@@ -32,7 +32,7 @@ _IMPORTED = (URDF, SRDF)
 """The formats of the documents of an import, in their order."""
 
 _WRONG_ARGUMENTS = (NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER)
-"""Faults of arguments, after which the robot that was read may not be the one that was meant."""
+"""Faults of arguments, after which the robot that was read may be another one than intended."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def import_urdf(
 
     Errors are reported at their places in those files. A xacro is expanded first, with the arguments that it declares;
     its packages are searched in `packages` before other places, and it may read the files that `compile_file` reads,
-    or any with `allow_outside`. `output` is the folder of the spec: meshes beside the URDF but not there are reported.
+    or any with `allow_outside`. `output` is the folder of the spec: meshes next to the URDF but not there are reported.
     `text` is the URDF if it is no file; `path` is its name then, and relative paths start in the folder of `path`.
     """
     settings = Settings(arguments, packages, allow_outside=allow_outside, output=Path(output) if output else None)
@@ -108,7 +108,7 @@ def as_read_back(robot: Robot, *, gazebo: Gazebo = "gz") -> ReadBack:
 @gc_paused()
 @suggestion_budget()
 def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
-    from linkforge_compile.importers.srdf import with_srdf
+    from linkforge_compile.importers.srdf_with_urdf import with_srdf
     from linkforge_compile.importers.urdf import read_urdf
 
     loader = Settings().loader(None)
@@ -116,16 +116,16 @@ def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     imported = read_urdf(file, sink, keeps_refused=True)
     if imported is None:
         return None
-    judge = _judge_of(SpecFile(file, imported.tree, None), loader)
+    check = _checker_of(SpecFile(file, imported.tree, None), loader)
     semantic = SourceFile("<srdf>", render_srdf(robot)) if robot.has_semantic else None
-    result = with_srdf(imported, semantic, judge, sink) if semantic else (imported, judge(imported.tree))
+    result = with_srdf(imported, semantic, check, sink) if semantic else (imported, check(imported.tree))
     if result is None:
         return None
     sink.report_all(result[1].faults)
     return None if sink.has_errors else result[1].robot
 
 
-def _judge_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Checked]:
+def _checker_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Checked]:
     """Return a function that compiles the tree of a spec; it reads each mesh once for all its calls."""
     meshes = MeshSolids(loader.budget)
     return lambda tree: check_alone(meshes, replace(spec, tree=tree), loader)
@@ -147,24 +147,24 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     from linkforge_compile.formats.limits import check_written_twice
     from linkforge_compile.formats.parts import doubtful_parts_of_urdf
     from linkforge_compile.formats.relative_paths import lost_on_the_way
-    from linkforge_compile.importers.srdf import with_srdf
+    from linkforge_compile.importers.srdf_with_urdf import with_srdf
 
     loader = settings.loader(urdf.path)
     arguments = settings.arguments(loader, sink)
     semantic = _open_srdf(srdf, arguments, loader, sink) if srdf else None
-    taken = semantic.arguments if semantic else None if srdf else frozenset()
+    declared = semantic.arguments if semantic else None if srdf else frozenset()
     if urdf.path.suffix.lower() == XACRO:
-        found = _read_xacro(urdf.path, arguments, taken, loader, sink)
+        found = _read_xacro(urdf.path, arguments, declared, loader, sink)
     else:
-        found = _read_urdf(urdf, arguments, taken, loader, sink)
+        found = _read_urdf(urdf, arguments, declared, loader, sink)
     if found is None or (srdf and semantic is None):
         return None
     file, robot = found
     # Before compiling: a robot that is too large for a spec is not compiled.
     charge_entries(robot.tree, 1, Budget())
     text = None if semantic else _spec_text(robot, sink)
-    judge = _judge_of(SpecFile(file, robot.tree, urdf.path.parent), loader)
-    both = with_srdf(robot, semantic.text, judge, sink, semantic.moved) if semantic else (robot, judge(robot.tree))
+    check = _checker_of(SpecFile(file, robot.tree, urdf.path.parent), loader)
+    both = with_srdf(robot, semantic.text, check, sink, semantic.moved) if semantic else (robot, check(robot.tree))
     if both is None:
         return None
     # The tree has the spans of the files, so faults of the robot are reported there.
@@ -214,30 +214,29 @@ def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnosti
     return open_semantic(XacroUse(srdf, ImportSite(str(srdf), None), arguments), loader, sink)
 
 
-_Taken = Collection[str] | None
+_Names = Collection[str] | None
 """The names of the arguments that the SRDF declares; None if unknown."""
 
 
-def _read_urdf(urdf: _Urdf, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
+def _read_urdf(urdf: _Urdf, arguments: Arguments, declared: _Names, loader: Loader, sink: Diagnostics) -> _Read | None:
     from linkforge_compile.importers.urdf import read_urdf
 
     named, text = urdf
     file = loader.open_xml(named, sink) if text is None else loader.add_xml(str(named), text)
     robot = read_urdf(file, sink, keeps_refused=True) if file else None
     # Reported after reading: a xacro without that suffix could accept them, and is reported as such.
-    if file and robot and taken is not None:
-        for name, entry in arguments.without(taken).entries.items():
+    if file and robot and declared is not None:
+        for name, entry in arguments.without(declared).entries.items():
             note = Note("a URDF takes no arguments", file.whole)
-            sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=taken, notes=[note]))
+            sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=declared, notes=[note]))
     return (file, robot) if file and robot else None
 
 
-def _read_xacro(xacro: Path, arguments: Arguments, taken: _Taken, loader: Loader, sink: Diagnostics) -> _Read | None:
+def _read_xacro(xacro: Path, arguments: Arguments, declared: _Names, loader: Loader, sink: Diagnostics) -> _Read | None:
     from linkforge_compile.expand.xacro import XacroUse, read_xacro
 
-    expanded = read_xacro(
-        XacroUse(xacro, ImportSite(str(xacro), None), arguments, used_elsewhere=taken), loader, sink, keeps_refused=True
-    )
+    use = XacroUse(xacro, ImportSite(str(xacro), None), arguments, used_elsewhere=declared)
+    expanded = read_xacro(use, loader, sink, keeps_refused=True)
     return (expanded.file, expanded.imported) if expanded else None
 
 

@@ -263,7 +263,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
         robot = robot_of(spec, settings, loader, meshes, sink) if spec else None
         if robot is not None and robot.extra_elements:
             # Only of the compiled robot: an import keeps raw XML that has the name of another part.
-            from linkforge_compile.formats.extra_limits import check_raw_names
+            from linkforge_compile.formats.limits import check_raw_names
 
             sink.report_all(check_raw_names(robot))
         suppressions = loader.suppressions

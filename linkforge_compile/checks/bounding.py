@@ -252,14 +252,6 @@ def _matrix(*numbers: float) -> Matrix:
     return ((a, b, c, d), (e, f, g, h), (i, j, k, m))
 
 
-def _translation(x: float, y: float, z: float) -> Matrix:
-    return ((1, 0, 0, x), (0, 1, 0, y), (0, 0, 1, z))
-
-
-def _scaling(x: float, y: float, z: float) -> Matrix:
-    return ((x, 0, 0, 0), (0, y, 0, 0), (0, 0, z, 0))
-
-
 def _rotation(x: float, y: float, z: float, degrees: float) -> Matrix:
     """Return the rotation about an axis of any length (Rodrigues)."""
     length = math.hypot(x, y, z)
@@ -277,9 +269,9 @@ def _rotation(x: float, y: float, z: float, degrees: float) -> Matrix:
 
 _TRANSFORMS: Mapping[str, Callable[..., Matrix]] = {
     "matrix": _matrix,
-    "translate": _translation,
+    "translate": lambda x, y, z: ((1, 0, 0, x), (0, 1, 0, y), (0, 0, 1, z)),
     "rotate": _rotation,
-    "scale": _scaling,
+    "scale": lambda x, y, z: ((x, 0, 0, 0), (0, y, 0, 0), (0, 0, z, 0)),
 }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import takewhile
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -205,18 +205,14 @@ _TRUTHS = {"true": 1.0, "yes": 1.0, "false": 0.0, "no": 0.0}
 def _merged_joints(robot: Robot) -> Sequence[Joint]:
     """Return the fixed joints that no block keeps."""
     fixed = [joint for joint in robot.joints if joint.type == JointType.FIXED and joint.parent != WORLD]
-    kept = _kept(robot, {joint.name for joint in fixed})
-    return [joint for joint in fixed if joint.name not in kept]
-
-
-def _kept(robot: Robot, fixed_joints: Set[str]) -> set[str | None]:
-    """Return those of the fixed joints that a block keeps."""
-    blocks = [block for block in robot.gazebo_elements if block.reference in fixed_joints]
+    names = {joint.name for joint in fixed}
+    blocks = [block for block in robot.gazebo_elements if block.reference in names]
     if not blocks:
-        return set()
+        return fixed
     from linkforge_compile.core.models.gazebo import keeps_fixed_joint
 
-    return {block.reference for block in blocks if keeps_fixed_joint([block])}
+    kept = {block.reference for block in blocks if keeps_fixed_joint([block])}
+    return [joint for joint in fixed if joint.name not in kept]
 
 
 def _merged_weights(robot: Robot, above: Mapping[str, Joint]) -> Mapping[str, float]:
@@ -224,17 +220,11 @@ def _merged_weights(robot: Robot, above: Mapping[str, Joint]) -> Mapping[str, fl
     into = {joint.child: joint.parent for joint in _merged_joints(robot) if above[joint.child] is joint}
     weights = {link.name: 0.0 for link in robot.links if link.name not in into}
     for link in robot.links:
-        name = _merge_target(link.name, into)
-        if name in weights:
-            weights[name] += link.mass
+        *way, end = walk_up(link.name, into)
+        into.update(dict.fromkeys(way, end))  # so that a chain is walked once
+        if end in weights:
+            weights[end] += link.mass
     return weights
-
-
-def _merge_target(link: str, into: dict[str, str]) -> str:
-    """Return the link that a link is merged into in the end, and record it for all links between, to walk them once."""
-    *way, end = walk_up(link, into)
-    into.update(dict.fromkeys(way, end))
-    return end
 
 
 def _links_that_carry_mass(robot: Robot, above: Mapping[str, Joint]) -> set[str]:

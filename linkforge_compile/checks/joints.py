@@ -33,18 +33,17 @@ WITHIN_LIMITS: dict[str, str] = {JointType.REVOLUTE: "rad", JointType.PRISMATIC:
 ROUNDING = 1e-4
 """The tolerance on limits [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
 
-
 _SIZES = {"deg": math.pi / 180, "°": math.pi / 180, "mm": 0.001, "cm": 0.01}
 """Units in which positions are often written, in [rad] or [m]."""
 
 _UNIT = re.compile(r"[0-9.]\s*(?P<unit>deg|°|mm|cm)['\"]?")
 
-_SAYS_UNIT = re.compile(r"[0-9]\.?\s*(?![eE][-+]?[0-9])[^\W\d_]|°|\$\(")
+_HAS_UNIT = re.compile(r"[0-9]\.?\s*(?![eE][-+]?[0-9])[^\W\d_]|°|\$\(")
 
 
-def says_unit(text: str | None) -> bool:
+def has_unit(text: str | None) -> bool:
     """Return whether a number is written with a unit, or as an expression, which may have one; False for no text."""
-    return bool(text and _SAYS_UNIT.search(text))
+    return bool(text and _HAS_UNIT.search(text))
 
 
 def unit_in(text: str | None) -> str | None:
@@ -113,16 +112,11 @@ def _range(joint: Joint, lower: float | None, upper: float | None, unit: str | N
 AXIS_JOINTS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 """The types whose position is one number, which is all that a mimic can multiply."""
 
-BOUNDED_JOINTS = (JointType.REVOLUTE, JointType.PRISMATIC)
-
 FASTEST: dict[str, float] = {JointType.REVOLUTE: 20 * math.pi, JointType.PRISMATIC: 20.0}
 """A faster joint has its speed in other units [rad/s] or [m/s]: fast legs have 40 rad/s."""
 
 NO_SPEED, UNBOUNDED = 100.0, 1000.0
 """The speed that exporters write by default, and that from which on there is no limit [SI]."""
-
-ROUNDING = 1e-4
-"""How far a soft limit may pass a limit [rad] or [m]: 1.5708 for a quarter turn is no mistake."""
 
 
 def check_mimic_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -174,12 +168,12 @@ def check_mimic_range(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint that mimics another can follow it as far as it goes.
 
     Where the leader's range, times `multiplier` plus `offset`, passes a limit of the follower, simulators stop one of
-    the two, or let the follower pass its limit, and planners find states that no robot takes. Correct the sign of the
-    `multiplier` or of the `axis`, or the limits of one of the two.
+    the two, or let the follower pass its limit, and planners find states that no robot can reach. Correct the sign of
+    the `multiplier` or of the `axis`, or the limits of one of the two.
     """
     for joint in robot.joints:
         leader = robot.joints.get(joint.mimic.joint) if joint.mimic else None
-        if joint.mimic and leader and {joint.type, leader.type}.issubset(BOUNDED_JOINTS):
+        if joint.mimic and leader and {joint.type, leader.type}.issubset(WITHIN_LIMITS):
             driven = _driven_range(joint.mimic, leader)
             if driven and (own := passed_range(joint, *driven)):
                 own_range, found = own
@@ -207,7 +201,7 @@ def check_joint_range(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """
     for joint in robot.joints:
         limits = joint.limits
-        if joint.type not in BOUNDED_JOINTS or limits is None:
+        if joint.type not in WITHIN_LIMITS or limits is None:
             continue
         if None in (limits.lower, limits.upper):
             if (limits.lower or 0.0) >= (limits.upper or 0.0):
@@ -264,7 +258,7 @@ def check_joint_speed(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
         velocity = joint.limits.velocity if joint.limits else None
         if fastest is None or velocity is None or velocity == NO_SPEED or not fastest < velocity < UNBOUNDED:
             continue
-        if joint.source and says_unit(joint.source.at("limits", "velocity").text):
+        if joint.source and has_unit(joint.source.at("limits", "velocity").text):
             continue  # a written unit is no mistake
         found, is_turning = f"{velocity:.6g}", joint.type == JointType.REVOLUTE
         also = f", {velocity / math.tau:.3g} turns a second" if is_turning else ""
@@ -288,11 +282,11 @@ def check_soft_limits(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The soft limits of a safety controller lie within the limits of its joint, the lower one below the upper one.
 
     A controller begins to brake there. A soft limit beyond the stop never acts; with the two crossed, or a missing
-    one that URDF reads as 0, the joint is held everywhere. Without `k_position` nothing acts on positions.
+    one that URDF reads as 0, the joint cannot move. Without `k_position` nothing acts on positions.
     """
     for joint in robot.joints:
         safety, limits = joint.safety_controller, joint.limits
-        if safety is None or not safety.k_position or joint.type not in BOUNDED_JOINTS or limits is None:
+        if safety is None or not safety.k_position or joint.type not in WITHIN_LIMITS or limits is None:
             continue
         if not is_known(safety.soft_lower_limit, safety.soft_upper_limit):
             continue

@@ -115,8 +115,8 @@ def _driven_joints(robot: Robot) -> Iterator[Reference]:
 def _claimed_twice(robot: Robot, key: str, code: Code) -> Iterator[Diagnostic]:
     first: dict[str, Reference] = {}
     for control in robot.ros2_controls:
-        for interface in _interfaces_of_system(control, key):
-            ref = interface.ref
+        parts: tuple[Component, ...] = (*control.joints, *control.gpios, *control.sensors)
+        for ref in [interface.ref for part in parts for interface in _interfaces_of(control, part, key)]:
             earlier = first.setdefault(ref.name, ref)
             if earlier.user != ref.user:
                 notes = earlier.notes(f"{earlier.user} has it here")
@@ -144,13 +144,6 @@ class Interface(NamedTuple):
     name: str
     ref: Reference
     parameters: Mapping[str, str]
-
-
-def _interfaces_of_system(control: Ros2Control, key: str) -> Iterator[Interface]:
-    """Yield the command or the state interfaces of a system, by `key`: those of joints, gpios, then sensors."""
-    parts: tuple[Component, ...] = (*control.joints, *control.gpios, *control.sensors)
-    for part in parts:
-        yield from _interfaces_of(control, part, key)
 
 
 def _interfaces_of(control: Ros2Control, part: Component, key: str) -> Iterator[Interface]:

@@ -83,7 +83,7 @@ def check_topics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The topic of a sensor is a valid ROS 2 topic name.
 
     Names between slashes hold ASCII letters, digits and `_`, and do not begin with a digit; `~` is at the
-    very start, before a `/`; `{name}` is a substitution. Gazebo takes more (`front-camera`), but the bridge to
+    very start, before a `/`; `{name}` is a substitution. Gazebo accepts more (`front-camera`), but the bridge to
     ROS 2 then fails. A prefix that begins with a digit spoils the topics of its module.
     """
     for sensor in robot.sensors:

@@ -110,7 +110,7 @@ def check_virtual_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[
 def check_virtual_joint_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A virtual joint does not have the name of a joint.
 
-    MoveIt keeps both under one name and takes the one for the other, in groups and states too. Rename it.
+    MoveIt keeps both under one name and confuses the two, in groups and states too. Rename it.
     """
     for virtual in robot.semantic.virtual_joints:
         if joint := robot.joints.get(virtual.name):
@@ -284,7 +284,7 @@ def _counted(values: tuple[object, ...]) -> str:
 def check_states_of_mimics(robot: Robot, _: UnresolvedNames, _links: LinkSets) -> Iterator[Diagnostic]:
     """A state gives a joint that mimics another the position that follows from the other.
 
-    MoveIt takes the one or the other value, as their names are sorted, and a robot can take only one of the two
+    MoveIt reads one value or the other, as their names are sorted, and a robot can take only one of the two
     poses. Leave the follower out of the state: its position follows from that of its leader, times `multiplier`
     plus `offset`.
     """
@@ -307,8 +307,8 @@ def check_states_of_mimics(robot: Robot, _: UnresolvedNames, _links: LinkSets) -
 def check_states_are_whole(robot: Robot, unresolved: UnresolvedNames, links: LinkSets) -> Iterator[Diagnostic]:
     """A state has a position for every joint of its group.
 
-    MoveIt warns of a joint that a state leaves out, and leaves it where it happens to be, so that one name stands
-    for many poses. That may be what you want: open fingers whatever the wrist does. Fixed and passive joints and
+    MoveIt warns of a joint that a state leaves out, and leaves it where it happens to be, so that one name is
+    that of many poses. That may be what you want: open fingers whatever the wrist does. Fixed and passive joints and
     those that mimic others need no value. Not checked while part of the robot could not be read, nor for a state
     with a joint that is not in its group, which may be the missing one.
     """

@@ -26,7 +26,7 @@ from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
 def check_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A robot has at least one link.
 
-    No reader of URDF takes a robot without links. Declare one under `links`, or use a module that has some.
+    No reader of URDF accepts a robot without links. Declare one under `links`, or use a module that has some.
     """
     if not robot.links and not unresolved:
         yield NO_LINKS.at(robot.source, "links", robot=robot.name)

@@ -159,7 +159,7 @@ def _report_crash(error: Exception, words: Sequence[str]) -> int:
     import shlex
     import traceback
 
-    from linkforge_compile.formats.own_templates import TemplateFaultError
+    from linkforge_compile.formats.environment import TemplateFaultError
     from linkforge_compile.source.characters import on_one_line
 
     if isinstance(error, TemplateFaultError):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkforge_compile.compare.difference import Difference, Kind, Plain
-from linkforge_compile.compare.renames import RemovedName, removed_public_names
+from linkforge_compile.compare.matching import RemovedName, removed_public_names
 from linkforge_compile.compare.robots import compare
 from linkforge_compile.compare.walk import TOLERANCE
 

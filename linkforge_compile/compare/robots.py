@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.fields import compared_fields, compared_value, key_of_field
-from linkforge_compile.compare.renames import Renames, apply_renames, find_renames
+from linkforge_compile.compare.matching import Renames, apply_renames, find_renames
 from linkforge_compile.compare.walk import TOLERANCE, CompareContext, stated_differences, walk
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot

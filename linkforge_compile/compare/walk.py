@@ -5,22 +5,24 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.compare.difference import Difference, Kind
-from linkforge_compile.compare.fields import RawElement, compared_fields, compared_value, is_part, key_of_field
-from linkforge_compile.compare.numbers import (
+from linkforge_compile.compare.derived import order_differences, pose_differences, tensor_differences
+from linkforge_compile.compare.difference import Difference, Kind, describe, describe_texts, shorten, to_json, to_plain
+from linkforge_compile.compare.fields import (
     BARE,
     Measure,
+    RawElement,
+    compared_fields,
+    compared_value,
     describe_change,
     is_near,
+    is_part,
+    key_of_field,
     measure_of,
     position_measure,
     spell_same_numbers,
     xml_number,
 )
-from linkforge_compile.compare.orders import order_differences
-from linkforge_compile.compare.pairing import key_of_member, pair_members
-from linkforge_compile.compare.poses import pose_differences, tensor_differences
-from linkforge_compile.compare.words import describe, describe_texts, shorten, to_json, to_plain
+from linkforge_compile.compare.matching import key_of_member, pair_members
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.core.models.interface import Interface
@@ -253,7 +255,7 @@ def _compare_fields(
         if name in without:
             continue
         old, new = compared_value(before, name), compared_value(after, name)
-        # A shape stands under its own tag, unless that has changed.
+        # A shape has its own tag in the path, unless that has changed.
         is_same_shape = name == "geometry" and type(old) is type(new)
         key = str(getattr(old, "type", name)) if is_same_shape else key_of_field(type(before), name)
         yield from walk((*path, key), old, new, context.for_field(before, name))

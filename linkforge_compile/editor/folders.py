@@ -136,7 +136,7 @@ class RobotFolder:
         }
 
     def _texts(self, name: str) -> dict[str, str]:
-        from linkforge_compile.formats.own_templates import render_own
+        from linkforge_compile.formats.environment import render_own
 
         values = {
             "name": name,

@@ -235,7 +235,8 @@ def report_interpolated_number(
     """
     if not isinstance(node, YamlScalar) or not isinstance(value, str) or not has_expression(node.text):
         return False
-    if not _looks_like_number(value, node.span):
+    is_number = isinstance(scalar_value(value.strip()), int | float) or parse_quantity(value) is not None
+    if not is_number and forgotten_expression(value, node.span, ()) is None:
         return False
     template = expressions.template(node, sink)
     if template is None or len(template.parts) == 1:
@@ -266,9 +267,3 @@ def _remedy(node: YamlScalar, template: Template, names: Container[str]) -> str:
         case (Expression() as number, str(unit)) if unit.strip() in UNITS:
             return f"give the unit '{unit.strip()}' where the number is written, and here '$({number.text.strip()})'"
     return "make the whole one expression, such as '$(-a)'"
-
-
-def _looks_like_number(text: str, where: Span) -> bool:
-    number = scalar_value(text.strip())
-    is_number = isinstance(number, int | float) or parse_quantity(text) is not None
-    return is_number or forgotten_expression(text, where, ()) is not None

@@ -117,13 +117,14 @@ class _Expansion:
             tree, entries, removed = body.tree, body.entries, body.removed
         charge_entries(tree, len(use.chain), self._state.loader.budget, use.bound.use)
         modules = tuple(self._expand_module(entry, use, scope) for entry in entries)
+        files = [part for one in reversed(use.chain) for part in (one.spec, *one.spec.included.values())]
         scope.check_unused_variables()
         return Instance(
             use.entry.name if use.entry else own_name(tree),
             tree,
             entry=use.entry.ref if use.entry else None,
             prefix=use.entry.prefix if use.entry else "",
-            mesh_bases=self._mesh_bases(use),
+            mesh_bases={part.file: mesh_base(part, self._state.compiled) for part in files if part.folder is not None},
             include_stack=stack,
             modules=modules,
             references=references,
@@ -132,10 +133,6 @@ class _Expansion:
             packages=scope.packages,
             defaults=defaults,
         )
-
-    def _mesh_bases(self, use: _Use) -> dict[SourceFile, str]:
-        files = [part for one in reversed(use.chain) for part in (one.spec, *one.spec.included.values())]
-        return {part.file: mesh_base(part, self._state.compiled) for part in files if part.folder is not None}
 
     def _expand_module(self, entry: ModuleEntry, outer: _Use, scope: FileScope) -> Instance:
         if entry.use is None:
@@ -285,9 +282,8 @@ def with_semantic(
     spec: SpecFile, semantic: Semantic, use: XacroUse, loader: Loader, sink: Diagnostics
 ) -> SpecFile | None:
     """Return a robot with its SRDF merged; None after a reported error. `use` names the SRDF."""
-    from linkforge_compile.importers.comments import Comments
-    from linkforge_compile.importers.document import Imported
-    from linkforge_compile.importers.srdf import with_srdf
+    from linkforge_compile.importers.document import Comments, Imported
+    from linkforge_compile.importers.srdf_with_urdf import with_srdf
 
     def merged(tree: YamlMap) -> SpecFile:
         parts = {file: SpecFile(file, tree, semantic.folder, semantic.package) for file in semantic.files}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import reduce
 from pathlib import Path
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostics, Note
@@ -12,7 +13,6 @@ from linkforge_compile.diagnostics.codes.modules import (
     MODULE_WITHOUT_FILE,
     MODULES_NOT_MAP,
     NOT_A_MODULE,
-    SAME_KEY,
 )
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.arguments import Arguments
@@ -163,8 +163,7 @@ def _with_computed_keys(section: YamlMap, evaluator: Evaluator, folder: Path | N
         if key is None:
             is_partial = True
         elif key.text in entries:
-            notes = [Note("the first is here", entries[key.text].key.span)]
-            evaluator.sink.report(SAME_KEY.at(key.span, name=key.text, notes=notes))
+            evaluator.report_same_key(key, entries[key.text])
         else:
             entries[key.text] = YamlEntry(key, entry.value)
     return Arguments(entries, folder, is_partial=is_partial)
@@ -189,10 +188,7 @@ class ModuleBody:
 
     def with_overrides(self, overrides: Iterable[Override]) -> ModuleBody:
         """Return the body with overrides applied in order; their parts for nested modules go to the entries."""
-        body = self
-        for override in overrides:
-            body = body._with_override(override)
-        return body
+        return reduce(ModuleBody._with_override, overrides, self)
 
     def _with_override(self, override: Override) -> ModuleBody:
         own, nested = _split_nested(override)
@@ -202,12 +198,14 @@ class ModuleBody:
         patched = _without_links(patched, {*names_in_section(before, "links")} - {*names_in_section(patched, "links")})
         section = patched.get("modules")
         left = section.entries if isinstance(section, YamlMap) else {}
-        entries = tuple(
-            _with_nested(
-                _patched_entry(entry, left[entry.name].value, modules.entries[entry.name].value, override), nested
-            )
+        patched_entries = (
+            _patched_entry(entry, left[entry.name].value, modules.entries[entry.name].value, override)
             for entry in self.entries
             if entry.name in left
+        )
+        entries = tuple(
+            replace(entry, overrides=(*entry.overrides, nested[entry.name])) if entry.name in nested else entry
+            for entry in patched_entries
         )
         names = dict(_deleted_names(before, patched, own.patch))
         gone = [(entry, names[entry.name]) for entry in self.entries if entry.name in names]
@@ -250,12 +248,6 @@ def _patched_entry(entry: ModuleEntry, fields: YamlNode, before: YamlNode, overr
     section = fields.get("with")
     arguments = replace(entry.arguments, entries=section.entries if isinstance(section, YamlMap) else {})
     return with_fields(replace(entry, arguments=arguments), _without_key(fields, "with"), override.sink)
-
-
-def _with_nested(entry: ModuleEntry, nested: Mapping[str, Override]) -> ModuleEntry:
-    if entry.name not in nested:
-        return entry
-    return replace(entry, overrides=(*entry.overrides, nested[entry.name]))
 
 
 def _deleted_names(before: YamlMap, after: YamlMap, patch: YamlMap) -> Iterator[tuple[str, Note]]:

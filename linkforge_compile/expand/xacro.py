@@ -227,25 +227,6 @@ def in_order(element: XmlElement) -> list[XmlElement]:
     return [element, *(inner for child in element.children for inner in in_order(child))]
 
 
-_MESSAGES = (
-    (r"Undefined parameters \[(.*)\]", "the macro also takes {0}, which this call does not give"),
-    (r'Invalid parameter "(.*)"', "the macro takes no '{0}'"),
-    (r"Not enough blocks", "the macro takes a block more, an element inside of the call"),
-    (r'Unused block "(.*)"', "the macro takes no block, found <{0}>"),
-    (r'Undefined block "(.*)"', "no block of the macro is named '{0}'"),
-    (r'Xacro conditional "(.*)" evaluated to "(.*)", which.*', "the condition is true or false, found '{1}'"),
-    (r"unsupported operand type\(s\) for (\S+).*: .*'str'.*", "'{0}' takes numbers, found a text"),
-    (r"can't multiply sequence by non-int of type 'float'", "'*' takes numbers, found a text"),
-    (r"environment variable '(.*)' is not set", "the environment variable {0} is not set"),
-    (
-        r"Unknown substitution command \[(.*?)\].*",
-        "'$({0})' is none of $(arg), $(find), $(dirname), $(env), $(optenv)",
-    ),
-    (r"xacro:(\w+): missing attribute '(\w+)'", "<xacro:{0}> has no attribute '{1}'"),
-)
-"""Patterns of xacro's messages and our wording; other messages are shown as they are."""
-
-
 @dataclass(frozen=True)
 class XacroReporter:
     """Reports faults of one use of a xacro file: to `sink` at the use, to `inside` in the file, with a note."""
@@ -313,8 +294,10 @@ class XacroReporter:
         if unknown := re.match(r"unknown macro name: (?:xacro:)?(\S+)", reason):
             macros = self.written.named("xacro:macro")
             return XACRO_UNKNOWN_NAME.at(where, kind="macro", name=unknown[1], near=macros, notes=notes)
+        from linkforge_compile.importers.xacro import plain_message
+
         within = f", in '${{{failed.expressions[-1]}}}'" if failed.expressions else ""
-        return XACRO_FAILED.at(where, problem=_message(reason, failed.kind) + within, notes=notes)
+        return XACRO_FAILED.at(where, problem=plain_message(reason, failed.kind) + within, notes=notes)
 
     def _where(self, failed: Failed, place: Span | None) -> tuple[Span | None, list[Note]]:
         """Return where the failed expression is written, with a note on what needs it if that is elsewhere."""
@@ -348,11 +331,3 @@ def _find_expression(expression: str, elements: Iterable[XmlElement]) -> Span | 
     text = f"${{{expression}}}"
     found = ((element, name) for element in elements for name, value in element.values.items() if text in value)
     return next((element.attributes[name].span for element, name in found), None)
-
-
-def _message(reason: str, kind: str) -> str:
-    line = " ".join(reason.split())
-    for pattern, words in _MESSAGES:
-        if found := re.fullmatch(pattern, line):
-            return words.format(*found.groups())
-    return f"there is no key {line}" if kind == "KeyError" else line

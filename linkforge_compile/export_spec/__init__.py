@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.export_spec.builder import SpecBuilder
-from linkforge_compile.export_spec.computed_inertia import ComputedFrom
-from linkforge_compile.export_spec.explain import Explanation, UnknownPathError, explain
+from linkforge_compile.export_spec.explain import ComputedFrom, Explanation, UnknownPathError, explain
 from linkforge_compile.export_spec.provenance import compiled_folder, origin_of
 from linkforge_compile.export_spec.robot import spec_of
 from linkforge_compile.syntax.writer import write

@@ -23,7 +23,7 @@ from linkforge_compile.core.fields import (
     field_specs,
 )
 from linkforge_compile.core.models.gazebo import GazeboPlugin
-from linkforge_compile.core.models.geometry import Transform, Vector3
+from linkforge_compile.core.models.geometry import Box, Geometry, Mesh, Sphere, Transform, Vector3
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.material import Color
 from linkforge_compile.core.models.ros2_control import Ros2Control
@@ -173,3 +173,28 @@ def export_plugin(builder: SpecBuilder, plugin: GazeboPlugin, *, is_named: bool)
         plugin = replace(plugin, parameters={}, extra_elements=(plugin.raw_xml, *plugin.extra_elements))
     name = {"name": builder.text(plugin.name)} if is_named else {}
     return builder.element(plugin, **name, **export_fields(builder, plugin))
+
+
+def export_geometry(builder: SpecBuilder, shape: Geometry) -> dict[str, YamlNode]:
+    """Return the shape of a visual or collision under its key."""
+    node: YamlNode
+    match shape:
+        case Box():
+            node = builder.alone(export_element(builder, shape), "size")
+        case Sphere():
+            node = builder.alone(export_element(builder, shape), "radius")
+        case Mesh():
+            node = builder.alone(export_element(builder, shape, scale=_scale(builder, shape)), "file")
+        case _:
+            node = export_element(builder, shape)
+    return {str(shape.type): node}
+
+
+def _scale(builder: SpecBuilder, mesh: Mesh) -> YamlNode | None:
+    """Return one number for three equal ones; None for a scale that is not written."""
+    scale = mesh.scale
+    if builder.full:
+        return builder.numbers(scale)
+    if not mesh.is_scale_written:
+        return None
+    return builder.number(scale.x) if scale.x == scale.y == scale.z else builder.numbers(scale)

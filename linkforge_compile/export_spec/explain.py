@@ -1,4 +1,4 @@
-"""How a value of a finished robot came to be: what it is, where it was written, and through which files it came."""
+"""Explain a value of a robot: what it is, where it was written or what it was computed from."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from linkforge_compile.core.models.link import Collision, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.expand.values import NameOrigin, is_default, names_behind
 from linkforge_compile.export_spec.builder import SpecBuilder
-from linkforge_compile.export_spec.computed_inertia import ComputedFrom, computed_from
 from linkforge_compile.export_spec.provenance import place_of
 from linkforge_compile.export_spec.robot import spec_of
 from linkforge_compile.source import SourceRef, Span
@@ -25,7 +25,7 @@ _SHORT_FORMS = {"origin": "xyz", "box": "size", "sphere": "radius", "mesh": "fil
 class UnknownPathError(LookupError):
     """A path leads nowhere: `owner` is as far as it leads, "" for the robot itself, and `names` is what is there.
 
-    `paths` lead to what has a name, by that name: for who gives the name alone.
+    `paths` has the path of each named part, by its name.
     """
 
     def __init__(self, owner: str, name: str, names: Sequence[str], paths: Mapping[str, str]) -> None:
@@ -55,7 +55,7 @@ class Explanation:
 
 
 class _Step(NamedTuple):
-    """A key, or a position in a list, and what stands there."""
+    """A key, or a position in a list, and the node at it."""
 
     key: str
     node: YamlNode
@@ -206,7 +206,7 @@ def _overridden(node: Located, path: str) -> Iterator[Link]:
 
 
 def _written_child(node: Located, name: str, key: str) -> Located | None:
-    """Return what was written for a key of the long form; what was written short stands for all of it."""
+    """Return what was written for a key of the long form; a short form is all that was written."""
     if not isinstance(node, YamlMap):
         is_short = key == _SHORT_FORMS.get(name) or (isinstance(node, YamlScalar) and key.isdecimal())
         return node if is_short else node.child(int(key)) if key.isdecimal() else None
@@ -230,3 +230,47 @@ def _text(path: str, node: YamlNode, builder: SpecBuilder) -> str:
     number = node.items[0] if isinstance(node, YamlList) and len(node) else node
     unit = builder.units.get(number)
     return text if unit is None else f"{text} {unit.si_unit}"
+
+
+_COMPUTED = ("origin", "inertia")
+
+
+class Shape(NamedTuple):
+    """A shape of the link: its path, such as `collision/0`, its geometry, and where it was written."""
+
+    path: str
+    geometry: str
+    place: Span | None
+
+
+class ComputedFrom(NamedTuple):
+    """The quantity, `mass` or `density`, where it was written, and the shapes that it is distributed over."""
+
+    quantity: str
+    place: Provenance
+    shapes: tuple[Shape, ...]
+
+
+def computed_from(robot: Robot, path: Sequence[str]) -> ComputedFrom | None:
+    """Return what the value at a path of a full spec was computed from; None unless it is part of such an inertial."""
+    match path:
+        case ("links", name, "inertial", *rest) if name in robot.links:
+            link, field = robot.link(name), rest[0] if rest else None
+        case _:
+            return None
+    source = link.inertial.source if link.inertial else None
+    node = source.node if source else None
+    if not isinstance(node, YamlMap) or node.get("inertia") is not None:
+        return None
+    quantity = "mass" if node.get("mass") is not None else "density"
+    spread = node.get(quantity)
+    is_computed = field in {None, *_COMPUTED} or (field == "mass" and quantity == "density")
+    if spread is None or not is_computed:
+        return None
+    kind = "collision" if link.collisions else "visual"
+    bodies: Sequence[Visual | Collision] = link.collisions or link.visuals
+    shapes = tuple(
+        Shape(f"{kind}/{place}", body.geometry.type.value, body.source.span if body.source else None)
+        for place, body in enumerate(bodies)
+    )
+    return ComputedFrom(quantity, place_of(spread.span), shapes)

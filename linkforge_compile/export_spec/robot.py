@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping, Sequence
+
+from linkforge_compile.core.constants import HW_IF_POSITION
+from linkforge_compile.core.models.geometry import Vector3
+from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.link import Collision, Link, LinkPhysics, Visual
+from linkforge_compile.core.models.material import Material
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.shape_order import COLLISION, VISUAL, shortest_setting
+from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.export_spec.builder import SpecBuilder
-from linkforge_compile.export_spec.elements import export_element
+from linkforge_compile.export_spec.elements import export_element, export_fields, export_geometry
 from linkforge_compile.export_spec.gazebo import GazeboPlaces, export_blocks, find_gazebo_places
-from linkforge_compile.export_spec.joint import export_joint
-from linkforge_compile.export_spec.link import export_frame, export_link, find_frames
 from linkforge_compile.export_spec.srdf import export_semantic
-from linkforge_compile.export_spec.transmission import export_transmission
-from linkforge_compile.syntax import YamlMap, YamlScalar
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
 _LANGUAGE_VERSION = 1
 
@@ -72,3 +79,143 @@ def _tree_sections(builder: SpecBuilder, robot: Robot, gazebo: GazeboPlaces) -> 
         "joints": builder.named("joint", joint_nodes),
         "frames": builder.named("frame", frame_nodes),
     }
+
+
+def export_link(
+    builder: SpecBuilder, link: Link, materials: Mapping[str, Material], gazebo: YamlNode | None
+) -> YamlMap:
+    """Return a link with the Gazebo blocks about it; `materials` are the robot's, which visuals name."""
+    visuals = [
+        _shape(builder, one, material=_visual_material(builder, one.material, materials)) for one in link.visuals
+    ]
+    shapes = {VISUAL: _one_or_list(builder, visuals), COLLISION: _collisions(builder, link)}
+    kinds = [VISUAL if isinstance(shape, Visual) else COLLISION for shape in link.shapes]
+    order = shortest_setting(kinds)
+    return builder.element(
+        link,
+        # The order of these keys is the order of the output.
+        **dict(reversed(shapes.items()) if kinds[:1] == [COLLISION] else shapes),
+        shape_order=builder.text(order) if order is None or isinstance(order, str) else builder.texts(order),
+        inertial=export_element(builder, link.inertial) if link.inertial else None,
+        physics=_physics(builder, link.physics),
+        gazebo=gazebo,
+    )
+
+
+def _collisions(builder: SpecBuilder, link: Link) -> YamlNode | None:
+    copies = [Collision(visual.geometry, visual.origin) for visual in link.visuals]
+    if copies and copies == list(link.collisions) and not builder.full:
+        return builder.text("visual")
+    return _one_or_list(builder, [_shape(builder, collision) for collision in link.collisions])
+
+
+def _shape(builder: SpecBuilder, shape: Visual | Collision, **entries: YamlNode | None) -> YamlNode:
+    return builder.element(
+        shape,
+        name=builder.text(shape.name),
+        **export_geometry(builder, shape.geometry),
+        **export_fields(builder, shape, given=entries, without=("name",)),
+    )
+
+
+def _one_or_list(builder: SpecBuilder, shapes: Sequence[YamlNode]) -> YamlNode | None:
+    if not shapes:
+        return None
+    return shapes[0] if len(shapes) == 1 and not builder.full else builder.list_of(shapes)
+
+
+def _visual_material(
+    builder: SpecBuilder, material: Material | None, materials: Mapping[str, Material]
+) -> YamlNode | None:
+    """Return the name of a material that the robot declares so, all of any other."""
+    if material is None:
+        return None
+    if materials.get(material.name) == material:
+        return builder.text(material.name)
+    name = builder.text(material.name, default="")
+    return builder.element(material, name=name, **export_fields(builder, material, without=("after_links",)))
+
+
+def _physics(builder: SpecBuilder, physics: LinkPhysics) -> YamlNode | None:
+    node = builder.map_of(export_fields(builder, physics))
+    return builder.located(node, physics.source) if len(node) else None
+
+
+def find_frames(robot: Robot) -> list[tuple[Link, Joint]]:
+    """Return the links at the end of the robot that are frames, with their joints.
+
+    A frame is an empty link on a fixed joint, without Gazebo blocks. Frames are written after all other links and
+    joints, so an empty link among those stays a link.
+    """
+    references = {element.reference for element in robot.gazebo_elements}
+    frames: list[tuple[Link, Joint]] = []
+    for link, joint in zip(reversed(tuple(robot.links)), reversed(tuple(robot.joints)), strict=False):
+        if not _is_frame(link, joint) or references & {link.name, joint.name}:
+            break
+        frames.append((link, joint))
+    return frames[::-1]
+
+
+def export_frame(builder: SpecBuilder, link: Link, joint: Joint) -> YamlMap:
+    """Return a frame, with the name of its joint if that is not `LINK_joint`."""
+    entries = export_fields(builder, joint)
+    name = builder.text(joint.name, default=f"{link.name}_joint")
+    node = builder.map_of({"parent": entries["parent"], "origin": entries["origin"], "joint": name})
+    return builder.located(node, link.source or joint.source)
+
+
+def _is_frame(link: Link, joint: Joint) -> bool:
+    is_empty = link.name == joint.child and link == Link(link.name)
+    return is_empty and joint == Joint(joint.name, JointType.FIXED, joint.parent, joint.child, joint.origin)
+
+
+_AXES = {
+    sign + name: Vector3(*(factor if name == axis else 0.0 for axis in "xyz"))
+    for sign, factor in (("", 1.0), ("-", -1.0))
+    for name in "xyz"
+}
+
+
+def export_joint(builder: SpecBuilder, joint: Joint, gazebo: YamlNode | None) -> YamlMap:
+    """Return a joint with the Gazebo blocks about it."""
+    return export_element(builder, joint, joint.type.motion, axis=_axis(builder, joint), gazebo=gazebo)
+
+
+def _axis(builder: SpecBuilder, joint: Joint) -> YamlNode | None:
+    """Return the vector that was written, else the axis as a word, such as `-z`, else as a unit vector."""
+    if joint.axis is None:
+        return None
+    written = joint.axis_as_written
+    if written and _direction(written) == joint.axis:
+        return builder.numbers(written)
+    word = next((word for word, axis in _AXES.items() if axis == joint.axis), None)
+    return builder.numbers(joint.axis) if word is None else builder.text(word)
+
+
+def _direction(vector: Vector3) -> Vector3 | None:
+    length = math.hypot(*vector)
+    return Vector3(*(component / length for component in vector)) if length else None
+
+
+def export_transmission(builder: SpecBuilder, transmission: Transmission) -> YamlMap:
+    """Return a transmission."""
+    joints = ((joint.name, _end(builder, joint)) for joint in transmission.joints)
+    actuators = ((actuator.name, _end(builder, actuator)) for actuator in transmission.actuators)
+    return export_element(
+        builder,
+        transmission,
+        joints=builder.named("transmission joint", joints, with_origins=False),
+        actuators=builder.named("actuator", actuators, with_origins=False),
+    )
+
+
+def _end(builder: SpecBuilder, end: TransmissionJoint | TransmissionActuator) -> YamlMap:
+    is_default = tuple(end.hardware_interfaces) == (HW_IF_POSITION,) and not builder.full
+    interfaces = None if is_default else builder.texts(end.hardware_interfaces)
+    return export_element(
+        builder,
+        end,
+        hardware_interfaces=interfaces if end.interfaces_stated else builder.list_of(()),
+        # Written even if it is 1: without it there is no reduction in the URDF.
+        mechanical_reduction=builder.number(end.mechanical_reduction),
+    )

@@ -1,4 +1,4 @@
-"""Elements of the parts of a robot: attributes by the specs of their fields, then what no field covers."""
+"""Elements of the parts of a robot: attributes by the specs of their fields, parameters, then what no field covers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,19 @@ from linkforge_compile.core.fields import field_specs, number_fields
 from linkforge_compile.core.part import Element, Inside, attribute_pairs
 from linkforge_compile.core.raw_xml import RawXml
 from linkforge_compile.formats.source_map import active_origins, origin_of
-from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml, escaped, is_xml_name, spelled
+from linkforge_compile.formats.xml_text import (
+    KEEPS_SPACE,
+    NOTHING,
+    Spellable,
+    Xml,
+    element_text,
+    escaped,
+    is_of_numpy,
+    is_writable,
+    is_xml_name,
+    raw_text,
+    spelled,
+)
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import double_text
 
@@ -207,13 +219,18 @@ def leaf(part: Element, tag: str = "", /, **changes: Spellable | None) -> Xml:
 
 def attributes_of(part: Element, /, **changes: Spellable | None) -> Xml:
     """Return the attributes of a part, by the specs of its fields; `changes` are values by attribute, None for none."""
-    return attributes(part, **_attribute_values(part, changes))
+    values = _attribute_values(part, changes)
+    if part.extra_attributes or active_origins():
+        return attributes(part, **values)
+    return Xml(_stated_alone(values)) if values else NOTHING
 
 
 def _attribute_values(part: object, changes: Mapping[str, Spellable | None]) -> dict[str, Spellable | None]:
     kind: type = type(part)
     getters, implied = _attribute_getters(kind)
     values = {name: get(part) for name, get in getters}
+    if not (implied or changes):
+        return values  # most parts
     for name, value in implied:  # not written, unless the author did
         if values[name] == value and name not in part.stated:  # type: ignore[attr-defined]  # of classes that have it
             values[name] = None
@@ -241,3 +258,56 @@ def _attribute_getters(
     optional = number_fields(kind).items() if hasattr(kind, "stated") else ()
     implied = tuple((field, spec.implied) for field, spec in optional if spec.xml == f"@{field}")
     return tuple((name, attrgetter(*fields[name])) for name in names), implied
+
+
+def parameter_elements(parameters: Mapping[str, object], source: SourceRef | None = None, *path: str | int) -> Xml:
+    """Return the parameters of a free part as child elements.
+
+    A mapping is an element with children, where a key `_x` is its attribute `x` and `_text` its text; a list
+    repeats its tag; anything else is text. They were written under `path` of what `source` points to.
+
+    Raises:
+        RobotGeneratorError: for a key that cannot be a tag.
+
+    """
+    return Xml(_elements(parameters, source, path))
+
+
+def is_surely_writable(part: object) -> bool:
+    """Whether a free part is texts and maps of texts that XML can hold; a no means that writing it will tell."""
+    if isinstance(part, str):
+        return is_writable(part)
+    if not isinstance(part, dict):
+        return False
+    return all(key[:1] != "_" and is_xml_name(key) and is_surely_writable(inner) for key, inner in part.items())
+
+
+def _elements(parameters: Mapping[str, object], source: SourceRef | None, path: tuple[str | int, ...]) -> str:
+    elements: list[str] = []
+    for tag, value in parameters.items():
+        if not isinstance(value, str) and isinstance(value, Sequence):
+            elements += [_element(tag, item, source, (*path, tag, number)) for number, item in enumerate(value)]
+        else:
+            elements.append(_element(tag, value, source, (*path, tag)))
+    return "".join(elements)
+
+
+def _element(tag: str, value: object, source: SourceRef | None, path: tuple[str | int, ...]) -> str:
+    _require_name(tag)
+    if isinstance(value, str) or not isinstance(value, Mapping):
+        return element_text(tag, (), raw_text(_text(value)), origin_of(source, *path))
+    attributes = [(key[1:], _text(item)) for key, item in value.items() if key.startswith("_") and key != "_text"]
+    for name, _ in attributes:
+        _require_name(name)
+    children = _elements({key: item for key, item in value.items() if not key.startswith("_")}, source, path)
+    text, origin = raw_text(_text(value.get("_text", ""))), origin_of(source, *path)
+    return element_text(tag, attributes, text + children, origin + KEEPS_SPACE if text.isspace() else origin)
+
+
+def _text(value: object) -> str:
+    return spelled(value) if isinstance(value, float | int) or is_of_numpy(value) else str(value)
+
+
+def _require_name(name: str) -> None:
+    if not is_xml_name(name):
+        raise RobotGeneratorError(f"'{name}' cannot be the name of an XML element or attribute")

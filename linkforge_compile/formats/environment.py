@@ -1,12 +1,13 @@
-"""The Jinja2 environment that renders our own templates, and what that of a user's folder has in common with it."""
+"""The Jinja2 environment of our own templates, their rendering, and what it has in common with that of a user's."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
+from traceback import walk_tb
 from typing import TYPE_CHECKING, Any
 
 import jinja2
@@ -16,18 +17,23 @@ from jinja2 import (
     FileSystemLoader,
     ModuleLoader,
     StrictUndefined,
+    TemplateError,
     TemplateRuntimeError,
+    TemplateSyntaxError,
     pass_eval_context,
 )
 from jinja2.nodes import EvalContext
+from jinja2.runtime import Undefined
 
 from linkforge_compile.core.models.geometry import Transform, Vector3
+from linkforge_compile.core.models.material import Color
 from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml, escaped, spelled
 from linkforge_compile.resources import compiled_templates_folder, templates_folder
 from linkforge_compile.units import number_text
 
 if TYPE_CHECKING:
     import yaml
+
 
 XML_ENDINGS = (".xml.j2", ".urdf.j2", ".srdf.j2")
 """How the names of templates end that write XML."""
@@ -183,3 +189,79 @@ def _compiled() -> BaseLoader | None:
     except FileNotFoundError:
         return None
     return ModuleLoader(folder) if made_by == jinja2.__version__ else None
+
+
+class TemplateFaultError(Exception):
+    """A template of linkforge was changed and cannot be rendered; the message has its file, line and fault."""
+
+    def __init__(self, path: Path, line: int, reason: str) -> None:
+        super().__init__(
+            f"{path}:{line}: {reason}; this template is a part of linkforge: mend it, or install linkforge again"
+        )
+
+
+def render_own(template: str, views: Mapping[str, object]) -> str:
+    """Render one of our own templates and return its text, not laid out.
+
+    Raises:
+        RobotGeneratorError: for text that XML cannot hold.
+        TemplateFaultError: for a template that was changed and cannot be rendered.
+
+    """
+    try:
+        return own_environment().get_template(template).render(views)
+    except TemplateSyntaxError as error:
+        path = Path(error.filename or templates_folder() / template)
+        raise TemplateFaultError(path, error.lineno, str(error.message)) from None
+    except TemplateError as error:
+        path, line = next(_places(error), (templates_folder() / template, 1))
+        raise TemplateFaultError(path, line, str(error)) from None
+
+
+def _places(error: BaseException) -> Iterator[tuple[Path, int]]:
+    """Yield the lines of templates that led to an error, the innermost first."""
+    steps = [(Path(frame.f_code.co_filename), line) for frame, line in walk_tb(error.__traceback__)]
+    return ((path, line) for path, line in reversed(steps) if path.suffix == ".j2")
+
+
+def require_text(value: object, count: Callable[[], None]) -> None:
+    """Refuse a value without a text of its own, in a list or a map as well, each item of which is counted.
+
+    Raises:
+        TemplateRuntimeError: with what to write instead.
+        UndefinedError: for an undefined name.
+
+    """
+    if isinstance(value, Mapping):
+        _require_all((one for pair in value.items() for one in pair), count)
+    elif isinstance(value, list | tuple) and not hasattr(value, "_fields"):
+        _require_all(value, count)
+    elif isinstance(value, Undefined):
+        str(value)  # reports the name
+    elif not _is_plain(value) and not isinstance(value, Vector3 | Transform | Color) and not hasattr(value, "__html__"):
+        raise TemplateRuntimeError(_reason(value))
+
+
+def _require_all(items: Iterable[object], count: Callable[[], None]) -> None:
+    """Refuse what has no text in a list, where Python writes the repr of an object: a vector has none there."""
+    for item in items:
+        count()
+        if isinstance(item, Vector3 | Transform | Color):
+            raise TemplateRuntimeError(f"{describe(item)} has no text in a list; write '| join(\", \")'")
+        require_text(item, count)
+
+
+def _is_plain(value: object) -> bool:
+    # A number or an array of NumPy has a text as well.
+    return value is None or isinstance(value, str | int | float | complex) or hasattr(value, "ndim")
+
+
+def _reason(value: object) -> str:
+    if callable(value):
+        name = getattr(value, "__name__", None) or getattr(value, "name", type(value).__name__)
+        return f"'{name}' is not called, and has no text; write '{name}()'"
+    if isinstance(value, set | frozenset):
+        return "a set has no order, so the text would differ from run to run; write '| sort'"
+    if isinstance(value, Iterable) and not hasattr(value, "_fields"):
+        return f"{describe(value)} has no text; write '| list' or '| join(\", \")'"
+    return f"{describe(value)} has no text; write one of its fields{', such as its name' * hasattr(value, 'name')}"

@@ -1,27 +1,36 @@
-"""Limits that all formats of XML share: texts and extras that cannot be written, or that are written twice."""
+"""Limits that all formats of XML share: texts and extras that cannot be written, or are written twice."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.core.part import Inside
-from linkforge_compile.diagnostics import Diagnostic
-from linkforge_compile.diagnostics.codes.formats import UNWRITABLE
+from linkforge_compile.core.models.geometry import Transform
+from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.link import Collision, Inertial, Link, Visual
+from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.models.ros2_control import Ros2Control
+from linkforge_compile.core.models.transmission import Transmission
+from linkforge_compile.core.part import Inside, attribute_pairs
+from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics.codes.formats import RAW_NAME_IS_TAKEN, SECOND_OF_ONE, UNDECLARED_PREFIX, UNWRITABLE
 from linkforge_compile.formats.element import (
+    Extended,
     RestatedAttributeError,
     inside_of,
     place_of_attribute,
+    raw_texts,
 )
-from linkforge_compile.formats.extra_limits import undeclared_prefixes
 from linkforge_compile.formats.parts import Doubtful, Held, Part
+from linkforge_compile.formats.raw import well_formed_elements
 from linkforge_compile.formats.unwritable import unwritable_raw, unwritable_texts
 from linkforge_compile.formats.xml_document import InsideError
-from linkforge_compile.source import Key
+from linkforge_compile.source import Key, SourceRef, Span
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.source.xml_tree import XmlElement
 
 
 def check_texts(robot: Robot, doubtful: Doubtful) -> Iterator[Diagnostic]:
@@ -60,6 +69,143 @@ def _is_extended(part: Part) -> bool:
 def check_written_twice(parts: Sequence[Held]) -> Iterator[Diagnostic]:
     """An element of which there can be one is written by its field or as raw XML, and not twice."""
     if any(part.extra_elements for part, *_ in parts):
-        from linkforge_compile.formats.extra_limits import written_twice
-
         yield from written_twice(parts)
+
+
+_OF_XML = frozenset({"xml", "xmlns"})
+_DECLARATION = "xmlns:"
+
+
+def undeclared_prefixes(root: Extended, parts: Iterable[Held]) -> Iterator[Diagnostic]:
+    """Yield a warning for each prefix in a root element or its parts that is not declared around it."""
+    known = _OF_XML | _declared_by(_names(root))
+    yield from _in_extras(root, known, root.source)
+    for part, where, around, _ in parts:
+        if part.extra_attributes or part.extra_elements:
+            names = (name for holder in (*around, part) for name in _names(holder))
+            yield from _in_extras(part, known | _declared_by(names), where)
+
+
+def _in_extras(part: Extended, known: frozenset[str], where: SourceRef | None) -> Iterator[Diagnostic]:
+    for name in _names(part):
+        yield from _report(_unknown([name], known), *place_of_attribute(name, where), Key(name))
+    for text, source, path in raw_texts(part, where):
+        # Only what holds a colon is read once more.
+        yield from _report(_in_xml(text, known) if ":" in text else (), source, *path)
+
+
+def _names(part: Extended) -> list[str]:
+    return [name for name, _ in attribute_pairs(part.extra_attributes)]
+
+
+def _in_xml(text: str, known: frozenset[str]) -> Iterator[str]:
+    """Yield the prefixes of raw XML that nothing declares; none of malformed XML, which `limits` reports."""
+
+    def unknown(node: XmlElement, known: frozenset[str]) -> Iterator[str]:
+        names = list(node.values)
+        known |= _declared_by(names)
+        yield from _unknown([node.tag, *names], known)
+        for child in node.children:
+            yield from unknown(child, known)
+
+    for node in well_formed_elements(text):
+        yield from unknown(node, known)
+
+
+def _declared_by(names: Iterable[str]) -> frozenset[str]:
+    return frozenset(name.removeprefix(_DECLARATION) for name in names if name.startswith(_DECLARATION))
+
+
+def _unknown(names: Iterable[str], known: frozenset[str]) -> Iterator[str]:
+    for name in names:
+        prefix, colon, _ = name.partition(":")
+        if colon and prefix not in known:
+            yield prefix
+
+
+def _report(prefixes: Iterable[str], where: SourceRef | None, *path: str | int) -> Iterator[Diagnostic]:
+    for prefix in dict.fromkeys(prefixes):
+        yield UNDECLARED_PREFIX.at(where, *path, prefix=prefix)
+
+
+_ONE_OF: Mapping[type[Part], Mapping[str, str]] = {
+    Link: {"inertial": "inertial"},
+    Inertial: {"origin": "origin", "mass": "mass", "inertia": "inertia"},
+    Visual: {"origin": "origin", "geometry": "geometry", "material": "material"},
+    Collision: {"origin": "origin", "geometry": "geometry"},
+    Material: {"color": "color", "texture": "texture"},
+    Joint: {
+        "origin": "origin",
+        "parent": "parent",
+        "child": "child",
+        "axis": "axis",
+        "limit": "limits",
+        "dynamics": "dynamics",
+        "mimic": "mimic",
+        "safety_controller": "safety_controller",
+        "calibration": "calibration",
+    },
+    Ros2Control: {"hardware": "hardware_plugin"},
+    Transmission: {"type": "type"},
+}
+"""The tags of which a part has one at most, and the field that writes it."""
+
+
+def written_twice(parts: Iterable[Held]) -> Iterator[Diagnostic]:
+    """Yield a warning for each such element that raw XML of parts says again."""
+    for part, where, *_ in parts:
+        if part.extra_elements and (fields := _ONE_OF.get(type(part))):
+            yield from _written_again(part, where, fields)
+
+
+def _written_again(part: Part, where: SourceRef | None, fields: Mapping[str, str]) -> Iterator[Diagnostic]:
+    first = {tag: _place(where, field) for tag, field in fields.items() if _is_written(part, field, where)}
+    for text, source, path in raw_texts(part, where):
+        for tag in (node.tag for node in well_formed_elements(text)):
+            if tag not in fields:
+                continue
+            if tag not in first:
+                first[tag] = _place(source, *path)
+                continue
+            place = first[tag]
+            yield SECOND_OF_ONE.at(source, *path, tag=tag, notes=[Note("the first is here", place)] if place else [])
+
+
+def _is_written(part: Part, field: str, where: SourceRef | None) -> bool:
+    value = getattr(part, field)
+    if isinstance(part, Joint) and where and where.at(field) == where.span:
+        return False  # what a joint lacks has a stand-in, and is told
+    return value.is_written if isinstance(value, Transform) else value is not None
+
+
+def _place(source: SourceRef | None, *path: str | int) -> Span | None:
+    return source.at(*path) if source else None
+
+
+def check_raw_names(robot: Robot) -> Iterator[Diagnostic]:
+    """No two links, joints or materials of a URDF have one name: urdfdom refuses the robot."""
+    named: Mapping[str, Iterable[Link | Joint | Material]] = {
+        "link": robot.links,
+        "joint": robot.joints,
+        "material": robot.materials.values(),
+    }
+    taken = {
+        (tag, part.name): part.source.span if part.source else None for tag, parts in named.items() for part in parts
+    }
+    for text, source, path in raw_texts(robot, robot.source):
+        place = source.at(*path) if source else None
+        for tag, name in _named_in(text):
+            if tag not in named:
+                continue
+            if (tag, name) not in taken:
+                taken[tag, name] = place
+                continue
+            first = taken[tag, name]
+            notes = [Note("the other is here", first)] if first else []
+            yield RAW_NAME_IS_TAKEN.at(source, *path, tag=tag, name=name, notes=notes)
+
+
+def _named_in(text: str) -> Iterator[tuple[str, str]]:
+    """Yield the tag and name of each element of raw XML that has one."""
+    for node in well_formed_elements(text):
+        yield from ((node.tag, value) for key, value in node.values.items() if key == "name")

@@ -28,8 +28,7 @@ from jinja2.visitor import NodeTransformer
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.named_table import NamedTable
 from linkforge_compile.diagnostics.suggest import did_you_mean
-from linkforge_compile.formats.environment import FILTERS, OPTIONS, describe, finalize
-from linkforge_compile.formats.template_text import require_text
+from linkforge_compile.formats.environment import FILTERS, OPTIONS, describe, finalize, require_text
 from linkforge_compile.limits import Budget, Limit
 
 _READING = ("get", "has", "find", "is", "to", "volume")

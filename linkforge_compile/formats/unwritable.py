@@ -51,7 +51,7 @@ def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> 
 
         yield from refused(lambda: raw_elements(value), where, name)
     elif isinstance(value, Mapping) and isinstance(part, Element) and field_specs(type(part))[name].xml == "*":
-        from linkforge_compile.formats.parameters import is_surely_writable, parameter_elements
+        from linkforge_compile.formats.element import is_surely_writable, parameter_elements
 
         # A plugin's raw XML stands in place of its parameters.
         for key, text in (

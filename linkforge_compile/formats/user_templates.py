@@ -3,25 +3,35 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import jinja2
+from jinja2.loaders import split_template_path
+from jinja2.meta import find_referenced_templates
+
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.diagnostics.codes.formats import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.codes.formats import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS, UNUSED_TEMPLATE
 from linkforge_compile.diagnostics.codes.modules import BEYOND_LIMIT
+from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.formats.sandbox import FolderEnvironment
+from linkforge_compile.formats.template_loader import FolderLoader, OutsideError, UnreadableError
 from linkforge_compile.formats.xml_text import harmless_in_comment
 from linkforge_compile.limits import Budget
 from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import ANYWHERE, Roots
+from linkforge_compile.source import SourceFile
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.formats.sandbox import FolderEnvironment
     from linkforge_compile.formats.template_loader import FolderLoader
+
 
 SUFFIX = ".j2"
 """How the names of templates end; without it, that of a document's template is the document's."""
@@ -103,8 +113,6 @@ class TemplateFolder:
     @property
     def unused(self) -> tuple[Diagnostic, ...]:
         """A warning at each file that stands where templates go before ours, and that nothing uses."""
-        from linkforge_compile.formats.unused_templates import find_unused
-
         return tuple(find_unused(self._environment, self._loader, own_names()))
 
     @property
@@ -185,3 +193,42 @@ class TemplateFolder:
         from linkforge_compile.formats.sandbox import FolderEnvironment
 
         return FolderEnvironment(self._loader, self._budget)
+
+
+_MOST_FILES = 1000
+"""Files of a folder that are looked at."""
+
+
+def find_unused(environment: FolderEnvironment, loader: FolderLoader, ours: frozenset[str]) -> Iterator[Diagnostic]:
+    """Yield a warning at each file that replaces none of our templates, and that no template includes.
+
+    `ours` are the paths of the packaged templates. Yields none where the name of an included template is computed.
+    """
+    found = {
+        path.relative_to(loader.folder).as_posix(): path
+        for place in sorted({name.partition("/")[0] for name in ours}, reverse=True)
+        for path in sorted(islice((loader.folder / place).rglob("*"), _MOST_FILES))
+        if path.is_file()
+    }
+    strange = {name: path for name, path in found.items() if name not in ours and _is_template(name, ours)}
+    used = _included(environment, loader) if strange else set()
+    for name, path in strange.items():
+        if None not in used and name not in used:
+            place = SourceFile(str(path), "", path).whole
+            yield UNUSED_TEMPLATE.at(place, name=name, near=ours)
+
+
+def _is_template(name: str, ours: frozenset[str]) -> bool:
+    return name.endswith(".j2") or nearest(name, ours) is not None
+
+
+def _included(environment: FolderEnvironment, loader: FolderLoader) -> set[str | None]:
+    """Return the names of all templates that those of the folder include; None for one that is computed."""
+    used: set[str | None] = set()
+    for path in islice(loader.folder.rglob("*.j2"), _MOST_FILES):
+        try:
+            included = find_referenced_templates(environment.parse(loader.read(path)))
+            used |= {name and "/".join(split_template_path(name)) for name in included}
+        except (OutsideError, UnreadableError, jinja2.TemplateError):
+            continue  # nothing that was rendered uses it
+    return used

@@ -8,10 +8,9 @@ from operator import attrgetter
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkforge_compile.core.fields import Child, Parameters, Spec, field_specs
+from linkforge_compile.core.fields import Child, Parameters, Spec, Text, field_specs
 from linkforge_compile.core.part import Element
-from linkforge_compile.formats.element import attributes_of, elements, leaf, leaf_at, placed
-from linkforge_compile.formats.parameters import parameter_elements
+from linkforge_compile.formats.element import attributes_of, elements, leaf, leaf_at, parameter_elements, placed
 from linkforge_compile.formats.xml_text import NOTHING, spelled
 
 if TYPE_CHECKING:
@@ -32,18 +31,15 @@ class Views:
     makers: ClassVar[Mapping[type, Callable[[Any, Any], object]]] = {}
     """What makes the element or view of a part of a class, and of those derived from it, in another way."""
 
-    def of(self, part: object, tag: str = "") -> object:
-        """Return the element of a part that has attributes alone, else its view; `tag` for a class without one."""
+    def of(self, part: object) -> object:
+        """Return the element of a part that has attributes alone, else its view."""
         own: type = type(self)
         kind: type = type(part)
-        if make := _maker_of(own, kind):
-            return make(self, part)
-        assert isinstance(part, Element)
-        return leaf(part, tag) if _is_leaf(kind) else self.view(part)
+        return _maker_of(own, kind)(self, part)
 
-    def of_all(self, parts: Iterable[object], tag: str = "") -> tuple[object, ...]:
+    def of_all(self, parts: Iterable[object]) -> tuple[object, ...]:
         """Return the elements or views of several parts."""
-        return tuple([self.of(part, tag) for part in parts])
+        return tuple([self.of(part) for part in parts])
 
     def view(self, part: Element, /, **changes: object) -> View:
         """Return the view of a part; `changes` are fields of the view in place of those by the specs."""
@@ -58,8 +54,9 @@ class Views:
 
 
 @cache
-def _maker_of(views: type[Views], kind: type) -> Callable[[Any, Any], object] | None:
-    return next((views.makers[base] for base in kind.__mro__ if base in views.makers), None)
+def _maker_of(views: type[Views], kind: type) -> Callable[[Any, Any], object]:
+    own = next((views.makers[base] for base in kind.__mro__ if base in views.makers), None)
+    return own or ((lambda _, part: leaf(part)) if _is_leaf(kind) else views.view)
 
 
 @cache
@@ -94,13 +91,16 @@ def _maker(field: str, spec: Spec, xml: str) -> Callable[[Views, Any], object]:
         return lambda _, part: (
             NOTHING if (value := get(part)) is None else leaf_at(tag, part.source, key, **{attribute: value})
         )
+    if isinstance(spec, Text) and not spec.may_be_none:
+        return lambda _, part: placed(get(part), part.source, key)
     return lambda _, part: None if (value := get(part)) is None else placed(spelled(value), part.source, key)
 
 
 def _child_maker(get: Callable[[object], Any], spec: Child, xml: str) -> Callable[[Views, Any], object]:
+    if spec.container and getattr(spec.kinds[0], "TAG", None) != "":
+        return lambda views, part: views.of_all(get(part))
     if spec.container:
-        tag = "" if getattr(spec.kinds[0], "TAG", xml) else xml
-        return lambda views, part: views.of_all(get(part), tag)
+        return lambda _, part: tuple([leaf(one, xml) for one in get(part)])
     missing = NOTHING if _is_leaf(spec.kinds[0]) else None
     return lambda views, part: missing if (value := get(part)) is None else views.of(value)
 

@@ -20,7 +20,7 @@ from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, Yam
 from linkforge_compile.units import Dimension
 
 Read = Callable[["ElementReader"], YamlNode | None]
-"""A function that reads an element; it returns None for one that says only what its absence means too."""
+"""A function that reads an element; it returns None for one that means the same as its absence."""
 
 Named = dict[str, tuple[XmlAttribute, YamlNode]]
 """Nodes by name, each with the attribute that names it."""

@@ -7,33 +7,58 @@ name; what plugins read may contain other names, which the compiler warns about 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
+from linkforge_compile.core.fields import Name, Reference, field_specs
+from linkforge_compile.core.models.collision_rules import LinkSphereApproximation
+from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
+from linkforge_compile.core.models.joint import Joint, JointMimic
+from linkforge_compile.core.models.link import Collision, Link, Visual
+from linkforge_compile.core.models.material import Material
+from linkforge_compile.core.models.planning import (
+    Chain,
+    EndEffector,
+    GroupState,
+    JointProperty,
+    PassiveJoint,
+    PlanningGroup,
+    VirtualJoint,
+)
+from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlGpio, Ros2ControlSensor
+from linkforge_compile.core.models.sensor import Sensor
+from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator
+from linkforge_compile.core.part import Element
 from linkforge_compile.source.xml_places import ATTRIBUTE, MARKUP
 from linkforge_compile.syntax import YamlScalar
 
 _PREFIX = "$(prefix)"
 
-_NAMES: Mapping[str, tuple[str, ...]] = {
-    **dict.fromkeys(("link", "joint", "visual", "collision", "material", "transmission", "actuator"), ("name",)),
-    **dict.fromkeys(("ros2_control", "sensor", "gpio", "plugin", "group", "passive_joint"), ("name",)),
-    "gripper": ("name",),  # of HPP, which has it in an SRDF; the language does not
-    "gazebo": ("reference",),
-    "parent": ("link",),
-    "child": ("link",),
-    "mimic": ("joint",),
-    "chain": ("base_link", "tip_link"),
-    "group_state": ("name", "group"),
-    "end_effector": ("name", "group", "parent_link", "parent_group"),
-    "virtual_joint": ("name", "child_link"),
-    "disable_collisions": ("link1", "link2"),
-    "enable_collisions": ("link1", "link2"),
-    "disable_default_collisions": ("link",),
-    "joint_property": ("joint_name",),
-    "link_sphere_approximation": ("link",),
-}
-"""The attributes that name parts of the robot, by tag."""
+_ELEMENTS: tuple[type[Element | Link], ...] = (
+    *(Link, Visual, Collision, Material, Joint, JointMimic, Transmission, TransmissionActuator),
+    *(Ros2Control, Ros2ControlSensor, Ros2ControlGpio, GazeboElement, GazeboPlugin, Sensor),
+    *(PlanningGroup, Chain, GroupState, EndEffector, VirtualJoint, PassiveJoint, JointProperty),
+    LinkSphereApproximation,
+)
+
+
+def _named_attributes() -> Iterator[tuple[str, str]]:
+    """Yield each tag of the formats with an attribute that names a part of the robot."""
+    for kind in _ELEMENTS:
+        for spec in field_specs(kind).values():
+            path, at, attribute = (spec.xml or "").rpartition("@")
+            if isinstance(spec, Name | Reference) and at and not path.startswith(".."):
+                yield path.rstrip("/") or kind.TAG, attribute
+    yield from (("disable_collisions", "link1"), ("disable_collisions", "link2"))
+    yield from (("enable_collisions", "link1"), ("enable_collisions", "link2"))
+    yield "disable_default_collisions", "link"
+    yield "gripper", "name"  # of HPP, which has it in an SRDF; the language does not
+
+
+_NAMES = frozenset(_named_attributes())
+"""The attributes that name parts of the robot, with their tags."""
+
+_TAGS_WITH_NAMES = frozenset(tag for tag, _ in _NAMES)
 
 _CHILDREN: Mapping[str, tuple[str, ...]] = {
     "robot": (
@@ -122,7 +147,7 @@ def known_tag(tag: str, around: str | None) -> str | None:
 
 def is_name(tag: str | None, attribute: str) -> bool:
     """Whether an attribute of an element with a known tag names a part of the robot."""
-    return tag is not None and attribute in _NAMES.get(tag, ())
+    return (tag, attribute) in _NAMES
 
 
 def is_name_as_text(tag: str, around: str | None, text: str, shapes: Shapes) -> bool:
@@ -152,7 +177,7 @@ def raw_with_prefix(raw: str, around: str, shapes: Shapes) -> str:
             continue
         tag = found["tag"]
         known = known_tag(tag, open_tags[-1])
-        pieces.append(_tag_with_prefix(found[0], known) if known in _NAMES else found[0])
+        pieces.append(_tag_with_prefix(found[0], known) if known in _TAGS_WITH_NAMES else found[0])
         if not found[0].endswith("/>"):
             opened, text_begins = tag if (open_tags[-1], tag) in _NAMES_AS_TEXT else "", len(pieces)
             open_tags.append(known)

@@ -149,14 +149,13 @@ def _lower_component(kind: type[Component], fields: Fields, name: str) -> Compon
 
 def _lower_interfaces(fields: Fields, key: str) -> tuple[Interface, ...]:
     if isinstance(fields.get(key), YamlMap):
-        by_name = fields.each(key, "interface", _lower_interface)
-        return tuple(interface for _, interface in by_name if interface is not None)
+
+        def lower(each: Fields, name: str) -> Interface:
+            return Interface(name, texts_in(each, *EXTRA_KEYS), **common_kwargs(each))
+
+        return tuple(_lowered(fields.each(key, "interface", lower)))
     named = fields.named_items(key)
     return tuple(Interface(name, source=SourceRef(node, None, fields.trail)) for name, node in named)
-
-
-def _lower_interface(fields: Fields, name: str) -> Interface:
-    return Interface(name, texts_in(fields, *EXTRA_KEYS), **common_kwargs(fields))
 
 
 def _lower_gazebo_elements(file: Fields, joints: Mapping[str, YamlMap]) -> Iterator[GazeboElement]:

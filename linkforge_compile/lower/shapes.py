@@ -120,7 +120,7 @@ _SHORT_FORMS = {"box": _box, "sphere": _sphere}
 
 _BYTE = 255
 _LEAST_BYTE = 16
-"""A list is taken for a color in bytes if its largest number is at least this one; 2 is a slip for 0.2."""
+"""A list is read as a color in bytes if its largest number is at least this one; 2 is a slip for 0.2."""
 
 
 def lower_materials(file: Fields, scope: FileScope) -> dict[str, Material | None]:
@@ -159,7 +159,7 @@ def _lower_material(fields: Fields, name: str, scope: FileScope) -> Material | N
 
 
 def _color_in_comment(key: Span | None) -> str:
-    """Return a hint for a color after its key as in style sheets, which YAML takes for a comment; empty for none."""
+    """Return a hint for a color after its key as in style sheets, which YAML reads as a comment; empty for none."""
     rest = key.file.line(key.line)[key.end_column - 1 :] if key else ""
     written = re.match(r":[ \t]+(#((?:[0-9a-fA-F]{2}){3,4}))(?!\S)", rest)
     if written is None:

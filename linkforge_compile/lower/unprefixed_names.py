@@ -151,20 +151,16 @@ def _topics_and_frames(texts: PassthroughTexts, robot: Robot) -> Iterator[Diagno
     """Yield one warning for the topics and frames of a file that is a URDF or used more than once."""
     found: dict[str, Span] = {}
     for text, where, key in texts.plugin_texts:
-        is_reported = bool(_named_in(text, robot))
+        if not (texts.is_shared or where.file.is_xml) or _named_in(text, robot):
+            continue
         # An argument of a xacro file may have put the prefix there.
         has_prefix = bool(texts.prefix) and texts.prefix in text
-        is_relevant = texts.is_shared or where.file.is_xml
-        if is_relevant and _names_topic_or_frame(key, text) and not (is_reported or has_prefix):
+        if _TOPIC_OR_FRAME_KEY.search(key) and not _NOT_A_NAME.fullmatch(text) and not has_prefix:
             found.setdefault(text, where)
     if found:
         shown = [f"'{name}'" for name in found][:_MOST_SHOWN]
         more = f" and {len(found) - _MOST_SHOWN} more" if len(found) > _MOST_SHOWN else ""
         yield UNPREFIXED_TOPICS.at(next(iter(found.values())), names=", ".join(shown) + more)
-
-
-def _names_topic_or_frame(key: str, text: str) -> bool:
-    return bool(_TOPIC_OR_FRAME_KEY.search(key)) and not _NOT_A_NAME.fullmatch(text)
 
 
 def _parameters(robot: Robot) -> Iterator[tuple[SourceRef | None, str, FreePart]]:

@@ -7,7 +7,7 @@ import pytest
 from linkforge_compile.core import Robot
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.formats import render_urdf
-from linkforge_compile.formats.parameters import parameter_elements
+from linkforge_compile.formats.element import parameter_elements
 from linkforge_compile.formats.raw import raw_elements
 from linkforge_compile.formats.xml_document import document_of, write
 from linkforge_compile.formats.xml_text import RawXmlError

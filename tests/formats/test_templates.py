@@ -11,7 +11,7 @@ from jinja2 import DictLoader, TemplateRuntimeError, UndefinedError
 from linkforge_compile.cli.main import main
 from linkforge_compile.core import Robot
 from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.formats import environment, own_templates, render_urdf
+from linkforge_compile.formats import environment, render_urdf
 from linkforge_compile.formats.environment import make_environment, own_environment
 from linkforge_compile.formats.xml_document import document_of, write
 from linkforge_compile.formats.xml_text import Xml
@@ -104,8 +104,7 @@ def test_what_a_view_does_not_have_is_no_empty_text():
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Yield a folder that stands for that of our own templates."""
-    for module in (environment, own_templates):
-        monkeypatch.setattr(module, "templates_folder", lambda: tmp_path)
+    monkeypatch.setattr(environment, "templates_folder", lambda: tmp_path)
     (tmp_path / "urdf").mkdir()
     environment.own_environment.cache_clear()
     yield tmp_path

@@ -12,7 +12,7 @@ from linkforge_compile import import_urdf, render_srdf, render_urdf
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.importers.canonical import named_colors
+from linkforge_compile.importers.link import named_colors
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.source import SourceFile
 from tests.export_spec.test_laws import compiled, few, robots

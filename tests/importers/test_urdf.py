@@ -671,13 +671,11 @@ def _leaving(left: int, limit: Limit) -> type[Budget]:
     return Spent
 
 
-@pytest.mark.parametrize(
-    ("limit", "room", "line"), [(Limit.VALUES, "spec_draft", 12), (Limit.ENTRIES, "urdf.robot", 12)]
-)
+@pytest.mark.parametrize(("limit", "module", "line"), [(Limit.VALUES, "spec_draft", 12), (Limit.ENTRIES, "urdf", 12)])
 def test_what_cannot_but_be_too_much_is_told_where_it_gets_there(
-    limit: Limit, room: str, line: int, monkeypatch: pytest.MonkeyPatch
+    limit: Limit, module: str, line: int, monkeypatch: pytest.MonkeyPatch
 ):
-    monkeypatch.setattr(f"linkforge_compile.importers.{room}.Budget", _leaving(10, limit))
+    monkeypatch.setattr(f"linkforge_compile.importers.{module}.Budget", _leaving(10, limit))
     monkeypatch.setattr("linkforge_compile.importing.charge_entries", None)
     links = "".join(f"<link name='l{i}'/>\n" for i in range(20))
     imported = import_urdf("r.urdf", text=f"<robot name='r'>\n{links}</robot>")

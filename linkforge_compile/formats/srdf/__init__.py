@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkforge_compile.formats.document import TemplateFormat
+from linkforge_compile.formats.format import TemplateFormat
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,8 +36,7 @@ class Srdf(TemplateFormat):
         """Yield what rendering refuses."""
         if not robot.has_semantic:
             return  # `robot.semantic` would make an empty part
-        from linkforge_compile.formats.extra_limits import undeclared_prefixes
-        from linkforge_compile.formats.limits import check_attributes
+        from linkforge_compile.formats.limits import check_attributes, undeclared_prefixes
         from linkforge_compile.formats.parts import doubtful_parts_in
         from linkforge_compile.formats.unwritable import unwritable_texts
 

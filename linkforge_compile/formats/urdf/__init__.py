@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from linkforge_compile.formats.document import TemplateFormat
-from linkforge_compile.formats.format import Option, Rendering
+from linkforge_compile.formats.format import Option, Rendering, TemplateFormat
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

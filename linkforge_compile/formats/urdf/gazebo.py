@@ -11,8 +11,14 @@ from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.link import USUAL_PHYSICS, Link, LinkPhysics
 from linkforge_compile.core.models.sensor import Sensor, SensorNoise, SensorType
 from linkforge_compile.core.part import Element
-from linkforge_compile.formats.element import attributes, attributes_at, attributes_of, elements, placed
-from linkforge_compile.formats.parameters import parameter_elements
+from linkforge_compile.formats.element import (
+    attributes,
+    attributes_at,
+    attributes_of,
+    elements,
+    parameter_elements,
+    placed,
+)
 from linkforge_compile.formats.source_map import active_origins
 from linkforge_compile.formats.views import View, Views
 from linkforge_compile.formats.xml_text import NOTHING, Xml, spelled

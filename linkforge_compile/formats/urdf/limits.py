@@ -76,7 +76,7 @@ def check_turns(robot: Robot, parts: Sequence[Held]) -> Iterator[Diagnostic]:
     poses = [part for part, *_ in parts if isinstance(part, Transform) and part.extra_attributes]
     if not poses:
         return
-    from linkforge_compile.formats.urdf.quaternion import QUATERNION, is_other_turn, reads_quaternions
+    from linkforge_compile.formats.urdf.view import QUATERNION, is_other_turn, reads_quaternions
 
     if not reads_quaternions(stated_version(robot)):
         return

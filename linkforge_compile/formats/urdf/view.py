@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
-from linkforge_compile.core.models.geometry import Capsule, Mesh, Transform
+from linkforge_compile.core.models.geometry import Capsule, Mesh, Transform, Vector3
 from linkforge_compile.core.models.interface import Interface
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.material import Color
 from linkforge_compile.core.models.sensor import Sensor, SensorNoise
 from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
+from linkforge_compile.core.physics import rotation_matrix
 from linkforge_compile.formats.element import attributes, attributes_at, elements, leaf, leaf_at
 from linkforge_compile.formats.urdf.gazebo import gazebo_view, noise_view, physics_views, plugin_view, sensor_view
 from linkforge_compile.formats.views import View, Views, named_texts
@@ -20,6 +22,7 @@ from linkforge_compile.formats.xml_text import NOTHING, Xml
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
+
 
 # The version of URDF that brought <capsule>; urdfdom reads one only in files that state it or a later one.
 _CAPSULE_VERSION = "1.1"
@@ -93,8 +96,6 @@ class UrdfViews(Views):
             return NOTHING
         if not pose.extra_attributes:
             return leaf(pose)
-        from linkforge_compile.formats.urdf.quaternion import rpy_beside_quaternion
-
         return leaf(pose, rpy=rpy_beside_quaternion(pose, self.version))
 
     def joint(self, joint: Joint) -> View:
@@ -134,3 +135,49 @@ class UrdfViews(Views):
         Sensor: sensor,
         SensorNoise: noise_view,
     }
+
+
+QUATERNION = "quat_xyzw"
+_VERSIONS_WITHOUT = (None, "1.0")
+_NO_TURN = Vector3(0.0, 0.0, 0.0)
+_TOLERANCE = 1e-9
+"""By so much may the entries of two rotation matrices differ that are the same turn."""
+
+
+def reads_quaternions(version: str | None) -> bool:
+    """Whether readers take the quaternions of a document that states a version, None for none, or ignore them."""
+    return version not in _VERSIONS_WITHOUT
+
+
+def rpy_beside_quaternion(pose: Transform, version: str | None) -> Vector3 | None:
+    """Return the rpy that an origin states in a document of a version; None where its quaternion says the turn."""
+    said = dict(pose.extra_attributes).get(QUATERNION)
+    if said is None:
+        return pose.rpy
+    is_said = pose.rpy == _NO_TURN or (reads_quaternions(version) and _turns_as(said, pose.rpy))
+    return None if is_said else pose.rpy
+
+
+def is_other_turn(pose: Transform) -> bool:
+    """Whether an origin has a quaternion that turns otherwise than its rpy does."""
+    said = dict(pose.extra_attributes).get(QUATERNION)
+    return said is not None and not _turns_as(said, pose.rpy)
+
+
+def _turns_as(quaternion: str, rpy: Vector3) -> bool:
+    """Whether the text of a quaternion (x, y, z, w) is the rotation of an rpy [rad]."""
+    try:
+        x, y, z, w = map(float, quaternion.split())
+    except ValueError:
+        return False
+    square = x * x + y * y + z * z + w * w
+    if not square or not math.isfinite(square):
+        return False
+    s = 2 / square
+    turned = (
+        (1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)),
+        (s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)),
+        (s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)),
+    )
+    pairs = zip(turned, rotation_matrix(rpy), strict=True)
+    return all(abs(a - b) <= _TOLERANCE for one, other in pairs for a, b in zip(one, other, strict=True))

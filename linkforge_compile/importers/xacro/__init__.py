@@ -1,5 +1,5 @@
 """Expand xacro files with the xacro package in a separate process, and trace elements to where they were written."""
 
-from linkforge_compile.importers.xacro.run import Expanded, Failed, Place, moved_back, run_xacro
+from linkforge_compile.importers.xacro.run import Expanded, Failed, Place, moved_back, plain_message, run_xacro
 
-__all__ = ["Expanded", "Failed", "Place", "moved_back", "run_xacro"]
+__all__ = ["Expanded", "Failed", "Place", "moved_back", "plain_message", "run_xacro"]

@@ -238,3 +238,31 @@ def _content(item: XmlContent, find: Find, span: Span) -> XmlContent:
     if isinstance(item, XmlComment):
         return XmlComment(item.text.removesuffix(_FOLLOWS), span, follows=item.text.endswith(_FOLLOWS))
     return item
+
+
+_MESSAGES = (
+    (r"Undefined parameters \[(.*)\]", "the macro also takes {0}, which this call does not give"),
+    (r'Invalid parameter "(.*)"', "the macro takes no '{0}'"),
+    (r"Not enough blocks", "the macro takes a block more, an element inside of the call"),
+    (r'Unused block "(.*)"', "the macro takes no block, found <{0}>"),
+    (r'Undefined block "(.*)"', "no block of the macro is named '{0}'"),
+    (r'Xacro conditional "(.*)" evaluated to "(.*)", which.*', "the condition is true or false, found '{1}'"),
+    (r"unsupported operand type\(s\) for (\S+).*: .*'str'.*", "'{0}' takes numbers, found a text"),
+    (r"can't multiply sequence by non-int of type 'float'", "'*' takes numbers, found a text"),
+    (r"environment variable '(.*)' is not set", "the environment variable {0} is not set"),
+    (
+        r"Unknown substitution command \[(.*?)\].*",
+        "'$({0})' is none of $(arg), $(find), $(dirname), $(env), $(optenv)",
+    ),
+    (r"xacro:(\w+): missing attribute '(\w+)'", "<xacro:{0}> has no attribute '{1}'"),
+)
+"""Patterns of xacro's messages and our wording; other messages are shown as they are."""
+
+
+def plain_message(reason: str, kind: str) -> str:
+    """Return a message of xacro in plain words, as it is if there are none for it."""
+    line = " ".join(reason.split())
+    for pattern, words in _MESSAGES:
+        if found := re.fullmatch(pattern, line):
+            return words.format(*found.groups())
+    return f"there is no key {line}" if kind == "KeyError" else line

@@ -8,11 +8,10 @@ from dataclasses import dataclass, field
 from linkforge_compile.core.models.planning import Chain, EndEffector, VirtualJoint
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import OTHER_ROBOT
-from linkforge_compile.importers.comments import place_comments
-from linkforge_compile.importers.document import Imported
+from linkforge_compile.importers.document import Imported, place_comments
 from linkforge_compile.importers.element_reader import ElementReader, Named, read_named
+from linkforge_compile.importers.elements import Names, read_element, read_reference
 from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft
-from linkforge_compile.importers.urdf.elements import Names, read_element, read_reference
 from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar

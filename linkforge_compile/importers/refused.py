@@ -17,8 +17,8 @@ from linkforge_compile.core.models.link import InertiaTensor
 from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.importing import LACKS_PART, NAME_IS_TAKEN, NO_NUMBERS, NO_TYPE_OF_JOINT
+from linkforge_compile.importers.link import JOINT_TYPES
 from linkforge_compile.importers.spec_draft import number_of
-from linkforge_compile.importers.urdf.joint import JOINT_TYPES
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 
 _UNBOUNDED = re.compile(r"[+-]?(?:inf|infinity|nan)", re.IGNORECASE)
@@ -42,12 +42,10 @@ class _Part(NamedTuple):
 def _part_of(kind: type[Element]) -> _Part:
     """Return what readers read of an element of a class."""
     specs = {spec.xml.removeprefix("@"): spec for spec in field_specs(kind).values() if spec.xml}
-    numbers = {name: 3 if isinstance(spec, Vector) else 1 for name, spec in specs.items() if _is_numeric(spec)}
+    numbers = {
+        name: 3 if isinstance(spec, Vector) else 1 for name, spec in specs.items() if isinstance(spec, Number | Vector)
+    }
     return _Part(numbers, tuple(name for name, spec in specs.items() if _is_required(spec)))
-
-
-def _is_numeric(spec: Spec) -> bool:
-    return isinstance(spec, Number | Vector)
 
 
 def _is_required(spec: Spec) -> bool:
@@ -99,11 +97,6 @@ def _in_name(element: XmlElement, names: dict[tuple[str, str], XmlElement]) -> I
         notes = [Note("the other is here", first.span)]
         where = element.attributes["name"].span
         yield Refusal(NAME_IS_TAKEN.at(where, tag=element.tag, name=name, notes=notes), ())
-
-
-def _in_material(_: XmlElement) -> Iterator[Refusal]:
-    """Yield nothing: readers refuse no robot for a faulty material."""
-    return iter(())
 
 
 def _in_link(link: XmlElement) -> Iterator[Refusal]:
@@ -199,7 +192,7 @@ def _inside(element: XmlElement, refusals: Iterable[Refusal]) -> Iterator[Refusa
 
 
 _FIND: Mapping[str, Callable[[XmlElement], Iterator[Refusal]]] = {
-    "material": _in_material,
+    "material": lambda _: iter(()),  # readers refuse no robot for a faulty one
     "link": _in_link,
     "joint": _in_joint,
 }

@@ -8,18 +8,14 @@ from collections.abc import Collection
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import SRDF_FOR_URDF
-from linkforge_compile.importers.comments import place_comments
-from linkforge_compile.importers.document import Imported, Move, read_document
+from linkforge_compile.importers.document import Imported, Move, place_comments, read_document
 from linkforge_compile.importers.element_reader import ElementReader, Named, read_named
+from linkforge_compile.importers.link import Palette, read_joint, read_link
+from linkforge_compile.importers.plugin_data import Blocks
 from linkforge_compile.importers.raw_xml import Shapes
+from linkforge_compile.importers.refused import find_refusals
+from linkforge_compile.importers.ros2_control import read_ros2_control, read_transmission
 from linkforge_compile.importers.spec_draft import SpecDraft, values_in
-from linkforge_compile.importers.urdf.gazebo import Blocks
-from linkforge_compile.importers.urdf.joint import read_joint
-from linkforge_compile.importers.urdf.link import read_link
-from linkforge_compile.importers.urdf.material import Palette
-from linkforge_compile.importers.urdf.refused import find_refusals
-from linkforge_compile.importers.urdf.ros2_control import read_ros2_control
-from linkforge_compile.importers.urdf.transmission import read_transmission
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.xml_tree import XmlElement

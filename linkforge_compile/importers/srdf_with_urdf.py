@@ -7,10 +7,9 @@ from typing import Protocol, TypeVar
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, SRDF_OF_ANOTHER, URDF_FOR_SRDF
-from linkforge_compile.importers.comments import Comments
-from linkforge_compile.importers.document import Imported, Move, read_document
+from linkforge_compile.importers.document import Comments, Imported, Move, read_document
 from linkforge_compile.importers.spec_draft import CannotRepresentError
-from linkforge_compile.importers.srdf.semantic import SemanticNames, read_srdf
+from linkforge_compile.importers.srdf import SemanticNames, read_srdf
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
@@ -30,24 +29,24 @@ _NAMED_BY_NAME = ("link", "joint", "passive_joint")
 """Tags whose attribute `name` names a link or joint."""
 
 
-class Judged(Protocol):
+class Checked(Protocol):
     """The result of checking a spec, with its errors."""
 
     @property
     def faults(self) -> tuple[Diagnostic, ...]: ...
 
 
-J = TypeVar("J", bound=Judged)
+C = TypeVar("C", bound=Checked)
 
 
 def with_srdf(
     urdf: Imported,
     file: SourceFile,
-    judge: Callable[[YamlMap], J],
+    check: Callable[[YamlMap], C],
     sink: Diagnostics,
     moved: Move | None = None,
-) -> tuple[Imported, J] | None:
-    """Return the spec of a URDF with the content of an SRDF, and the result of `judge`; None if it is no SRDF."""
+) -> tuple[Imported, C] | None:
+    """Return the spec of a URDF with the content of an SRDF, and the result of `check`; None if it is no SRDF."""
     document = read_document(file, sink, moved)
     if document is None:
         return None
@@ -61,8 +60,8 @@ def with_srdf(
     for _ in range(max(2, min(_MAX_ROUNDS, _MAX_READ // elements))):
         round_sink = Diagnostics()
         whole = _merge(urdf, read_srdf(document, urdf.tree, round_sink, refused))
-        judged = judge(whole.tree)
-        found = _refusals(document, judged.faults)
+        checked = check(whole.tree)
+        found = _refusals(document, checked.faults)
         if found.keys() <= refused.keys():
             break
         refused |= found
@@ -71,7 +70,7 @@ def with_srdf(
         sink.report(other)
     # For an SRDF of another robot, one report replaces those about its parts.
     sink.report_all(one for one in round_sink if not (other and one.code is KEPT_RAW))
-    return whole, judged
+    return whole, checked
 
 
 def _find_other_robot(document: XmlDocument, robot: YamlMap) -> Diagnostic | None:
