@@ -245,7 +245,7 @@ def _load(side: _Side, common: Iterable[str], arguments: argparse.Namespace) -> 
 def _as_urdfs(
     sides: Sequence[_Side], robots: tuple[Robot, Robot], arguments: argparse.Namespace
 ) -> tuple[tuple[Robot, Robot], str | None]:
-    """Return the robots, a spec beside a URDF as the URDF that it compiles to, which has other words for some things.
+    """Return the robots; a spec that is compared with a URDF becomes the URDF that it compiles to.
 
     Also return why that URDF cannot be read back, in which case the spec stays as written; None if it can.
     """

@@ -108,8 +108,8 @@ def _hint(error: UnknownPathError, robot: Robot, path: str) -> str:
         return f", where a frame is a link and a fixed joint{_frame_hint(robot, path.strip('/').partition('/')[2])}"
     if hint := did_you_mean(error.name, error.names):
         return hint
-    meant = nearest(error.name, error.paths)
-    return "" if meant is None else f"; did you mean '{error.paths[meant]}'?"
+    closest = nearest(error.name, error.paths)
+    return "" if closest is None else f"; did you mean '{error.paths[closest]}'?"
 
 
 def _frame_hint(robot: Robot, path: str) -> str:

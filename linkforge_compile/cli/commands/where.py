@@ -94,16 +94,16 @@ def _map_of(path: Path, document: str) -> MapFile:
     """Read the map of a document; UsageError if there is none, with the command that writes it."""
     from linkforge_compile.formats.map_file import ENDING, NoMapError, read_map
 
-    beside = path.with_name(path.name + ENDING)
-    if not beside.exists():
+    map_file = path.with_name(path.name + ENDING)
+    if not map_file.exists():
         banner = BANNER.search(document[:10_000])
         spec = banner["spec"] if banner else "SPEC.robot.yaml"
         command = f"linkforge compile {spec} -o {path} --source-map"
-        raise UsageError(f"there is no map '{beside}'; `{command}`, with the options of before, writes it")
+        raise UsageError(f"there is no map '{map_file}'; `{command}`, with the options of before, writes it")
     try:
-        return read_map(_text_of(beside))
+        return read_map(_text_of(map_file))
     except NoMapError as error:
-        raise UsageError(f"'{beside}' cannot be read: {error}") from None
+        raise UsageError(f"'{map_file}' cannot be read: {error}") from None
 
 
 def _changed(file: SourceFile, when: str) -> Diagnostic:
