@@ -15,6 +15,7 @@ from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.part import Part
 from linkforge_compile.formats.raw import elements_of, plain_text
+from linkforge_compile.formats.xml_text import XML_BLANKS
 from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.units import POSITION, Dimension, FieldUnit, Motion
 
@@ -74,7 +75,7 @@ def _texts(element: XmlElement) -> tuple[str, ...]:
             runs.append([])
         elif isinstance(item, str):
             runs[-1].append(item)
-    texts = ["".join(run).strip() for run in runs]
+    texts = ["".join(run).strip(XML_BLANKS) for run in runs]
     while len(texts) > 1 and not texts[-1]:
         texts.pop()
     return tuple(texts)
@@ -224,7 +225,7 @@ def _rounded(value: float, digits: int) -> str:
 
 def xml_number(text: str) -> float | None:
     """Return the finite number that a text in XML spells, None for any other text."""
-    number = float(text) if _XML_NUMBER.fullmatch(text.strip()) else math.inf
+    number = float(text) if _XML_NUMBER.fullmatch(text.strip(XML_BLANKS)) else math.inf
     return number if math.isfinite(number) else None
 
 

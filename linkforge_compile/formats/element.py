@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from operator import attrgetter
 from typing import TYPE_CHECKING, Protocol
@@ -20,6 +22,7 @@ from linkforge_compile.formats.xml_text import (
     escaped,
     is_of_numpy,
     is_writable,
+    is_xml_blank,
     is_xml_name,
     raw_text,
     spelled,
@@ -165,7 +168,25 @@ def elements(part: Extended) -> Xml:
 
 
 def _inside(one: Inside, text: Callable[[int, str, str, str], str]) -> str:
-    return text(id(one), inside_key(one), attributes(one), elements(one))
+    numbered, number = _NUMBERED.get(), 0
+    if numbered is not None:
+        number = len(numbered)
+        numbered.append(one)
+    return text(number, inside_key(one), attributes(one), elements(one))
+
+
+_NUMBERED: ContextVar[list[Inside] | None] = ContextVar("_NUMBERED", default=None)
+
+
+@contextmanager
+def numbering_insides() -> Iterator[list[Inside]]:
+    """Number each `Inside` that is rendered within by its index in the list, for an `InsideError` to name it."""
+    numbered: list[Inside] = []
+    token = _NUMBERED.set(numbered)
+    try:
+        yield numbered
+    finally:
+        _NUMBERED.reset(token)
 
 
 def inside_key(one: Inside) -> str:
@@ -230,8 +251,8 @@ def _attribute_values(part: object, changes: Mapping[str, Spellable | None]) -> 
     values = {name: get(part) for name, get in getters}
     if not (implied or changes):
         return values  # most parts
-    for name, value in implied:  # not written, unless the author did
-        if values[name] == value and name not in part.stated:  # type: ignore[attr-defined]  # of classes that have it
+    for name, field, value in implied:  # not written, unless the author did
+        if values[name] == value and field not in part.stated:  # type: ignore[attr-defined]  # of classes that have it
             values[name] = None
     values.update(changes)
     return values
@@ -247,15 +268,15 @@ _ORDERS = {
 @cache
 def _attribute_getters(
     kind: type,
-) -> tuple[tuple[tuple[str, Callable[[object], Spellable | None]], ...], tuple[tuple[str, object], ...]]:
-    """Return what gets each attribute of a class, and the attributes with a default that may be left out."""
+) -> tuple[tuple[tuple[str, Callable[[object], Spellable | None]], ...], tuple[tuple[str, str, object], ...]]:
+    """Return what gets each attribute of a class, and those that may be left out, with their fields and defaults."""
     fields: dict[str, list[str]] = {}
     for field, spec in field_specs(kind).items():
         if spec.xml and spec.xml[0] == "@":
             fields.setdefault(spec.xml[1:], []).append(field)
     names = _ORDERS.get(getattr(kind, "TAG", ""), tuple(fields))
     optional = number_fields(kind).items() if hasattr(kind, "stated") else ()
-    implied = tuple((field, spec.implied) for field, spec in optional if spec.xml == f"@{field}")
+    implied = tuple((spec.xml[1:], field, spec.implied) for field, spec in optional if spec.xml and spec.xml[0] == "@")
     return tuple((name, attrgetter(*fields[name])) for name in names), implied
 
 
@@ -300,7 +321,9 @@ def _element(tag: str, value: object, source: SourceRef | None, path: tuple[str 
         _require_name(name)
     children = _elements({key: item for key, item in value.items() if not key.startswith("_")}, source, path)
     text, origin = raw_text(_text(value.get("_text", ""))), origin_of(source, *path)
-    return element_text(tag, attributes, text + children, origin + KEEPS_SPACE if text.isspace() else origin)
+    return element_text(
+        tag, attributes, text + children, origin + KEEPS_SPACE if text and is_xml_blank(text) else origin
+    )
 
 
 def _text(value: object) -> str:

@@ -18,6 +18,7 @@ from linkforge_compile.formats.element import (
     Extended,
     RestatedAttributeError,
     inside_of,
+    numbering_insides,
     place_of_attribute,
     raw_texts,
 )
@@ -48,14 +49,18 @@ def check_attributes(parts: Sequence[Held], robot: Robot, render: Callable[[], s
     extended = [part for part, *_ in parts if _is_extended(part)]
     if not (robot.extra_attributes or extended):
         return
+    numbered: list[Inside] = []
     try:
-        render()
+        with numbering_insides() as numbered:
+            render()
     except RestatedAttributeError as error:
         yield UNWRITABLE.at(*place_of_attribute(error.name, error.source), Key(error.name), reason=error)
     except InsideError as error:
         for fault in (error, *error.others):
-            part = next(part for part in extended if fault.id in {str(id(one)) for one in inside_of(part)})
-            yield UNWRITABLE.at(part.source, "extra_inside", Key(fault.key), reason=fault)
+            faulty = numbered[int(fault.id)]
+            holders = (part for part in extended if any(one is faulty for one in inside_of(part)))
+            holder = next(holders, robot)
+            yield UNWRITABLE.at(holder.source, "extra_inside", Key(fault.key), reason=fault)
     except RobotGeneratorError:
         return  # told by what looks at the texts
 

@@ -9,7 +9,16 @@ from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.formats.source_map import active_origins, origins_of_lines
-from linkforge_compile.formats.xml_text import KEEPS_SPACE, RawXmlError, Xml, element_text, raw_text, require_writable
+from linkforge_compile.formats.xml_text import (
+    KEEPS_SPACE,
+    XML_BLANKS,
+    RawXmlError,
+    Xml,
+    element_text,
+    is_xml_blank,
+    raw_text,
+    require_writable,
+)
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, SourceRef
 from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
@@ -21,7 +30,7 @@ _BEGIN, _END = "<raw-xml-of-a-spec>", "</raw-xml-of-a-spec>"
 No author writes this name, so that an `</extra>` too many closes no open element.
 """
 
-_BLANK = re.compile(r"(?:\s|&#(?:9|10|13|32|x9|x[Aa]|x[Dd]|x20);)*")
+_BLANK = re.compile(r"(?:[ \t\r\n]|&#(?:9|10|13|32|x9|x[Aa]|x[Dd]|x20);)*")
 
 _LONGEST_KEPT = 10_000
 """Characters of raw XML that is kept normalized."""
@@ -126,7 +135,7 @@ def _refused(reason: str, places: Places, at: int, piece: re.Match[str]) -> Exce
 
 
 def _malformed(text: str, fault: MalformedXmlError) -> RawXmlError:
-    at = min(fault.at, len(text.rstrip()))
+    at = min(fault.at, len(text.rstrip(XML_BLANKS)))
     if text.startswith("<!DOCTYPE", at - len("<!")):
         reason = "raw XML has a document type, whose entities can read other files; delete it"
         return RawXmlError(reason, text, at - len("<!"))
@@ -150,7 +159,7 @@ class _Normalizer(NamedTuple):
         keeps_space = keeps_space if space is None else space == "preserve"
         section = self.sections.get(element.begin)
         texts = (item for item in element.content if isinstance(item, str))
-        keeps_texts = keeps_space or section is not None or any(text.strip() for text in texts)
+        keeps_texts = keeps_space or section is not None or not all(map(is_xml_blank, texts))
         content: list[str] = []
         for item in element.content:
             if isinstance(item, XmlElement):
@@ -164,9 +173,9 @@ class _Normalizer(NamedTuple):
 
     def element(self, element: XmlElement, *, keeps_space: bool = False) -> str:
         origin = self.origin(element.span.line) if active_origins() else ""
-        if element.begin in self.sections:
-            origin += KEEPS_SPACE
         content = "".join(self.content(element, keeps_space=keeps_space))
+        if content and element.begin in self.sections:
+            origin += KEEPS_SPACE
         return element_text(element.tag, element.values.items(), content, origin)
 
 

@@ -8,7 +8,6 @@ from dataclasses import replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import jinja2
 from jinja2.loaders import split_template_path
@@ -22,16 +21,10 @@ from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.formats.sandbox import FolderEnvironment
 from linkforge_compile.formats.template_loader import FolderLoader, OutsideError, UnreadableError
 from linkforge_compile.formats.xml_text import harmless_in_comment
-from linkforge_compile.limits import Budget
+from linkforge_compile.limits import MAX_NESTED_ELEMENTS, Budget
 from linkforge_compile.resources import templates_folder
 from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.source import SourceFile
-
-if TYPE_CHECKING:
-    from linkforge_compile.diagnostics import Diagnostic
-    from linkforge_compile.formats.sandbox import FolderEnvironment
-    from linkforge_compile.formats.template_loader import FolderLoader
-
 
 SUFFIX = ".j2"
 """How the names of templates end; without it, that of a document's template is the document's."""
@@ -59,8 +52,8 @@ def own_folders() -> list[str]:
     return sorted({name.partition("/")[0] for name in own_names()}, reverse=True)
 
 
-_MOST_NAMES = 1000
-"""Files of a folder without templates that are compared with the names of ours."""
+_MOST_FILES = 1000
+"""Files of a folder that are looked at, for what they are named or include."""
 
 
 class TemplateError(Exception):
@@ -102,9 +95,7 @@ class TemplateFolder:
         """
         if self.documents or any(os.path.lexists(self.folder / name) for name in own_names()):
             return
-        from linkforge_compile.diagnostics.suggest import nearest
-
-        found = sorted(path.relative_to(self.folder).as_posix() for path in islice(self.folder.rglob("*"), _MOST_NAMES))
+        found = sorted(path.relative_to(self.folder).as_posix() for path in islice(self.folder.rglob("*"), _MOST_FILES))
         near = next((f"; '{name}' is like '{own}'" for name in found if (own := nearest(name, own_names()))), "")
         folders = " or ".join(f"{folder}/" for folder in own_folders())
         has = f"NAME.j2 for a document, nor {folders} with a template that goes before one of linkforge's"
@@ -134,6 +125,7 @@ class TemplateFolder:
 
         """
         from linkforge_compile.formats.environment import is_xml
+        from linkforge_compile.formats.xml_document import without_marks
 
         context = {**views, "banner": harmless_in_comment(banner)}
         texts: dict[str, str] = {}
@@ -144,7 +136,7 @@ class TemplateFolder:
                 if is_xml(template):
                     texts[name] = f"{self.xml(template, context, pretty=True)}\n"
                 else:
-                    texts[name] = self._text(template, context)
+                    texts[name] = without_marks(self._text(template, context))
             except TemplateError as error:
                 faults += error.diagnostics
                 if self._budget.is_spent:
@@ -168,7 +160,7 @@ class TemplateFolder:
             line = self._loader.place_of_line(template, fault.line)
             raise TemplateError((NOT_XML_FROM_TEMPLATE.at(line, problem=fault.problem),))
         try:
-            return write(document_of(rendered), pretty=pretty)
+            return write(document_of(rendered, most_nested=MAX_NESTED_ELEMENTS), pretty=pretty)
         except (RobotGeneratorError, RecursionError) as error:
             reason = "its elements are nested too deeply" if isinstance(error, RecursionError) else error
             raise TemplateError((TEMPLATE_FAILS.at(self._loader.place_of(template), reason=reason),)) from None
@@ -184,19 +176,11 @@ class TemplateFolder:
 
     @cached_property
     def _loader(self) -> FolderLoader:
-        from linkforge_compile.formats.template_loader import FolderLoader
-
         return FolderLoader(self.folder, self._roots)
 
     @cached_property
     def _environment(self) -> FolderEnvironment:
-        from linkforge_compile.formats.sandbox import FolderEnvironment
-
         return FolderEnvironment(self._loader, self._budget)
-
-
-_MOST_FILES = 1000
-"""Files of a folder that are looked at."""
 
 
 def find_unused(environment: FolderEnvironment, loader: FolderLoader, ours: frozenset[str]) -> Iterator[Diagnostic]:

@@ -9,18 +9,19 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from html import unescape
+from math import inf
 from typing import TypeAlias
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.formats.source_map import Mapped, Origins, Segment, SourceMap
-from linkforge_compile.formats.xml_text import KEEPS_SPACE, RESERVED, escaped
+from linkforge_compile.formats.xml_text import KEEPS_SPACE, RESERVED, escaped, is_xml_blank
 from linkforge_compile.source.xml_tree import ATTRIBUTE
 
 INDENT = "  "
 
 _TOKEN = re.compile(
     r"""[^<]++ | <(?![!?])(?:[^<>"']++|"[^"]*+"|'[^']*+')*+> | <!--.*?--> | <!\[CDATA\[.*?\]\]> | <\?.*?\?>
-    | <!(?:[^<>\[]|\[.*?\])*> | <""",
+    | <!(?:[^<>\["']|"[^"]*"|'[^']*'|\[(?:<!--.*?-->|<\?.*?\?>|"[^"]*"|'[^']*'|[^\]"'])*+\])*+> | <""",
     re.DOTALL | re.VERBOSE,
 )
 _BREAK_IN_TAG = re.compile(r"""(?P<value>"[^"]*"|'[^']*')|\s*\n\s*""")
@@ -33,7 +34,7 @@ _ORIGIN = re.compile(rf' {RESERVED}at[^\s=]*="(\d+)"')
 class InsideError(RobotGeneratorError):
     """What `extra_inside` says cannot be placed.
 
-    `id` is that of the `Inside` object, `key` its tag and name, and `others` are further such faults of the document.
+    `id` is the number of the `Inside` object, `key` its tag and name; `others` are further such faults of the document.
     """
 
     def __init__(self, reason: str) -> None:
@@ -73,11 +74,11 @@ class XmlNode:
         self.end = end
         if self.keeps_space or self.is_inline:
             self.is_inline = True
-        elif len(self.content) == 1 and isinstance(blank := self.content[0], str) and blank.isspace():
+        elif len(self.content) == 1 and isinstance(blank := self.content[0], str) and is_xml_blank(blank):
             self.is_inline = "\n" not in blank
             self.content = self.content if self.is_inline else []
         else:
-            self.content = [item for item in self.content if isinstance(item, XmlNode) or not item.isspace()]
+            self.content = [item for item in self.content if isinstance(item, XmlNode) or not is_xml_blank(item)]
 
     def add(self, attributes: str, content: Sequence[Content]) -> None:
         """Put attributes behind those of the element, and content behind its content."""
@@ -93,13 +94,14 @@ Content: TypeAlias = "XmlNode | str"
 """An element; or as written: a text, an element of one tag, a comment, CDATA, an instruction or a declaration."""
 
 
-def document_of(text: str) -> XmlNode:
+def document_of(text: str, *, most_nested: float = inf) -> XmlNode:
     """Return what a template renders as the content of an element without tags.
 
     Elements that are not closed, and tags that close nothing, are left to the readers of the document.
 
     Raises:
         InsideError: where what `extra_inside` says cannot be placed.
+        RobotGeneratorError: where more than `most_nested` elements are nested.
 
     """
     has_insides = _INSIDE in text
@@ -109,7 +111,7 @@ def document_of(text: str) -> XmlNode:
         begin = token[:2]
         if begin[0] != "<":
             node.content.append(token)
-            if around and not token.isspace():
+            if around and not is_xml_blank(token):
                 node.is_inline = True
         elif begin == "</" and around:
             node.close(token)
@@ -121,7 +123,7 @@ def document_of(text: str) -> XmlNode:
             tag = _BREAK_IN_TAG.sub(_without_break, token) if "\n" in token else token
             is_closed = tag[-2] == "/"
             if is_closed and not has_insides:
-                node.content.append(tag)
+                node.content.append(tag.replace(KEEPS_SPACE, ""))
                 continue
             inner = XmlNode(tag, keeps_space=node.keeps_space)
             if ":space=" in tag:
@@ -130,10 +132,12 @@ def document_of(text: str) -> XmlNode:
             if not is_closed:
                 around.append(node)
                 node = inner
+                if len(around) > most_nested:
+                    raise RobotGeneratorError(f"its elements are nested more than {most_nested} deep")
     document, *unclosed = [*around, node]
     for inner in unclosed:
         inner.close("")
-    document.content = [item for item in document.content if isinstance(item, XmlNode) or not item.isspace()]
+    document.content = [item for item in document.content if isinstance(item, XmlNode) or not is_xml_blank(item)]
     if has_insides:
         _place_insides(document)
     return document
@@ -155,6 +159,25 @@ def _take_space(node: XmlNode) -> None:
 
 
 # Elements inside
+
+
+_INSIDE_IN_TEXT = re.compile(
+    rf"(?:<|&lt;){_INSIDE} (?:(?!(?:<|&lt;){_INSIDE} ).)*?/{_INSIDE}(?:>|&gt;)", re.DOTALL | re.IGNORECASE
+)
+_SPACE_IN_TEXT = re.compile(rf" {RESERVED}space=(\S{{1,6}}?)preserve\1", re.IGNORECASE)
+
+
+def without_marks(text: str) -> str:
+    """Return a text that is no XML without what only the writer of XML can place or remove.
+
+    Filters of a template may have escaped it.
+    """
+    if RESERVED[:-1] not in text.lower():
+        return text
+    removed = 1
+    while removed:  # the innermost first
+        text, removed = _INSIDE_IN_TEXT.subn("", text)
+    return _SPACE_IN_TEXT.sub("", text)
 
 
 def inside_text(id_: int, key: str, attributes: str, content: str) -> str:
@@ -248,7 +271,7 @@ def write_with_map(document: XmlNode, origins: Origins) -> Mapped:
         line = INDENT * depth
         segments: list[Segment] = []
         for piece in pieces:
-            text, *noted = _ORIGIN.split(piece) if piece[0] == "<" else (piece,)
+            text, *noted = _ORIGIN.split(piece) if piece[0] == "<" and piece[1] != "!" else (piece,)
             line += text
             for number, rest in zip(noted[::2], noted[1::2], strict=True):
                 place = places[int(number)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterable
 from operator import methodcaller
@@ -45,11 +46,17 @@ def shown(text: str) -> str:
     return repr(text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}…")
 
 
-RESERVED = "linkforge:"
-"""Begins the names of attributes and elements that the writer of a document takes off again."""
+RESERVED = f"linkforge-{os.urandom(8).hex()}:"
+"""Begins the names of attributes and elements that the writer of a document removes.
+
+It is random in each process, so that no author writes it.
+"""
 
 KEEPS_SPACE = f' {RESERVED}space="preserve"'
 """An attribute, not written, of an element whose blank texts are no layout."""
+
+XML_BLANKS = " \t\r\n"
+"""White space by the rules of XML; for Python, a no-break space is white space as well."""
 
 
 class Xml(str):
@@ -125,9 +132,14 @@ def element_text(tag: str, attributes: Iterable[tuple[str, str]], content: str, 
     start = "".join([f"<{tag}{note}", *(f' {name}="{escaped(value)}"' for name, value in attributes)])
     if not content:
         return f"{start}/>"
-    if content.isspace():
+    if is_xml_blank(content) and KEEPS_SPACE not in note:
         start += KEEPS_SPACE
     return f"{start}>{content}</{tag}>"
+
+
+def is_xml_blank(text: str) -> bool:
+    """Whether a text is empty, or white space by the rules of XML."""
+    return not text.strip(XML_BLANKS)
 
 
 def is_writable(text: str) -> bool:
