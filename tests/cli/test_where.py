@@ -50,7 +50,7 @@ def test_a_name_is_told_where_it_is_written(build: Path):
 
 def test_what_nobody_wrote_is_told_as_such(build: Path):
     run = linkforge("where", "build/cell.urdf:1", cwd=build)
-    assert run.stdout.splitlines()[1:] == ["nothing is written for it"]
+    assert run.stdout.splitlines()[1:] == ["no source is recorded for this line"]
 
 
 def test_a_document_and_a_spec_that_changed_are_told(build: Path):
