@@ -362,3 +362,10 @@ def test_what_an_override_hands_to_a_module_is_told_with_what_it_beat(nested: Pa
         "    instead of 'with' $(reach) at arm.robot.yaml:8:60",
         "    instead of the default 0.1 m at hand.robot.yaml:3:45",
     ]
+
+
+def test_a_map_is_summarized_without_the_defaults_that_nobody_wrote(cell: Path):
+    run = linkforge("explain", "cell.robot.yaml", "joints/left_elbow", cwd=cell)
+    assert "limits: {effort: 20, velocity: 1}" in run.stdout
+    assert "dynamics" not in run.stdout
+    assert "rpy" not in run.stdout

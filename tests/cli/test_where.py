@@ -145,3 +145,17 @@ def test_a_map_of_standard_output_is_refused(build: Path):
     run = linkforge("compile", "cell.robot.yaml", "--source-map", cwd=build)
     assert (run.returncode, run.stdout) == (2, "")
     assert "takes -o with a folder or a file" in run.stderr
+
+
+def test_a_map_is_not_called_computed(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(
+        "linkforge: 1\nname: arm\nvariables: {half: 1}\nlinks: {base: , upper: }\njoints:\n"
+        "  lift: {type: prismatic, parent: base, child: upper, axis: z,\n"
+        "    limits: {upper: $(half), effort: 1, velocity: 1}}\n"
+    )
+    assert linkforge("compile", "arm.robot.yaml", "-o", "build/", "--source-map", cwd=tmp_path).returncode == 0
+    lines = (tmp_path / "build" / "arm.urdf").read_text().splitlines()
+    number, line = next((at, line) for at, line in enumerate(lines, 1) if "<limit" in line)
+    assert "computed: {" not in linkforge("where", f"build/arm.urdf:{number}", cwd=tmp_path).stdout
+    value = f"build/arm.urdf:{number}:{line.index('upper=') + 1}"
+    assert "computed: $(half)" in linkforge("where", value, cwd=tmp_path).stdout
