@@ -97,13 +97,13 @@ def passed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, .
 
 
 def _amount(unit: ast.Name, expression: Expression) -> str:
-    """Return the number that is multiplied with the name of a unit, as it is written; "1" for none."""
+    """Return the number that is multiplied with the name of a unit, as it is written; "" for none."""
     for node in ast.walk(expression.tree):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and unit in (node.left, node.right):
             other = node.left if node.right is unit else node.right
             if isinstance(other, ast.Constant) and isinstance(other.value, int | float):
                 return expression.written(other)
-    return "1"
+    return ""
 
 
 def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagnostic:
@@ -111,8 +111,8 @@ def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagn
         instead = "write constants and functions without a module: pi"
         return codes.NOT_IN_EXPRESSIONS.at(expression.span(name), use=f"contain '{name.id}'", instead=instead)
     near = [*scope, *CONSTANTS]
-    if name.id in UNITS:
-        hint = f"; '{name.id}' is a unit: declare '{_amount(name, expression)} {name.id}' in 'variables'"
+    if name.id in UNITS and (amount := _amount(name, expression)):
+        hint = f"; '{name.id}' is a unit: declare '{amount} {name.id}' in 'variables'"
         return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, hint=hint)
     # Users often intend text on one side of a comparison.
     comparisons = (node for node in ast.walk(expression.tree) if isinstance(node, ast.Compare))
