@@ -22,6 +22,8 @@ from linkforge_compile.diagnostics import Diagnostic, Note, UnresolvedNames, Whe
 from linkforge_compile.diagnostics.codes.model import LINK_CIRCLE, NO_LINKS, SECOND_PARENT, SEVERAL_ROOTS
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
 
+_USUAL_ROOT = "base_link"
+
 
 def check_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A robot has at least one link.
@@ -109,6 +111,8 @@ def check_single_root(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Dia
     # A link without children lacks its joint, wherever it is written; else the base is usually written first.
     root = min(roots, key=lambda link: (link.name != WORLD, link.name not in below))
     strays = [link for link in roots if link is not root]
+    # By convention, `base_link` is the root, even where most links hang on another.
+    parent = next((link for link in roots if link.name == _USUAL_ROOT and root.name != WORLD), root)
     yield SEVERAL_ROOTS.at(
         _missing_joint(strays[0], root),
         notes=[
@@ -117,8 +121,8 @@ def check_single_root(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Dia
         ],
         count=len(roots),
         roots=join_names([link.name for link in roots]),
-        strays=join_names([link.name for link in strays]),
-        root=root.name,
+        parent=parent.name,
+        child=next(link.name for link in (root, *strays) if link is not parent),
     )
 
 
@@ -139,7 +143,7 @@ def _base_by_omission(stray: Link, root: Link) -> Iterator[Note]:
 
 
 def _describe_tree(link: Link, links_below: int) -> Note:
-    what = f"'{link.name}' begins a tree of {links_below + 1} links" if links_below else f"'{link.name}' has no joints"
+    what = f"'{link.name}' is the root of {links_below + 1} links" if links_below else f"'{link.name}' has no joints"
     return Note(what, link.source.span if link.source else None)
 
 

@@ -38,7 +38,7 @@ class Bound:
 _SMALLEST = math.ulp(0.0)
 
 ABOVE_ZERO = Bound("above 0", least=_SMALLEST)
-NOT_NEGATIVE = Bound("0 or above", least=0.0)
+NOT_NEGATIVE = Bound("at least 0", least=0.0)
 NOT_ZERO = Bound("other than 0", least=_SMALLEST, is_of_magnitude=True)
 BEYOND_EPSILON = Bound("further than 1e-9 from 0", least=EPSILON, is_of_magnitude=True)
 UP_TO_HALF_A_TURN = Bound("above 0 and at most pi", least=_SMALLEST, most=math.pi * (1 + 1e-9))
@@ -265,7 +265,7 @@ def check_numbers(part: object) -> None:
             unit = spec.unit.text(Motion.OTHER)
             raise RobotValidationError(
                 ValidationErrorCode.OUT_OF_RANGE,
-                f"{name} must be {spec.bound.words}{unit and f' [{unit}]'}, found {value}",
+                f"{name} must be {spec.bound.words}{unit and f' {unit}'}, found {value}",
                 target=f"{kind.__name__}.{name}",
                 value=value,
                 field=(name,),

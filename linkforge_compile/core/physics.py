@@ -35,7 +35,7 @@ def calculate_inertia(geometry: Geometry, mass: float) -> InertiaTensor:
 
     """
     if mass < 0:
-        raise _out_of_range("mass", "must be 0 or above [kg]", mass)
+        raise _out_of_range("mass", "must be at least 0 kg", mass)
     match geometry:
         case Box():
             return _box_inertia(geometry, mass)
@@ -131,7 +131,7 @@ def combined_inertial(bodies: Sequence[Inertial]) -> Inertial:
     """
     mass = _total(body.mass for body in bodies)
     if mass <= 0:
-        raise _out_of_range("mass", "of all bodies together must be above 0 [kg]", mass)
+        raise _out_of_range("mass", "of all bodies together must be above 0 kg", mass)
     centre = Vector3(
         *(
             _total(body.mass / mass * at for body, at in zip(bodies, axis, strict=True))
@@ -179,14 +179,14 @@ def inertial_of_shapes(
 def _masses(volumes: Sequence[float], mass: float | None, density: float | None) -> list[float]:
     if mass is not None and density is None:
         if mass <= 0:
-            raise _out_of_range("mass", "must be above 0 [kg] to compute an inertia", mass)
+            raise _out_of_range("mass", "must be above 0 kg to compute an inertia", mass)
         total = _total(volumes)
         if total <= 0:
-            raise _out_of_range("volume", "must be above 0 [m³] to compute an inertia", total)
+            raise _out_of_range("volume", "must be above 0 m³ to compute an inertia", total)
         return [mass * (volume / total) for volume in volumes]
     if density is not None and mass is None:
         if density <= 0:
-            raise _out_of_range("density", "must be above 0 [kg/m³]", density)
+            raise _out_of_range("density", "must be above 0 kg/m³", density)
         return [density * volume for volume in volumes]
     raise RobotPhysicsError(
         ValidationErrorCode.INVALID_VALUE, "give either a mass or a density", target="Inertial", field=("mass",)

@@ -99,7 +99,8 @@ class Parameter:
         """
         converted = self.type.convert(value)
         if converted is None:
-            found = f"{describe(value)}{self._remedy(value, where, names)}"
+            measured = f", which is {dimension_name(value.dimension)}" if isinstance(value, Quantity) else ""
+            found = f"{describe(value)}{measured}{self._remedy(value, where, names)}"
             sink.report(PARAMETER_KIND.at(where, parameter=self.name, expected=self.type.words, found=found))
             return None
         violation = next(self._violations(converted, where), None)

@@ -75,18 +75,29 @@ def explain(robot: Robot, path: str) -> Explanation:
     builder = SpecBuilder(full=True)
     whole = spec_of(robot, builder)
     steps = (_Step("", whole), *_steps(whole, path.strip("/"), ""))
-    text = _text("/".join(step.key for step in steps[1:]), steps[-1].node, builder)
+    keys_of_path = [step.key for step in steps[1:]]
+    text = _text("/".join(keys_of_path), _without_defaults(robot, keys_of_path, steps[-1].node), builder)
     last = max((place for place, step in enumerate(steps) if step.node in builder.written), default=None)
     if last is None:
         return Explanation(text)
     source, field = builder.written[steps[last].node]
     keys = (*field, *(step.key for step in steps[last + 1 :]))
     node, is_written = _deepest(source.node, steps[last].key, keys)
-    computed = computed_from(robot, [step.key for step in steps[1:]])
+    computed = computed_from(robot, keys_of_path)
     if not is_written:
         place = source.span if node is source.node else node.span
         return Explanation(text, False, _chain(place, source), (), computed)
     return _written(source, node, text, _replaced(source.node, steps[last].key, keys), computed)
+
+
+def _without_defaults(robot: Robot, path: Sequence[str], node: YamlNode) -> YamlNode:
+    """Return a map without its defaults, in short forms; the node itself where a spec without them has no such map."""
+    if not path or not isinstance(node, YamlMap):
+        return node
+    found: YamlNode | None = spec_of(robot, SpecBuilder())
+    for key in path:
+        found = found.get(key) if isinstance(found, YamlMap) else None
+    return found if isinstance(found, YamlMap) else node
 
 
 def _written(

@@ -38,7 +38,7 @@ from linkforge_compile.expressions.types import (
 )
 from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
-from linkforge_compile.units import WIDEST_ANGLE
+from linkforge_compile.units import UNITS, WIDEST_ANGLE
 
 Trace: TypeAlias = Callable[[str, Span], Span]
 """Takes the text of a part of an expression and its span; returns a span that records where its value comes from."""
@@ -96,11 +96,24 @@ def passed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, .
     return None
 
 
+def _amount(unit: ast.Name, expression: Expression) -> str:
+    """Return the number that is multiplied with the name of a unit, as it is written; "" for none."""
+    for node in ast.walk(expression.tree):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and unit in (node.left, node.right):
+            other = node.left if node.right is unit else node.right
+            if isinstance(other, ast.Constant) and isinstance(other.value, int | float):
+                return expression.written(other)
+    return ""
+
+
 def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagnostic:
     if name.id in _PYTHON_MODULES:
         instead = "write constants and functions without a module: pi"
-        return codes.NOT_IN_EXPRESSIONS.at(expression.span(name), what=f"'{name.id}'", instead=instead)
+        return codes.NOT_IN_EXPRESSIONS.at(expression.span(name), use=f"contain '{name.id}'", instead=instead)
     near = [*scope, *CONSTANTS]
+    if name.id in UNITS and (amount := _amount(name, expression)):
+        hint = f"; '{name.id}' is a unit: declare '{amount} {name.id}' in 'variables'"
+        return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, hint=hint)
     # Users often intend text on one side of a comparison.
     comparisons = (node for node in ast.walk(expression.tree) if isinstance(node, ast.Compare))
     is_compared = any(name is side for node in comparisons for side in (node.left, *node.comparators))

@@ -235,7 +235,7 @@ def _fault(node: ast.expr, expression: Expression) -> Diagnostic | None:
 
 def _refused(node: ast.expr, kind: type[ast.AST], expression: Expression) -> Diagnostic:
     what, instead = _REFUSED.get(kind, ("this syntax", "the language has operators, conditions and functions"))
-    return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=what, instead=instead)
+    return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), use=f"contain {what}", instead=instead)
 
 
 def _comparison_fault(chain: ast.Compare, expression: Expression) -> Diagnostic | None:
@@ -254,7 +254,7 @@ def _operator_fault(operator: ast.AST, left: ast.expr, right: ast.expr, expressi
     between = expression.text[begin : expression.index(right.col_offset)]
     start, length = begin + max(between.find(symbol), 0), len(symbol)
     return codes.NOT_IN_EXPRESSIONS.at(
-        expression.place.part(expression.offset + start, length), what=what, instead=instead
+        expression.place.part(expression.offset + start, length), use=f"contain {what}", instead=instead
     )
 
 
@@ -262,10 +262,12 @@ def _constant_fault(node: ast.Constant, value: object, expression: Expression) -
     match value:
         case bool() | None:
             instead = f"write '{_PYTHON_CONSTANTS[value]}'"
-            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=f"'{value}'", instead=instead)
+            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), use=f"contain '{value}'", instead=instead)
         case str() if forbidden := FORBIDDEN_CHARACTER.search(value):
             what = f"the character {code_point(forbidden[0])}"
-            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), what=what, instead="no file may contain it")
+            return codes.NOT_IN_EXPRESSIONS.at(
+                expression.span(node), use=f"contain {what}", instead="no file may contain it"
+            )
         case int() if value.bit_length() > MAX_INTEGER_BITS:
             return codes.RESULT_TOO_LARGE.at(expression.span(node), operation="this number")
         case float() if not math.isfinite(value):
@@ -274,7 +276,7 @@ def _constant_fault(node: ast.Constant, value: object, expression: Expression) -
             return None
     return codes.NOT_IN_EXPRESSIONS.at(
         expression.span(node),
-        what=f"'{expression.written(node)}'",
+        use=f"contain '{expression.written(node)}'",
         instead="values are numbers, text, true, false and null",
     )
 
@@ -283,15 +285,17 @@ def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
     span = expression.span(call.func)
     if not isinstance(call.func, ast.Name):
         known = SIGNATURES.get(call.func.attr) if isinstance(call.func, ast.Attribute) else None
-        instead = f"call functions by their name only: {known.signature if known else 'sqrt(x)'}"
-        return codes.NOT_IN_EXPRESSIONS.at(span, what=f"a call of '{expression.written(call.func)}'", instead=instead)
+        instead = f"write {known.signature}" if known else "call functions by their name only, such as sqrt(x)"
+        return codes.NOT_IN_EXPRESSIONS.at(span, use=f"call '{expression.written(call.func)}'", instead=instead)
     name = call.func.id
     function = SIGNATURES.get(name)
     if function is None:
         return codes.UNKNOWN_FUNCTION.at(span, name=name, near=SIGNATURES)
     if call.keywords:
         instead = f"arguments are given in order: {function.signature}"
-        return codes.NOT_IN_EXPRESSIONS.at(expression.span(call), what="an argument with a name", instead=instead)
+        return codes.NOT_IN_EXPRESSIONS.at(
+            expression.span(call), use="contain an argument with a name", instead=instead
+        )
     if any(isinstance(argument, ast.Starred) for argument in call.args) or function.accepts(len(call.args)):
         return None
     whole = expression.span(call)

@@ -119,7 +119,7 @@ def find_xml_fault(text: str) -> XmlFault | None:
     """Return why a text is no well-formed XML in UTF-8; None where it is."""
     from xml.parsers import expat
 
-    from linkforge_compile.source.malformed_xml import fault_of
+    from linkforge_compile.source.malformed_xml import ENDS_BEFORE, fault_of
 
     text = text.encode("utf-8", "backslashreplace").decode()
     # expat takes prefixes without a declaration, as the URDF of many vendors has them.
@@ -131,7 +131,11 @@ def find_xml_fault(text: str) -> XmlFault | None:
         problem = fault.problem if fault else expat.ErrorString(error.code)
         lines = text.split("\n")
         line = lines[error.lineno - 1].strip() if error.lineno <= len(lines) else ""
-        return XmlFault(f"{problem}, in line {error.lineno} of it, '{line[:_MOST_SHOWN]}'", line)
+        if problem.startswith(ENDS_BEFORE):
+            tag = problem.removeprefix(ENDS_BEFORE)
+            return XmlFault(f"the output ends at line {error.lineno} without {tag}", line)
+        quoted = f", '{line[:_MOST_SHOWN]}'" if line else ""
+        return XmlFault(f"{problem}, in line {error.lineno} of it{quoted}", line)
     declared = _DECLARED.match(text)
     if declared and declared[1].lower() not in _UTF_8:
         problem = f"it declares the encoding '{declared[1]}', and is written in UTF-8; write encoding='utf-8'"

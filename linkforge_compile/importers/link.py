@@ -95,7 +95,7 @@ def _inertial(inertial: ElementReader) -> YamlNode:
 def _mass(mass: ElementReader) -> YamlNode:
     value = mass.required_number("value")
     if value.text.startswith("-"):
-        raise mass.cannot_represent(f"the mass must be 0 or above [kg], found {value.text}")
+        raise mass.cannot_represent(f"the mass must be at least 0 kg, found {value.text}")
     mass.pass_rest_up()
     return value
 

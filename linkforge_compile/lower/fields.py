@@ -235,10 +235,11 @@ class Fields(ObjectContext):
             for each in facts:
                 self.report(XACRO_EXPRESSION, place, text=each["text"], ours=each["ours"])
             return False
-        wrong = next((character for character in name if not is_valid_name(character)), None)
-        shown = repr(wrong) if wrong is None or wrong.isprintable() else code_point(wrong)
-        reason = "it is empty" if wrong is None else f"{shown} is not allowed"
-        self.report(INVALID_NAME, place, name=name, kind=kind, reason=reason)
+        wrong = dict.fromkeys(character for character in name if not is_valid_name(character))
+        shown = [repr(one) if one.isprintable() else code_point(one) for one in wrong]
+        reason = f"it may not contain {' or '.join(shown)}" if wrong else "it is empty"
+        what = kind if kind == "prefix" else f"name for a {kind}"
+        self.report(INVALID_NAME, place, name=name, kind=what, reason=reason)
         return False
 
 

@@ -80,8 +80,8 @@ class NumberType:
 
     @property
     def si_unit(self) -> str:
-        """The unit of a bare number as " [m]"; empty where it has none, or one of several."""
-        return f" [{self.dimensions[0].si_unit}]" if len(self.dimensions) == 1 else ""
+        """The unit of a bare number as " m"; empty where it has none, or one of several."""
+        return f" {self.dimensions[0].si_unit}" if len(self.dimensions) == 1 else ""
 
 
 @cache

@@ -13,6 +13,9 @@ _CONFLICT = re.compile(r"^(?:<{7}|>{7}) ", re.MULTILINE)
 _REFERENCE = re.compile(r"&[\w.-]*\Z")
 _NAME = re.compile(r"[^\s/<>\"']+")
 _MOST_SHOWN = 40
+ENDS_BEFORE = "it ends before "
+"""Begins the problem of a text that lacks an end tag, which follows."""
+
 _BARE_AMPERSAND = "write '&amp;' for the character '&'"
 _BEFORE_VALUE = re.compile(r"<[^\s<>!?/][^<>]*=\s*")
 
@@ -91,7 +94,7 @@ def _explain(known: str, text: str, at: int, tag: str, begun: tuple[int, int]) -
         return MalformedXmlError(f"</{_shown(closing[0])}> closes no open element", at)
     if tag and known in (errors.XML_ERROR_NO_ELEMENTS, errors.XML_ERROR_TAG_MISMATCH):
         end = f"</{_shown(tag)}>"
-        problem = f"expected {end}, found </{_shown(closing[0])}>" if closing else f"it ends before {end}"
+        problem = f"expected {end}, found </{_shown(closing[0])}>" if closing else f"{ENDS_BEFORE}{end}"
         return MalformedXmlError(problem, at, begun)
     if known == errors.XML_ERROR_NO_ELEMENTS:
         return MalformedXmlError("there is no element in it", at)

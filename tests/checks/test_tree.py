@@ -75,26 +75,31 @@ def test_the_root_is_the_world_or_what_was_written_first(links: str, root: str):
     base = "world" if root == "world" else "mount"
     joints = (fixed("a", base, "bracket"), fixed("b", "arm", "elbow"), fixed("c", "elbow", "hand"))
     (diagnostic,) = check(robot(links, *joints), UnresolvedNames())
-    assert diagnostic.message.endswith(f" to '{root}'")
+    assert f" from '{root}' to " in diagnostic.message
 
 
 def test_several_roots_are_reported_once_and_a_link_that_stands_alone_is_none():
     subject = robot("camera base arm lidar", fixed("shoulder", "base", "arm"))
     (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.message == (
-        "3 links have no parent: 'camera', 'base' and 'lidar'; "
-        "only one may be the root, so attach 'camera' and 'lidar' to 'base'"
+        "the robot has 3 roots, 'camera', 'base' and 'lidar'; "
+        "join them, such as with a fixed joint from 'base' to 'camera'"
     )
     assert [note.message for note in diagnostic.notes] == [
-        "'base' begins a tree of 2 links",
+        "'base' is the root of 2 links",
         "'camera' has no joints",
         "'lidar' has no joints",
     ]
 
 
+def test_base_link_is_the_parent_in_the_advice_even_where_more_links_hang_on_another():
+    message = messages_of(robot("base_link base arm", fixed("weld", "base", "arm")))[0]
+    assert message.endswith("such as with a fixed joint from 'base_link' to 'base'")
+
+
 def test_many_roots_are_counted_and_not_all_spelled_out():
     message = messages_of(robot(" ".join(f"l{number}" for number in range(100))))[0]
-    assert message.startswith("LF5404 100 links")
+    assert message.startswith("LF5404 the robot has 100 roots, ")
     assert "'l6' and 93 more" in message
 
 

@@ -53,7 +53,7 @@ def test_what_nobody_wrote_is_told_as_such(cell: Path):
     run = linkforge("explain", "cell.robot.yaml", "joints/left_joint/type", cwd=cell)
     assert run.stdout.splitlines()[:3] == [
         "joints/left_joint/type: fixed",
-        "nothing is written for it",
+        "no line of the spec wrote this; it has its default",
         "what it belongs to is written at cell.robot.yaml:5:3",
     ]
 
@@ -160,14 +160,14 @@ def blocks(folder: Path, path: str) -> list[str]:
 def test_a_computed_inertia_is_told_with_what_it_was_computed_from(tmp_path: Path):
     assert blocks(tmp_path, "links/oak/inertial/mass") == [
         "links/oak/inertial/mass: 1400 kg",
-        "computed from the density, even over the shapes of the link",
+        "computed from the density, spread evenly over the link's shapes",
         "the density is written as a default at blocks.robot.yaml:3:39",
         "collision/0, a box, is written at blocks.robot.yaml:5:42",
         "collision/1, a box, is written at blocks.robot.yaml:5:60",
     ]
     assert blocks(tmp_path, "links/elm/inertial/inertia/izz") == [
         "links/elm/inertial/inertia/izz: 0.5 kg*m^2",
-        "computed from the mass, even over the shapes of the link",
+        "computed from the mass, spread evenly over the link's shapes",
         "the mass is written at blocks.robot.yaml:6:52",
         "visual/0, a box, is written at blocks.robot.yaml:6:17",
     ]
@@ -176,7 +176,7 @@ def test_a_computed_inertia_is_told_with_what_it_was_computed_from(tmp_path: Pat
 def test_what_is_written_of_an_inertial_is_not_called_computed(tmp_path: Path):
     assert "written at blocks.robot.yaml:6:52" in blocks(tmp_path, "links/elm/inertial/mass")
     assert "written at blocks.robot.yaml:7:44" in blocks(tmp_path, "links/tin/inertial/inertia/ixx")
-    assert "nothing is written for it" in blocks(tmp_path, "links/tin/inertial/origin")
+    assert "no line of the spec wrote this; it has its default" in blocks(tmp_path, "links/tin/inertial/origin")
 
 
 def test_a_value_from_the_defaults_is_called_so(tmp_path: Path):
@@ -362,3 +362,10 @@ def test_what_an_override_hands_to_a_module_is_told_with_what_it_beat(nested: Pa
         "    instead of 'with' $(reach) at arm.robot.yaml:8:60",
         "    instead of the default 0.1 m at hand.robot.yaml:3:45",
     ]
+
+
+def test_a_map_is_summarized_without_the_defaults_that_nobody_wrote(cell: Path):
+    run = linkforge("explain", "cell.robot.yaml", "joints/left_elbow", cwd=cell)
+    assert "limits: {effort: 20, velocity: 1}" in run.stdout
+    assert "dynamics" not in run.stdout
+    assert "rpy" not in run.stdout

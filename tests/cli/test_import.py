@@ -115,7 +115,7 @@ def test_a_spec_that_was_changed_is_replaced_by_force_only(arm, tmp_path: Path, 
     spec = tmp_path / "arm.robot.yaml"
     spec.write_text("# mine\n")
     assert main(["import", arm(), "-o", str(tmp_path)]) == 2
-    assert f"'{spec}' is there and says something else; --force replaces it" in capfd.readouterr().err
+    assert f"'{spec}' exists with other content; use --force to replace it" in capfd.readouterr().err
     assert spec.read_text() == "# mine\n"
     assert main(["import", arm(), "-o", str(tmp_path), "--force"]) == 0
     assert spec.read_text().startswith("linkforge: 1")

@@ -167,7 +167,7 @@ def test_check_compares_documents(folder: Path):
     assert compile_by(folder, "-o", "out/", "--check")[1] == "out/notes.md is up to date\n"
     (folder / "t" / "notes.md.j2").write_text("# other\n")
     _, told = compile_by(folder, "-o", "out/", "--check", expect=1)
-    assert told.startswith("out/notes.md:1:1: error: here 'arm.robot.yaml' compiles to '# other'")
+    assert told.startswith("out/notes.md:1:1: error: out of date: 'arm.robot.yaml' now compiles to '# other'")
     assert "note: the templates in 't' make it of the spec, and may have changed" in told
 
 

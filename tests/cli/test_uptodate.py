@@ -43,7 +43,10 @@ def test_a_changed_spec_is_told_at_the_first_line_that_differs(arm: Path, capfd:
     line = before.decode().splitlines().index('        <box size="0.5 1 1"/>') + 1
     assert check("reach:=0.7") == 1
     told = capfd.readouterr().err
-    assert f"urdf/arm.urdf:{line}:1: error: here 'arm.robot.yaml' compiles to '<box size=\"0.7 1 1\"/>'; " in told
+    assert (
+        f"urdf/arm.urdf:{line}:1: error: out of date: 'arm.robot.yaml' now compiles to '<box size=\"0.7 1 1\"/>'; "
+        in told
+    )
     assert "[LF7095]" in told
     assert "arm.srdf:" not in told
     assert (arm / "urdf" / "arm.urdf").read_bytes() == before
@@ -62,7 +65,7 @@ def test_a_file_with_lines_behind_the_end_is_told(arm: Path, capfd: pytest.Captu
     with (arm / "urdf" / "arm.urdf").open("a") as urdf:
         urdf.write("<!-- mine -->\n")
     assert check() == 1
-    assert "here 'arm.robot.yaml' compiles to nothing;" in capfd.readouterr().err
+    assert "out of date: 'arm.robot.yaml' now compiles to nothing;" in capfd.readouterr().err
 
 
 def test_the_line_ends_of_windows_are_no_difference(arm: Path):

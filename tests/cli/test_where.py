@@ -50,7 +50,7 @@ def test_a_name_is_told_where_it_is_written(build: Path):
 
 def test_what_nobody_wrote_is_told_as_such(build: Path):
     run = linkforge("where", "build/cell.urdf:1", cwd=build)
-    assert run.stdout.splitlines()[1:] == ["nothing is written for it"]
+    assert run.stdout.splitlines()[1:] == ["no source is recorded for this line"]
 
 
 def test_a_document_and_a_spec_that_changed_are_told(build: Path):
@@ -145,3 +145,17 @@ def test_a_map_of_standard_output_is_refused(build: Path):
     run = linkforge("compile", "cell.robot.yaml", "--source-map", cwd=build)
     assert (run.returncode, run.stdout) == (2, "")
     assert "takes -o with a folder or a file" in run.stderr
+
+
+def test_a_map_is_not_called_computed(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(
+        "linkforge: 1\nname: arm\nvariables: {half: 1}\nlinks: {base: , upper: }\njoints:\n"
+        "  lift: {type: prismatic, parent: base, child: upper, axis: z,\n"
+        "    limits: {upper: $(half), effort: 1, velocity: 1}}\n"
+    )
+    assert linkforge("compile", "arm.robot.yaml", "-o", "build/", "--source-map", cwd=tmp_path).returncode == 0
+    lines = (tmp_path / "build" / "arm.urdf").read_text().splitlines()
+    number, line = next((at, line) for at, line in enumerate(lines, 1) if "<limit" in line)
+    assert "computed: {" not in linkforge("where", f"build/arm.urdf:{number}", cwd=tmp_path).stdout
+    value = f"build/arm.urdf:{number}:{line.index('upper=') + 1}"
+    assert "computed: $(half)" in linkforge("where", value, cwd=tmp_path).stdout

@@ -62,7 +62,7 @@ class Spring:
 @pytest.mark.parametrize(
     ("value", "message"),
     [
-        (-1.0, "stiffness must be 0 or above, found -1.0"),
+        (-1.0, "stiffness must be at least 0, found -1.0"),
         (float("nan"), "stiffness must be a finite number, found nan"),
         (float("inf"), "stiffness must be a finite number, found inf"),
     ],

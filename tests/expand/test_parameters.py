@@ -86,7 +86,9 @@ def test_a_default_may_name_other_parameters_in_any_order():
         metadata: {half: $(half)}
     """
     assert assemble(text, "reach=1.5 m").metadata == {"half": Quantity(0.75, LENGTH)}
-    assert assemble(text, "half=3 kg").told == ["parameter 'half' takes a length in m, cm or mm, found '3 kg'"]
+    assert assemble(text, "half=3 kg").told == [
+        "parameter 'half' takes a length in m, cm or mm, found '3 kg', which is a mass"
+    ]
 
 
 def test_an_argument_of_null_leaves_the_default(tmp_path):
@@ -140,7 +142,7 @@ def test_an_invalid_list_on_the_command_line_is_reported():
 
 def test_an_invalid_default_is_reported_even_if_unused():
     told = assemble("parameters: {reach: {type: length, default: 3 kg}}", "reach=1").told
-    assert told == ["parameter 'reach' takes a length in m, cm or mm, found '3 kg'"]
+    assert told == ["parameter 'reach' takes a length in m, cm or mm, found '3 kg', which is a mass"]
 
 
 def test_a_bare_angle_beyond_a_whole_turn_is_doubted():

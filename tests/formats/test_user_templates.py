@@ -309,10 +309,10 @@ def test_what_xml_cannot_hold_is_told_at_its_line(text: str, reason: str, tmp_pa
     [
         ("<a>\n<b>\n</a>", "expected </b>, found </a>, in line 3 of it, '</a>'"),
         ("<a>\n{{ '<b>' | safe }}\n</a>", "expected </b>, found </a>, in line 3 of it, '</a>'"),
-        ("<a>\n", "it ends before </a>, in line 2 of it, ''"),
+        ("<a>\n", "the output ends at line 2 without </a>"),
         ("</a>", "invalid token, in line 1 of it, '</a>'"),
         ("<a>\n<b>\n</a>\n</a>", "expected </b>, found </a>, in line 3 of it, '</a>'"),
-        ("", "the file is empty, in line 1 of it, ''"),
+        ("", "the file is empty, in line 1 of it"),
         (
             '<?xml version="1.0" encoding="iso-8859-1"?><a/>',
             "it declares the encoding 'iso-8859-1', and is written in UTF-8; write encoding='utf-8'",

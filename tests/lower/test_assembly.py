@@ -195,7 +195,8 @@ def test_a_module_with_gaps_is_joined_as_far_as_it_goes():
         name: hand
         links: {palm: , finger: }
         joints:
-          grip: {type: fixed, child: finger}   # E[LF5005]:3 joint 'grip' has no 'parent'; write 'parent: palm'
+          grip: {type: fixed, child: finger}
+          # ^E[LF5005]:3 joint 'grip' has no 'parent'; write one, such as 'parent: palm'
         """
     )
     result = lowered(Spec("name: body\nlinks: {torso: }\nmodules: {left: {parent: torso}}", {"left": faulty}))
@@ -226,7 +227,7 @@ def test_a_prefix_that_no_name_may_begin_with_is_told_at_the_prefix():
             modules:
               left:
                 parent: torso
-                prefix: "left "   # E[LF4001]:13 'left ' is not a valid name for a prefix: ' ' is not allowed
+                prefix: "left "   # E[LF4001]:13 'left ' is not a valid prefix: it may not contain ' '
             """,
             {"left": HAND},
         )

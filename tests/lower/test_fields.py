@@ -45,8 +45,8 @@ def test_what_is_required_and_missing_is_told_at_the_object_with_what_to_write()
     assert limits is not None
     assert limits.number("effort", NumberType((Dimension.TORQUE,)), required="50 N*m") is None
     assert told(fields) == [
-        "spec.yaml:1:1: error: joint 'elbow' has no 'parent'; write 'parent: base' [LF5005]",
-        "spec.yaml:1:9: error: joint 'elbow' has no 'limits.effort'; write 'effort: 50 N*m' [LF5005]",
+        "spec.yaml:1:1: error: joint 'elbow' has no 'parent'; write one, such as 'parent: base' [LF5005]",
+        "spec.yaml:1:9: error: joint 'elbow' has no 'limits.effort'; write one, such as 'effort: 50 N*m' [LF5005]",
     ]
 
 
@@ -104,7 +104,7 @@ def test_a_name_with_a_space_is_told_at_the_name():
     fields = fields_of("joint: left mount")
     assert fields.name("joint", "joint") is None
     assert told(fields) == [
-        "spec.yaml:1:8: error: 'left mount' is not a valid name for a joint: ' ' is not allowed [LF4001]"
+        "spec.yaml:1:8: error: 'left mount' is not a valid name for a joint: it may not contain ' ' [LF4001]"
     ]
 
 
@@ -120,7 +120,7 @@ def test_each_number_of_a_vector_is_told_at_its_place():
     assert fields.vector3("box", EXTENT) is None
     assert told(fields) == [
         "spec.yaml:1:10: error: box takes a length such as '25 mm', found '2 kg', which is a mass [LF5002]",
-        "spec.yaml:1:16: error: box must be above 0 [m], found 0 [LF5006]",
+        "spec.yaml:1:16: error: box must be above 0 m, found 0 [LF5006]",
     ]
 
 

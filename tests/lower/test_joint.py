@@ -79,8 +79,8 @@ def test_limits_that_stand_in_for_unsaid_ones_are_no_fault_of_their_own():
         + """
 joints:
   wheel: {type: continuous, parent: base, child: arm, axis: y, limits: {}}
-# ^E[LF5005]:72 joint 'wheel' has no 'limits.effort'; write 'effort: 50 N*m'
-# ^^E[LF5005]:72 joint 'wheel' has no 'limits.velocity'; write 'velocity: 90 deg/s'
+# ^E[LF5005]:72 joint 'wheel' has no 'limits.effort'; write one, such as 'effort: 50 N*m'
+# ^^E[LF5005]:72 joint 'wheel' has no 'limits.velocity'; write one, such as 'velocity: 90 deg/s'
 """
     )
     assert result.robot.joint("wheel").limits == JointLimits(effort=1, velocity=1)
@@ -91,7 +91,7 @@ def test_a_joint_without_a_required_field_is_a_gap():
         LINKS
         + """
 joints:
-  elbow: {type: fixed, child: arm}   # E[LF5005]:3 joint 'elbow' has no 'parent'; write 'parent: base'
+  elbow: {type: fixed, child: arm}   # E[LF5005]:3 joint 'elbow' has no 'parent'; write one, such as 'parent: base'
 """
     )
     assert "elbow" in result.unresolved

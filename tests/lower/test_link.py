@@ -158,7 +158,7 @@ def test_a_link_keeps_what_is_sound_when_a_part_of_it_is_faulty():
         name: arm
         links:
           base:
-            visual: [{sphere: 0}, {sphere: 1}]   # E[LF5006]:23 sphere must be above 0 [m], found 0
+            visual: [{sphere: 0}, {sphere: 1}]   # E[LF5006]:23 sphere must be above 0 m, found 0
             inertial: {mass: 3 mm}   # E[LF5002]:22 mass takes a mass such as '3 kg', found '3 mm', which is a length
         """
     )

@@ -95,7 +95,7 @@ def test_a_module_that_lacks_only_its_parent_is_told_by_the_links_that_someone_w
     (tmp_path / "leg.robot.yaml").write_text(LEG)
     text = "linkforge: 1\nname: w\nlinks: {trunk: }\nmodules: {left: {use: leg.robot.yaml}}"
     (told,) = [one.message for one in compile_text(text, folder=tmp_path).diagnostics if one.severity is Severity.ERROR]
-    assert told.startswith("2 links have no parent: 'trunk' and 'left_hip'")
+    assert told.startswith("the robot has 2 roots, 'trunk' and 'left_hip'")
 
 
 def test_one_that_hangs_is_no_link_to_whoever_takes_it_for_one(tmp_path):

@@ -68,7 +68,7 @@ def test_a_faulty_sensor_is_told_whole_and_others_may_still_name_it():
             update_rate: fast   # E[LF5001]:18 update_rate takes a frequency such as '20 Hz', found 'fast'
             camera:
               width: 1.5   # E[LF5001]:14 width takes a whole number, found 1.5
-              near_clip: 0   # E[LF5006]:18 near_clip must be above 0 [m], found 0
+              near_clip: 0   # E[LF5006]:18 near_clip must be above 0 m, found 0
     """).sensors
 
 

@@ -117,7 +117,8 @@ def test_a_faulty_group_is_a_gap():
         semantic:
           groups:
             arm:
-              chain: {base_link: base}   # E[LF5005]:14 group 'arm' has no 'chain.tip_link'; write 'tip_link: tool0'
+              chain: {base_link: base}
+              # ^E[LF5005]:14 group 'arm' has no 'chain.tip_link'; write one, such as 'tip_link: tool0'
         """
     )
     assert "arm" in result.unresolved

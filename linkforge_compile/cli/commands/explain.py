@@ -130,7 +130,7 @@ def _lines(explanation: Explanation) -> Iterator[str]:
     if explanation.is_written:
         yield from place_lines(chain.sentence, chain.span)
     elif explanation.computed_from is None:
-        yield "nothing is written for it"
+        yield "no line of the spec wrote this; it has its default"
         yield from place_lines(f"what it belongs to is {chain.sentence}", chain.span)
     links = [link for link in chain.outer or () if link.sentence]
     of_value = [link for link in links if link.kind in {Kind.EXPRESSION, Kind.VALUE}]
@@ -153,7 +153,7 @@ def _link(link: Provenance, names: Sequence[NameOrigin] = ()) -> Iterator[str]:
 
 
 def _computed(inertial: ComputedFrom) -> Iterator[str]:
-    yield f"computed from the {inertial.quantity}, even over the shapes of the link"
+    yield f"computed from the {inertial.quantity}, spread evenly over the link's shapes"
     yield from place_lines(f"the {inertial.quantity} is {inertial.place.sentence}", inertial.place.span)
     for shape in inertial.shapes:
         yield f"{shape.path}, a {shape.geometry}" + (f", is written at {shape.place}" if shape.place else "")

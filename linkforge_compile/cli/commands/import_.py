@@ -125,5 +125,5 @@ def _write(text: str, output: Path | None, arguments: argparse.Namespace) -> Non
 
     if output and output.is_file() and not arguments.force and output.read_bytes() != text.encode("utf-8"):
         # Once imported, a spec belongs to the user: do not lose what was changed in it.
-        raise UsageError(f"'{output}' is there and says something else; --force replaces it")
+        raise UsageError(f"'{output}' exists with other content; use --force to replace it")
     write_document(text, output, arguments)

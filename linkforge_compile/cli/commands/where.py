@@ -99,7 +99,7 @@ def _map_of(path: Path, document: str) -> MapFile:
         banner = BANNER.search(document[:10_000])
         spec = banner["spec"] if banner else "SPEC.robot.yaml"
         command = f"linkforge compile {spec} -o {path} --source-map"
-        raise UsageError(f"there is no map '{map_file}'; `{command}`, with the options of before, writes it")
+        raise UsageError(f"there is no map '{map_file}'; `{command}`, with the same options as before, writes it")
     try:
         return read_map(_text_of(map_file))
     except NoMapError as error:
@@ -207,12 +207,14 @@ def _answer(path: Path, document: str, sources: _Sources, query: _Query) -> Iter
     yield f"{path}:{query.line}: {query.what or line.strip()}"
     found = sources.map.at(query.line, query.column)
     if found is None:
-        yield "nothing is written for it"
+        yield "no source is recorded for this line"
         return
     stretch, trail = found
     place = sources.span(stretch)
     yield from place_lines("written", place)
-    if stretch.length and place.text and "$(" in place.text.replace("$$(", ""):
-        yield f"computed: {place.text}"
+    # A whole map or list is not computed; its values have stretches of their own.
+    text = place.text or ""
+    if stretch.length and "$(" in text.replace("$$(", "") and not text.startswith(("{", "[")):
+        yield f"computed: {text}"
     for how, step in trail:
         yield from place_lines(how, sources.span(step))

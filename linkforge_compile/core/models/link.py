@@ -81,7 +81,7 @@ class Inertial(Element):
         if self.mass < 0:
             raise RobotPhysicsError(
                 ValidationErrorCode.OUT_OF_RANGE,
-                f"mass must be 0 or above [kg], found {self.mass}",
+                f"mass must be at least 0 kg, found {self.mass}",
                 target="Mass",
                 value=self.mass,
                 field=("mass",),

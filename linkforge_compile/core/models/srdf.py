@@ -289,7 +289,7 @@ class SrdfSphere(Element):
         if self.radius < 0:
             raise RobotValidationError(
                 ValidationErrorCode.INVALID_VALUE,
-                f"sphere radius must be 0 or above [m], found {self.radius}",
+                f"sphere radius must be at least 0 m, found {self.radius}",
                 target="SrdfSphere",
                 field=("radius",),
             )

@@ -7,11 +7,11 @@ _E, _W = Severity.ERROR, Severity.WARNING
 _DATA, _VALUE = Location.DATA, Location.VALUE
 
 UNREADABLE_EXPRESSION = Code("LF3101", _E, "cannot read this expression: {problem}")
-UNCLOSED_EXPRESSION = Code("LF3102", _E, "'$(' has no closing ')'; write '$$(' for the text '$('")
+UNCLOSED_EXPRESSION = Code("LF3102", _E, "'$(' has no closing ')'; for a literal '$(' write '$$('")
 UNCLOSED_TEXT = Code("LF3103", _E, "no closing quote for the text that begins here")
 EMPTY_EXPRESSION = Code("LF3104", _E, "expected an expression between '$(' and ')', found nothing")
 EXPRESSION_TOO_LARGE = Code("LF3105", _E, "the expression {fault}; move parts of it into 'variables'")
-NOT_IN_EXPRESSIONS = Code("LF3106", _E, "{what} is not allowed in an expression; {instead}")
+NOT_IN_EXPRESSIONS = Code("LF3106", _E, "an expression cannot {use}; {instead}")
 UNKNOWN_NAME = Code("LF3107", _E, "no parameter, variable or 'for' name '{name}' here{hint}", is_unknown_name=True)
 UNKNOWN_FUNCTION = Code("LF3108", _E, "no function named '{name}'")
 FUNCTION_NOT_CALLED = Code("LF3110", _E, "'{function}' is a function; write {signature}")

@@ -59,7 +59,9 @@ NO_SEMANTIC_PART = Code(
 CHANGED_SINCE = Code("LF7086", _W, "the source map is out of date, as this file changed since {when}; compile it again")
 SOURCE_NOT_SHOWN = Code("LF7087", _W, "the source cannot be shown: {reason}")
 STALE_OUTPUT = Code(
-    "LF7095", _E, "here '{spec}' compiles to {expected}; compile it again, and edit it rather than this file"
+    "LF7095",
+    _E,
+    "out of date: '{spec}' now compiles to {expected}; compile it again, and edit it rather than this file",
 )
 MISSING_OUTPUT = Code("LF7096", _E, "there is no '{path}', which '{spec}' compiles to; compile it again")
 

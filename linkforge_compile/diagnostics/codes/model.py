@@ -12,7 +12,11 @@ WRONG_DIMENSION = Code("LF5002", _E, "{field} takes {expected}, found {found}, w
 UNKNOWN_UNIT = Code("LF5003", _E, "{field} takes {expected}; there is no unit '{name}'{hint}", _DATA)
 NOT_FINITE = Code("LF5004", _E, "{field} must be a finite number, found {found}", _VALUE)
 MISSING_FIELD = Code(
-    "LF5005", _E, "{owner} has no '{field}'; write '{key}: {example}'", _DATA, in_xml="{owner} needs {element}"
+    "LF5005",
+    _E,
+    "{owner} has no '{field}'; write one, such as '{key}: {example}'",
+    _DATA,
+    in_xml="{owner} needs {element}",
 )
 OUT_OF_RANGE = Code("LF5006", _E, "{field} must be {bound}, found {found}", _VALUE)
 UNKNOWN_CHOICE = Code("LF5007", _E, "{field} is one of {choices}, found '{name}'", _VALUE)
@@ -93,7 +97,9 @@ NO_LINKS = Code("LF5401", _E, "robot '{robot}' has no links; a robot has at leas
 SECOND_PARENT = Code("LF5402", _E, "link '{link}' is the child of two joints, '{first}' and '{joint}'; {way_out}")
 LINK_CIRCLE = Code("LF5403", _E, "links are each other's parents in a circle: {path}")
 SEVERAL_ROOTS = Code(
-    "LF5404", _E, "{count} links have no parent: {roots}; only one may be the root, so attach {strays} to '{root}'"
+    "LF5404",
+    _E,
+    "the robot has {count} roots, {roots}; join them, such as with a fixed joint from '{parent}' to '{child}'",
 )
 
 # LF55xx: how far joints go, and joints that follow others

@@ -24,7 +24,7 @@ PACKAGE_NOWHERE = Code(
 )
 
 # LF301x: modules
-MODULE_WITHOUT_FILE = Code("LF3010", _E, "module '{name}' has no 'use'; write 'use: FILE.robot.yaml'")
+MODULE_WITHOUT_FILE = Code("LF3010", _E, "module '{name}' has no 'use'; write one, such as 'use: FILE.robot.yaml'")
 MODULE_FIELD = Code("LF3011", _E, "'{field}' of module '{name}' takes {expected}, found {found}")
 NOT_A_MODULE = Code("LF3015", _E, "module '{name}' is a map with 'use', found {found}")
 MODULES_NOT_MAP = Code("LF3016", _E, "'modules' is a map of modules by name, found {found}")
@@ -39,7 +39,7 @@ NOT_JUDGED = Code("LF3022", _N, "nothing sets {names} here, so what depends on {
 PARAMETER_KIND = Code("LF3023", _E, "parameter '{parameter}' takes {expected}, found {found}", _DATA)
 PARAMETER_TOO_SMALL = Code("LF3024", _E, "parameter '{parameter}' must be at least {bound}, found {found}", _VALUE)
 PARAMETER_TOO_LARGE = Code("LF3025", _E, "parameter '{parameter}' must be at most {bound}, found {found}", _VALUE)
-PARAMETER_CHOICE = Code("LF3026", _E, "parameter '{parameter}' is one of {choices}, found '{name}'", _VALUE)
+PARAMETER_CHOICE = Code("LF3026", _E, "parameter '{parameter}' must be one of {choices}, found '{name}'", _VALUE)
 PARAMETER_PATTERN = Code("LF3027", _E, "parameter '{parameter}' must match '{pattern}', found {found}", _VALUE)
 NOT_AN_ASSIGNMENT = Code("LF3028", _E, "a parameter is set by NAME=VALUE, found '{text}'")
 SET_TWICE = Code("LF3029", _E, "parameter '{name}' is set twice")
@@ -100,7 +100,7 @@ CONDITION_KIND = Code("LF3201", _E, "'when' takes true or false, found {found}",
 FOR_KIND = Code("LF3202", _E, "'{name}' in 'for' takes a list or a whole number, found {found}", _DATA)
 FOR_NAME_TAKEN = Code("LF3203", _E, "'{name}' is already defined here; choose another name for 'for'")
 KEY_WITHOUT_NAME = Code(
-    "LF3204", _E, "the key must contain '{name}' of its 'for', such as '{example}', to be unique in each round"
+    "LF3204", _E, "the key must mention '{name}' of its 'for', such as '{example}', so that each copy gets its own name"
 )
 RESERVED_KEY = Code("LF3206", _E, "'{name}' is reserved for repetition and cannot be a name among the {owner}{way_out}")
 LONG_FORM = Code("LF3207", _E, "with 'for' or 'when', only 'value' is allowed here, found {found}")

@@ -6,7 +6,7 @@ from linkforge_compile.source.provenance import Location
 _E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
 _VALUE = Location.VALUE
 
-INVALID_NAME = Code("LF4001", _E, "'{name}' is not a valid name for a {kind}: {reason}", _VALUE)
+INVALID_NAME = Code("LF4001", _E, "'{name}' is not a valid {kind}: {reason}", _VALUE)
 RESERVED_NAME = Code("LF4002", _W, "Gazebo refuses a {kind} named '{name}', which it reserves; choose another name")
 FRAME_WITH_SLASH = Code("LF4003", _W, "tf2 refuses frame '{name}', which begins with '/'; leave it out")
 REFUSED_TOPIC = Code("LF4004", _W, "ROS 2 refuses topic '{topic}': {reason}")
