@@ -296,7 +296,7 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
         if settings.output is not None:
             from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
 
-            sink.report_all(check_relative_mesh_paths(lowered.robot, settings.output))
+            sink.report_all(check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder))
     return lowered.robot
 
 
@@ -310,8 +310,10 @@ class Checked(NamedTuple):
 def check_alone(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Checked:
     """Compile a spec by itself, within a budget of its own, sharing the meshes of the whole compile."""
     sink, was_reported = Diagnostics(), meshes.is_without_library
-    with loader.separate_budget():
-        robot = robot_of(spec, Settings(), loader, meshes, sink)
-    meshes.is_without_library = was_reported  # this sink is discarded: the whole compile reports it
+    try:
+        with loader.separate_budget():
+            robot = robot_of(spec, Settings(), loader, meshes, sink)
+    finally:
+        meshes.is_without_library = was_reported  # this sink is discarded: the whole compile reports it
     faults = tuple(fault for fault in sink if fault.severity is Severity.ERROR)
     return Checked(None if faults else robot, faults)

@@ -159,11 +159,12 @@ def _report_crash(error: Exception, words: Sequence[str]) -> int:
     import shlex
     import traceback
 
+    from linkforge_compile.cli.reports import write_to_stderr
     from linkforge_compile.formats.environment import TemplateFaultError
     from linkforge_compile.source.characters import on_one_line
 
     if isinstance(error, TemplateFaultError):
-        print(f"linkforge: {error}", file=sys.stderr)
+        write_to_stderr(f"linkforge: {error}\n")
         return WRONG_USAGE
     frames = traceback.extract_tb(error.__traceback__)
     place = "?"
@@ -171,16 +172,14 @@ def _report_crash(error: Exception, words: Sequence[str]) -> int:
         place = f"{frames[-1].filename.rpartition('linkforge_compile')[2].lstrip('/')}:{frames[-1].lineno}"
     trace = "".join(traceback.format_exception(error))
     if os.environ.get("LINKFORGE_DEBUG"):
-        print(trace, end="", file=sys.stderr)
+        write_to_stderr(trace)
     system = f"linkforge {__version__}, Python {platform.python_version()}, {platform.platform()}"
     about = f"{system}\ncommand: {on_one_line(shlex.join(('linkforge', *words)))}\n"
-    print(
+    write_to_stderr(
         f"linkforge: internal fault: {type(error).__name__} at {place}: {on_one_line(str(error))}\n"
         "This is a bug in linkforge, not in your spec. Please report it with the spec and\n"
         f"  {_save(f'{about}{trace}') or 'what LINKFORGE_DEBUG=1 prints'}\n"
-        f"{about}",
-        end="",
-        file=sys.stderr,
+        f"{about}"
     )
     return INTERNAL_FAULT
 

@@ -159,11 +159,11 @@ def compile_spec(
     """
     from linkforge_compile.pipeline import compile_path, compile_source
 
-    settings = settings_of(assignments, arguments)._replace(formats=formats)
+    settings = settings_of(assignments, arguments)._replace(output=output, formats=formats)
     if spec == "-" or text is not None:
         text = read_stdin() if text is None else text
         return compile_source(text, STDIN if spec == "-" else spec, Path.cwd(), settings)
-    return compile_path(spec, settings._replace(output=output))
+    return compile_path(spec, settings)
 
 
 def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Compilation:

@@ -81,7 +81,7 @@ def write_changed(texts: Mapping[Path, str], stdout: str | None = None) -> froze
                     raise IsADirectoryError(EISDIR, os.strerror(EISDIR))
                 if target.is_file() or not target.exists():
                     temporary[path] = _write_temporary(target, content, cleanup)
-                else:  # such as /dev/stdout, or a pipe that a shell makes for >(…)
+                else:  # such as /dev/stderr, or a pipe that a shell makes for >(…)
                     devices.append(path)
         for path, new in temporary.items():
             with _write_errors(path, targets[path]):

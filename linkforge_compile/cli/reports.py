@@ -101,9 +101,15 @@ def print_line(line: str) -> None:
 
 
 def write_to_stderr(text: str) -> None:
-    """Write to standard error, unless it is closed."""
-    if sys.stderr is not None:
+    """Write to standard error, unless it is closed or its reader is gone, which changes no exit code."""
+    if sys.stderr is None:
+        return
+    try:
         sys.stderr.write(text)
+        sys.stderr.flush()
+    except BrokenPipeError:
+        # Redirected, so that the final flush does not meet the closed pipe.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
 
 
 def format_diagnostics(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> str:

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     import argparse
 
 _SPEC_ENDINGS = (".yaml", ".yml")
-_STANDARD_OUTPUT = "-"
+_STANDARD_OUTPUT = ("-", "/dev/stdout", "/dev/fd/1")
+"""Names of standard output; as a file it could not be resolved if it is a pipe, and would be replaced if it is one."""
 
 
 class Targets(NamedTuple):
@@ -124,8 +125,8 @@ def _is_document(output: str, name: str) -> bool:
 
 
 def file_to_write(output: str | None) -> Path | None:
-    """Return the output file that an option names, None for standard output: no option, or `-`."""
-    return None if output is None or output == _STANDARD_OUTPUT else Path(output)
+    """Return the output file that an option names, None for standard output: no option, or one of its names."""
+    return None if output is None or output in _STANDARD_OUTPUT else Path(output)
 
 
 def imported_spec(robot: str, output: str | None) -> Path | None:
@@ -150,7 +151,7 @@ def _several(outputs: Sequence[str], chosen: str | None) -> dict[str, Path | Non
     paths: dict[str, Path | None] = {}
     for output in outputs:
         if file_to_write(output) is None:
-            raise UsageError("-o - is standard output, which takes one format; leave the other -o out")
+            raise UsageError(f"-o {output} is standard output, which takes one format; leave the other -o out")
         if not _is_file(output, _file_endings()):
             raise UsageError(f"-o takes several files, one a format, or one folder; found the folder '{output}'")
         format_ = _format_of_file(output, chosen)

@@ -14,25 +14,29 @@ from linkforge_compile.diagnostics.codes.formats import MESH_BESIDE_THE_SPEC
 _SHOWN = 3
 
 
-def check_relative_mesh_paths(robot: Robot, folder: Path, code: Code = MESH_BESIDE_THE_SPEC) -> Iterator[Diagnostic]:
+def check_relative_mesh_paths(
+    robot: Robot, folder: Path, code: Code = MESH_BESIDE_THE_SPEC, *, start: Path | None = None
+) -> Iterator[Diagnostic]:
     """Yield one warning about relative paths of meshes that exist beside the robot's file, but not from `folder`.
 
     `folder` is where the other file with the same paths is written: the URDF of a spec, or the spec of a URDF, by
-    `code`. A mesh that is in neither place is reported as missing elsewhere.
+    `code`. A mesh that is in neither place is reported as missing elsewhere. `start` is where the paths of a robot
+    without a file start, None if that is not known.
     """
     spec = robot.source.span.file.path if robot.source and robot.source.span else None
-    if spec is None:
+    start = spec.parent if spec else start
+    if start is None:
         return
     missing = [
         mesh
         for path, mesh in _relative_meshes(robot).items()
-        if _is_file(spec.parent / path) and not _is_beside(folder, path)
+        if _is_file(start / path) and not _is_beside(folder, path)
     ]
     if missing:
         first, *others = missing
         notes = [Note(f"nor '{mesh.resource}'", mesh.source.at("file") if mesh.source else None) for mesh in others]
         more = [Note(f"nor {len(others) - _SHOWN} more")] if len(others) > _SHOWN else []
-        back = Path(os.path.relpath(spec.parent)).as_posix()
+        back = Path(os.path.relpath(start)).as_posix()
         facts = {"path": first.resource, "folder": folder.as_posix(), "back": back}
         yield code.at(first.source, "file", notes=notes[:_SHOWN] + more, **facts)
 

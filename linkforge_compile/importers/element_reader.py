@@ -25,6 +25,9 @@ Read = Callable[["ElementReader"], YamlNode | None]
 Named = dict[str, tuple[XmlAttribute, YamlNode]]
 """Nodes by name, each with the attribute that names it."""
 
+_FLAGS = {"true": True, "1": True, "false": False, "0": False}
+"""The words of XML Schema for true and false."""
+
 _MAX_TEXT = 40
 """Characters shown of a text that is left out."""
 
@@ -67,6 +70,16 @@ class ElementReader:
         """Take an attribute as text; without it the element cannot be represented."""
         attribute = self.attribute(name)
         return self.draft.text(attribute.value, attribute)
+
+    def flag(self, name: str, *, default: bool | None = None) -> YamlScalar | None:
+        """Take an attribute as true or false; None where there is none, or it is the default."""
+        if name not in self._attributes:
+            return None
+        attribute = self._attributes.pop(name)
+        value = _FLAGS.get(attribute.value.strip())
+        if value is None:
+            raise CannotRepresentError(f"{name} is neither true nor false: '{attribute.value}'", attribute.span)
+        return None if value is default else self.draft.word(str(value).lower(), attribute)
 
     def number(
         self, name: str, unit: Dimension | None = None, *, default: float | None = None, above: float | None = None

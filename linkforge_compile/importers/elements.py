@@ -7,7 +7,19 @@ from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import TypeAlias
 
-from linkforge_compile.core.fields import Child, Choice, Number, Pose, Reference, Spec, Text, field_specs, number_fields
+from linkforge_compile.core.fields import (
+    Child,
+    Choice,
+    Flag,
+    Number,
+    Pose,
+    Reference,
+    Spec,
+    Text,
+    Vector,
+    field_specs,
+    number_fields,
+)
 from linkforge_compile.core.part import Element
 from linkforge_compile.importers.element_reader import ElementReader, Read
 from linkforge_compile.importers.spec_draft import CannotRepresentError, number_of
@@ -35,37 +47,70 @@ def read_element(
     """
     require_numbers(reader, kind)
     entries: dict[str, YamlNode | None] = {}
-    for name, spec in field_specs(kind).items():
+    for spec in field_specs(kind).values():
         if spec.key and spec.key not in readers:
-            entries[spec.key] = _read(reader, name, spec, motion, names)
+            entries[spec.key] = _read(reader, spec, motion, names)
         elif spec.key:
             entries[spec.key] = readers[spec.key](reader)
     others = {key: read(reader) for key, read in readers.items() if key not in entries}
     return reader.map(**entries, **others)
 
 
-def _read(reader: ElementReader, name: str, spec: Spec, motion: Motion, names: Names) -> YamlNode | None:
-    tag, _, attribute = (spec.xml or "").rpartition("@")
+def _read(reader: ElementReader, spec: Spec, motion: Motion, names: Names) -> YamlNode | None:
+    """Read a field; TypeError for one of a kind, or in a place, that only a reader of its own can read."""
+    if isinstance(spec, Child):
+        return _read_child(reader, spec, motion, names)
+    tag, attribute = _place_of(spec)
+    if not tag:
+        return _read_attribute(reader, attribute, spec, motion, names)
+
+    def read_only_attribute(child: ElementReader) -> YamlNode | None:
+        node = _read_attribute(child, attribute, spec, motion, names)
+        child.pass_rest_up()
+        return node
+
+    if spec.example and not reader.has_child(tag):
+        raise reader.cannot_represent(f"it has no <{tag}>")
+    return reader.child(tag, read_only_attribute)
+
+
+def _read_child(reader: ElementReader, spec: Child, motion: Motion, names: Names) -> YamlNode | None:
+    # The class itself, because kinds of children are subclasses of Child that have other forms.
+    if type(spec) is Pose:
+        return reader.child(spec.xml or "", read_pose)
+    if type(spec) is Child and len(spec.kinds) == 1:
+        [kind] = spec.kinds
+        return reader.child(spec.xml or "", lambda child: read_element(child, kind, motion, names=names))
+    raise _unreadable(spec)
+
+
+def _place_of(spec: Spec) -> tuple[str, str]:
+    """Return the tag of the child that has the attribute of a field, empty for the element itself, and its name."""
+    tag, at, attribute = (spec.xml or "").rpartition("@")
+    if not at or spec.container:
+        raise _unreadable(spec)
+    return tag.rstrip("/"), attribute
+
+
+def _unreadable(spec: Spec) -> TypeError:
+    return TypeError(f"'{spec.key}' is a {type(spec).__name__} at '{spec.xml}', which needs a reader of its own")
+
+
+def _read_attribute(reader: ElementReader, name: str, spec: Spec, motion: Motion, names: Names) -> YamlNode | None:
     match spec:
         case Number():
             return _read_number(reader, name, spec, motion)
-        case Reference() if tag:
-            return reader.required(tag.rstrip("/"), lambda child: _read_only_attribute(child, attribute))
-        case Reference() if spec.example or reader.element.get(attribute):
-            return read_reference(reader, attribute, spec.to, names)
-        case Text() | Choice() if spec.example:
-            return reader.required_text(attribute)
-        case Pose():
-            return reader.child(spec.xml or "", read_pose)
-        case Child(kinds=(kind,)):
-            return reader.child(spec.xml or "", lambda child: read_element(child, kind, motion, names=names))
-    return None
-
-
-def _read_only_attribute(reader: ElementReader, attribute: str) -> YamlNode:
-    node = reader.required_text(attribute)
-    reader.pass_rest_up()
-    return node
+        case Vector():
+            return _read_vector(reader, name, spec, motion)
+        case Flag():
+            return reader.flag(name, default=spec.implied)
+        case Reference():
+            is_given = spec.example or reader.element.get(name)
+            return read_reference(reader, name, spec.to, names) if is_given else None
+        case Text() | Choice():
+            node = reader.required_text(name) if spec.example else reader.text(name)
+            return None if node is not None and reader.element.get(name) == spec.implied else node
+    raise _unreadable(spec)
 
 
 def read_reference(reader: ElementReader, attribute: str, kind: str, names: Names) -> YamlScalar:
@@ -80,26 +125,40 @@ def read_reference(reader: ElementReader, attribute: str, kind: str, names: Name
 
 def require_numbers(reader: ElementReader, kind: type[Element]) -> None:
     """Raise CannotRepresentError unless the element has the numbers that readers of URDF require."""
-    required = [name for name, spec in number_fields(kind).items() if spec.is_required_in_urdf]
-    if missing := [name for name in required if reader.element.get(name) is None]:
+    required = [_place_of(spec) for spec in number_fields(kind).values() if spec.is_required_in_urdf]
+    if missing := [name for tag, name in required if not tag and reader.element.get(name) is None]:
         raise reader.cannot_represent(f"it has no {' and no '.join(map(repr, missing))}")
 
 
 def read_numbers(
     reader: ElementReader, kind: type[Element], motion: Motion, *, without: Collection[str] = ()
 ) -> dict[str, YamlNode | None]:
-    """Read the numbers of a class; None for one that is missing or has its default."""
+    """Read the numbers of a class by key, except the fields `without`; None for one missing or at its default."""
     specs = number_fields(kind).items()
-    return {name: _read_number(reader, name, spec, motion) for name, spec in specs if name not in without}
+    return {spec.key or name: _read(reader, spec, motion, NO_NAMES) for name, spec in specs if name not in without}
 
 
 def _read_number(reader: ElementReader, name: str, spec: Number, motion: Motion) -> YamlScalar | None:
     written = reader.element.get(name) or ""
     node = reader.number(name, spec.unit.dimension(motion), default=spec.implied)
+    _require_bound(reader, name, spec, written)
+    return node
+
+
+def _read_vector(reader: ElementReader, name: str, spec: Vector, motion: Motion) -> YamlList | None:
+    written = (reader.element.get(name) or "").split()
+    read = reader.required_numbers if spec.example else reader.numbers
+    node = read(name, 3, spec.unit.dimension(motion))
+    for number in written:
+        _require_bound(reader, name, spec, number)
+    default = spec.implied and tuple(spec.implied)
+    return None if tuple(map(number_of, written)) == default else node
+
+
+def _require_bound(reader: ElementReader, name: str, spec: Number | Vector, written: str) -> None:
     value = number_of(written)
     if spec.bound and value is not None and not spec.bound.holds(value):
         raise reader.cannot_represent(f"{name} must be {spec.bound.words}, found {written}")
-    return node
 
 
 _QUATERNION = "quat_xyzw"

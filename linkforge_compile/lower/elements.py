@@ -25,7 +25,7 @@ from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.part import Element, FreePart, Inside, Part, RawXml
 from linkforge_compile.diagnostics.codes.model import ATTRIBUTE_OF_OWNER, LIST_IN_LIST
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.numbers import ANGLE, LENGTH, NumberType, number_type
+from linkforge_compile.lower.numbers import ANGLE, LENGTH, number_type
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import FieldUnit, Motion
@@ -94,10 +94,10 @@ def lower_pose(fields: Fields, key: str = "origin") -> Transform:
     return Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **common_kwargs(pose))
 
 
-def _number(spec: Any, key: str, fields: Fields, motion: Motion, unit: FieldUnit | None) -> float | None:
+def _number(spec: Number, key: str, fields: Fields, motion: Motion, unit: FieldUnit | None) -> float | None:
     accepted = number_type(unit or spec.unit, spec.bound, motion, spec.may_be_far)
     read = fields.integer if spec.is_whole else fields.number
-    value = read(key, accepted, required=spec.example and spec.example_for(motion))
+    value = read(key, accepted, required=spec.example_for(motion))
     if value is not None:
         return value
     is_faulty = spec.example or fields.get(key) is not None or fields.is_faulty
@@ -105,36 +105,36 @@ def _number(spec: Any, key: str, fields: Fields, motion: Motion, unit: FieldUnit
     return number
 
 
-def _vector(spec: Any, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
-    accepted: NumberType = number_type(spec.unit, spec.bound, motion)
+def _vector(spec: Vector, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
+    accepted = number_type(spec.unit, spec.bound, motion)
     return _or_implied(spec, fields.vector3(key, accepted, required=spec.example_for(motion)))
 
 
-def _text(spec: Any, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
+def _text(spec: Text, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
     if spec.container:
         return fields.names(key)
     return _or_implied(spec, fields.text(key, required=spec.example_for(motion)))
 
 
-def _flag(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> object:
+def _flag(spec: Flag, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> object:
     return _or_implied(spec, fields.flag(key))
 
 
-def _choice(spec: Any, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
+def _choice(spec: Choice, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
     word = fields.choice(key, spec.words, required=spec.example_for(motion))
     return spec.implied if word is None else str(word)
 
 
-def _pose(_spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> Transform:
+def _pose(_spec: Pose, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> Transform:
     return lower_pose(fields, key)
 
 
-def _child(spec: Any, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
+def _child(spec: Child, key: str, fields: Fields, motion: Motion, _unit: FieldUnit | None) -> object:
     child = fields.map(key)
     return lower_element(spec.kinds[0], child, motion) if child else None
 
 
-def _noise(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> object:
+def _noise(spec: Noise, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> object:
     noise, kind = fields.map(key), spec.kinds[0]
     if noise is None:
         return None
@@ -144,17 +144,19 @@ def _noise(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUni
     return lower_element(kind, noise, **values)
 
 
-def _children(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> list[Part]:
-    kind: type[Part] = spec.kinds[0]
+def _children(spec: Children, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> list[Part]:
+    kind: type[Element] = spec.kinds[0]
     if isinstance(fields.get(key), YamlMap):
-        children = [*lower_each(kind, fields, key, spec.kinds[0].TAG).values()]
+        children = [*lower_each(kind, fields, key, kind.TAG).values()]
     else:
         items = [fields.map_at(node, key) for node in fields.items(key)]
         children = [lower_element(kind, item) for item in items if item]
     return [child for child in children if child]
 
 
-def _parameters(spec: Any, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> Mapping[str, object]:
+def _parameters(
+    spec: Parameters, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None
+) -> Mapping[str, object]:
     return free_elements(fields, key) if spec.xml == "*" else free_texts(fields, key)
 
 

@@ -146,6 +146,15 @@ def test_meshes_beside_the_spec_are_told_where_the_urdf_goes_elsewhere(pendulum:
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
 
 
+def test_meshes_of_a_spec_on_standard_input_are_looked_for_from_the_output_folder(pendulum: Path):
+    """LF7006."""
+    (pendulum / "rod.stl").write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
+    spec = "linkforge: 1\nname: rod\nlinks: {rod: {visual: {mesh: rod.stl}, collision: visual}}\n"
+    words = ("compile", "-", "-o", "build/")
+    assert "LF7006" in linkforge(*words, cwd=pendulum, stdin=spec).stderr
+    assert "LF7006" not in linkforge(*words, "--installed-in", ".", cwd=pendulum, stdin=spec).stderr
+
+
 def test_a_mesh_is_found_or_not_whether_or_not_the_output_folder_is_there_already(pendulum: Path):
     specs = pendulum / "specs"
     specs.mkdir()
@@ -171,6 +180,20 @@ def test_an_output_called_by_a_dash_is_standard_output(pendulum: Path):
         assert (run.returncode, run.stdout, run.stderr) == (0, plain.stdout, "")
     assert linkforge("schema", "-o", "-", cwd=pendulum).stdout == linkforge("schema", cwd=pendulum).stdout
     assert [file.name for file in pendulum.iterdir()] == ["swing.robot.yaml"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="devices of POSIX")
+@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1"])
+def test_the_device_of_standard_output_is_standard_output(name: str, pendulum: Path):
+    plain = program("compile", "swing.robot.yaml", cwd=pendulum).stdout
+    piped = program("compile", "swing.robot.yaml", "-o", name, cwd=pendulum)
+    assert (piped.returncode, piped.stdout, piped.stderr) == (0, plain, "")
+    command = [sys.executable, "-m", "linkforge_compile", "compile", "swing.robot.yaml", "-o", name]
+    with (pendulum / "out").open("w") as file:
+        file.write("before\n")
+        file.flush()
+        subprocess.run(command, cwd=pendulum, stdout=file, check=True, timeout=60)
+    assert (pendulum / "out").read_text() == f"before\n{plain}"
 
 
 def test_standard_output_takes_one_format(pendulum: Path):
@@ -357,6 +380,17 @@ def test_a_reader_that_has_enough_is_no_fault(pendulum: Path):
     command = f"{sys.executable} -m linkforge_compile schema | head -c 10"
     run = subprocess.run(command, shell=True, cwd=pendulum, capture_output=True, text=True, check=False, timeout=60)
     assert run.stderr == ""
+
+
+@pytest.mark.parametrize(("spec", "code"), [("links: 3\n", 1), ("", 0)])
+def test_diagnostics_that_nothing_reads_change_no_exit_code(pendulum: Path, spec: str, code: int):
+    (pendulum / "swing.robot.yaml").write_text(PENDULUM + spec)
+    reads, writes = os.pipe()
+    os.close(reads)
+    command = [sys.executable, "-m", "linkforge_compile", "compile", "swing.robot.yaml", "-o", "build/"]
+    with os.fdopen(writes, "w") as closed:
+        run = subprocess.run(command, cwd=pendulum, stderr=closed, check=False, timeout=60)
+    assert run.returncode == code
 
 
 @pytest.mark.parametrize("output", ["swing.robot.yaml", "out.txt", "build.v2"])

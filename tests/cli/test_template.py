@@ -199,7 +199,7 @@ def test_no_template_is_written_over(folder: Path):
             "--template takes a folder of templates, found 'empty': it has no NAME.j2 for a document, nor urdf/",
         ),
         (("--template", ""), "--template takes a folder, found '': is a variable of the shell empty?"),
-        (("--template", "t", "--source-map", "-o", "out/"), "--source-map is of what linkforge's own templates write"),
+        (("--template", "t", "--source-map", "-o", "out/"), "--source-map cannot be combined with --template"),
         (
             ("--template", "two", "-o", "notes.md"),
             "-o takes a folder, or a file that ends in .urdf, .srdf or",

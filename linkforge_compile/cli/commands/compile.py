@@ -93,7 +93,7 @@ def parse_request(arguments: argparse.Namespace) -> BuildRequest:
     if arguments.source_map:
         targets.require_files("--source-map", "writes its map beside the output")
         if templates is not None:
-            raise UsageError("--source-map is of what linkforge's own templates write; leave it or --template out")
+            raise UsageError("--source-map cannot be combined with --template")
     if arguments.check:
         targets.require_files("--check", "compares with files")
     if arguments.depfile is not None:
