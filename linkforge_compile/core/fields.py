@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, MISSING, dataclass, fields, replace
 from enum import StrEnum
 from functools import cache
@@ -232,18 +232,6 @@ def tags_with_text(kind: type) -> dict[str, str]:
     """Return the tags of the fields of a class that become elements with a text, by field, in order."""
     spellings = ((name, spec.xml or "") for name, spec in field_specs(kind).items())
     return {name: xml.removesuffix("/text()") for name, xml in spellings if xml.endswith("/text()")}
-
-
-def written_numbers(part: object) -> Iterator[tuple[str, float]]:
-    """Yield the numbers of a part that become attributes, by name.
-
-    A class with a field `stated` leaves out an implied value, unless `stated` names it: the author wrote it.
-    """
-    stated: tuple[str, ...] | None = getattr(part, "stated", None)
-    for name, spec in number_fields(type(part)).items():
-        value: float | None = getattr(part, name)
-        if value is not None and (stated is None or value != spec.implied or name in stated):
-            yield name, value
 
 
 def check_numbers(part: object) -> None:

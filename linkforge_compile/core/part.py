@@ -104,6 +104,8 @@ class Element(Part):
 
     TAG: ClassVar[str] = ""
     """The tag of the element; empty where it depends on what holds the part."""
+    ATTRIBUTE_ORDER: ClassVar[tuple[str, ...]] = ()
+    """The attributes as they are written in XML; empty where their order is that of the fields."""
     NAMES_INSIDE_TAKE_PREFIX: ClassVar[bool] = False
     """Whether the names in `extra_inside` are those of links, joints and groups, which take a prefix."""
 

@@ -13,6 +13,7 @@ from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.fields import field_specs, number_fields
 from linkforge_compile.core.part import Element, Inside, RawXml, attribute_pairs
 from linkforge_compile.formats.source_map import active_origins, origin_of
+from linkforge_compile.formats.xml_document import inside_text
 from linkforge_compile.formats.xml_text import (
     KEEPS_SPACE,
     NOTHING,
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 
 
 class Extended(Protocol):
-    """A part of the robot that may hold attributes and elements that no field says."""
+    """A part of the robot that may hold attributes and elements besides its fields."""
 
     @property
     def extra_attributes(self) -> Sequence[tuple[str, str]] | Mapping[str, str]: ...
@@ -46,7 +47,7 @@ class Extended(Protocol):
 
 
 class RestatedAttributeError(RobotGeneratorError):
-    """An extra attribute, `name`, says again what a field of its part says; `source` is where the part was written."""
+    """An extra attribute `name` that a field of its part writes as well; `source` is where the part was written."""
 
     def __init__(self, name: str, source: SourceRef | None) -> None:
         self.name = name
@@ -55,10 +56,10 @@ class RestatedAttributeError(RobotGeneratorError):
 
 
 def attributes(part: Extended | None = None, /, **stated: Spellable | None) -> Xml:
-    """Return ` name="value"` for each attribute that is stated, then for those that no field of the part says.
+    """Return ` name="value"` for each attribute that is given, then for the extra attributes of the part.
 
     Raises:
-        RobotGeneratorError: for an extra attribute that says a stated one again, or that is no XML name.
+        RobotGeneratorError: for an extra attribute that is given as well, or whose name is no XML name.
 
     """
     if part is None or not (part.extra_attributes or active_origins()):
@@ -74,13 +75,13 @@ def _stated_alone(stated: Mapping[str, Spellable | None]) -> str:
     text = ""
     for name, value in stated.items():
         if value is not None:
-            said = double_text(value) if value.__class__ is float else _quotable(value)  # half of them are floats
-            text = f'{text} {name}="{said}"'
+            quoted = double_text(value) if value.__class__ is float else _quotable(value)  # a short cut for most
+            text = f'{text} {name}="{quoted}"'
     return text
 
 
 def attributes_at(source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
-    """Return ` name="value"` for what is no part of its own, but written under a path of one."""
+    """Return ` name="value"` for attributes that are written under a path of a part."""
     return Xml(origin_of(source, *path) + _stated_alone(stated))
 
 
@@ -88,7 +89,7 @@ def _attributes_with_origins(
     part: Extended, stated: Mapping[str, Spellable | None], extra: Iterable[tuple[str, str]]
 ) -> Xml:
     own = (
-        f'{_origin_of_attribute(part.source, name)} {name}="{_quotable(value)}"'
+        f'{_origin_of_attribute(part, name)} {name}="{_quotable(value)}"'
         for name, value in stated.items()
         if value is not None
     )
@@ -99,13 +100,17 @@ def _attributes_with_origins(
     return Xml("".join((origin_of(part.source), *own, *raw)))
 
 
-def _origin_of_attribute(source: SourceRef | None, name: str) -> str:
-    """Return the origin of an attribute: its key has the same name, except for those in `_KEYS`."""
-    key = name if source is None or source.node.child(name) else _KEYS.get(name, name)
+def _origin_of_attribute(part: Extended, name: str) -> str:
+    """Return the origin of an attribute: under its own name in a URDF, in a spec under the key of its field."""
+    source, key, kind = part.source, name, type(part)
+    if source is not None and source.node.child(name) is None and isinstance(part, Element):
+        key = _keys_by_attribute(kind).get(name) or name
     return origin_of(source, key, of=name)
 
 
-_KEYS = {"filename": "file"}
+@cache
+def _keys_by_attribute(kind: type) -> Mapping[str, str | None]:
+    return {spec.xml[1:]: spec.key for spec in field_specs(kind).values() if spec.xml and spec.xml[0] == "@"}
 
 
 class PlacedText(str):
@@ -124,9 +129,9 @@ def placed(text: str, source: SourceRef | None, *path: str | int) -> str:
 
 
 def place_of_attribute(name: str, where: SourceRef | None) -> tuple[SourceRef | None, *tuple[str, ...]]:
-    """Return where an extra attribute of a part was written that was itself written at `where`, without its name.
+    """Return the place of an extra attribute, without its name, of a part that was written at `where`.
 
-    A robot's may come from the files of its modules, so a name that knows its own place stands there.
+    Extra attributes of a robot may come from the files of its modules: such a name has a place of its own.
     """
     return (name.source,) if isinstance(name, RawXml) else (where, "extra_attributes")
 
@@ -151,9 +156,9 @@ def require_attribute_name(name: str) -> None:
 
 
 def elements(part: Extended) -> Xml:
-    """Return the elements that no field of the part says, each well-formed by itself; templates place them last.
+    """Return the extra elements of a part, each well-formed by itself; templates place them last.
 
-    What `extra_inside` says is among them, and moved by the writer.
+    The additions of `extra_inside` are among them; the writer moves them to their elements.
 
     Raises:
         RobotGeneratorError: for raw XML that is not well-formed.
@@ -162,17 +167,15 @@ def elements(part: Extended) -> Xml:
     inside = inside_of(part)
     if not inside:
         return raw(part) if part.extra_elements else NOTHING
-    from linkforge_compile.formats.xml_document import inside_text
-
-    return Xml("".join([*(_inside(one, inside_text) for one in inside), raw(part)]))
+    return Xml("".join([*map(_inside, inside), raw(part)]))
 
 
-def _inside(one: Inside, text: Callable[[int, str, str, str], str]) -> str:
+def _inside(one: Inside) -> str:
     numbered, number = _NUMBERED.get(), 0
     if numbered is not None:
         number = len(numbered)
         numbered.append(one)
-    return text(number, inside_key(one), attributes(one), elements(one))
+    return inside_text(number, inside_key(one), attributes(one), elements(one))
 
 
 _NUMBERED: ContextVar[list[Inside] | None] = ContextVar("_NUMBERED", default=None)
@@ -190,18 +193,18 @@ def numbering_insides() -> Iterator[list[Inside]]:
 
 
 def inside_key(one: Inside) -> str:
-    """Return the key by which `extra_inside` says an element: its tag, and its name if any."""
+    """Return the key of an element in `extra_inside`: its tag, and its name if any."""
     return one.tag if one.name is None else f"{one.tag} {one.name}"
 
 
 def inside_of(part: Extended) -> Sequence[Inside]:
-    """Return what a part says of elements inside; a link and a robot hold none but parts."""
+    """Return the additions of a part to elements inside it; a link and a robot have none."""
     insides: Sequence[Inside] = getattr(part, "extra_inside", ())
     return insides
 
 
 def raw(part: Extended) -> Xml:
-    """Return the elements that a part says raw.
+    """Return the raw XML of a part.
 
     Raises:
         RobotGeneratorError: for raw XML that is not well-formed.
@@ -215,16 +218,16 @@ def raw(part: Extended) -> Xml:
 
 
 def raw_texts(part: Extended, where: SourceRef | None) -> Iterator[tuple[str, SourceRef | None, Path]]:
-    """Yield what a part, which was written at `where`, says raw; each with the path of an object that it stands under.
+    """Yield each text of raw XML of a part that was written at `where`, with the object and path of its place.
 
-    A robot's may come from the files of its modules, so what knows its own place stands there.
+    Raw XML of a robot may come from the files of its modules: such a text has a place of its own.
     """
     for number, text in enumerate(part.extra_elements):
         yield (text, text.source, ()) if isinstance(text, RawXml) else (text, where, ("extra", number))
 
 
 def leaf_at(tag: str, source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:
-    """Return an element of attributes that is no part of its own, but written under a path of one."""
+    """Return an element of attributes that are written under a path of a part."""
     return Xml(f"<{tag}{attributes_at(source, *path, **stated)}/>")
 
 
@@ -234,7 +237,7 @@ def leaf(part: Element, tag: str = "", /, **changes: Spellable | None) -> Xml:
     if part.extra_attributes or part.extra_elements or part.extra_inside or active_origins():
         start, inner = f"<{tag}{attributes_of(part, **changes)}", elements(part)
         return Xml(f"{start}>{inner}</{tag}>" if inner else f"{start}/>")
-    return Xml(f"<{tag}{_stated_alone(_attribute_values(part, changes))}/>")  # nine of ten
+    return Xml(f"<{tag}{_stated_alone(_attribute_values(part, changes))}/>")
 
 
 def attributes_of(part: Element, /, **changes: Spellable | None) -> Xml:
@@ -258,13 +261,6 @@ def _attribute_values(part: object, changes: Mapping[str, Spellable | None]) -> 
     return values
 
 
-_ORDERS = {
-    "end_effector": ("name", "parent_link", "group", "parent_group"),
-    "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
-}
-"""The attributes of elements that are written in another order than that of the fields."""
-
-
 @cache
 def _attribute_getters(
     kind: type,
@@ -274,7 +270,7 @@ def _attribute_getters(
     for field, spec in field_specs(kind).items():
         if spec.xml and spec.xml[0] == "@":
             fields.setdefault(spec.xml[1:], []).append(field)
-    names = _ORDERS.get(getattr(kind, "TAG", ""), tuple(fields))
+    names = getattr(kind, "ATTRIBUTE_ORDER", ()) or tuple(fields)
     optional = number_fields(kind).items() if hasattr(kind, "stated") else ()
     implied = tuple((spec.xml[1:], field, spec.implied) for field, spec in optional if spec.xml and spec.xml[0] == "@")
     return tuple((name, attrgetter(*fields[name])) for name in names), implied
@@ -294,7 +290,7 @@ def parameter_elements(parameters: Mapping[str, object], source: SourceRef | Non
 
 
 def is_surely_writable(part: object) -> bool:
-    """Whether a free part is texts and maps of texts that XML can hold; a no means that writing it will tell."""
+    """Whether a free part is texts and maps of texts that XML can hold; False means that it has to be tried."""
     if isinstance(part, str):
         return is_writable(part)
     if not isinstance(part, dict):

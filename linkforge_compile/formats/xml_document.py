@@ -32,7 +32,7 @@ _ORIGIN = re.compile(rf' {RESERVED}at[^\s=]*="(\d+)"')
 
 
 class InsideError(RobotGeneratorError):
-    """What `extra_inside` says cannot be placed.
+    """An addition of `extra_inside` that cannot be placed.
 
     `id` is the number of the `Inside` object, `key` its tag and name; `others` are further such faults of the document.
     """
@@ -81,7 +81,7 @@ class XmlNode:
             self.content = [item for item in self.content if isinstance(item, XmlNode) or not is_xml_blank(item)]
 
     def add(self, attributes: str, content: Sequence[Content]) -> None:
-        """Put attributes behind those of the element, and content behind its content."""
+        """Append attributes and content."""
         is_empty = self.start.endswith("/>")
         start = self.start.removesuffix("/>" if is_empty else ">").rstrip()
         if content and is_empty:
@@ -100,7 +100,7 @@ def document_of(text: str, *, most_nested: float = inf) -> XmlNode:
     Elements that are not closed, and tags that close nothing, are left to the readers of the document.
 
     Raises:
-        InsideError: where what `extra_inside` says cannot be placed.
+        InsideError: for an addition of `extra_inside` that cannot be placed.
         RobotGeneratorError: where more than `most_nested` elements are nested.
 
     """
@@ -180,13 +180,13 @@ def without_marks(text: str) -> str:
     return _SPACE_IN_TEXT.sub("", text)
 
 
-def inside_text(id_: int, key: str, attributes: str, content: str) -> str:
-    """Return an element that is not written: what is to be added to the one that `key` names in the element around."""
-    return f'<{_INSIDE} id="{id_}" key="{escaped(key)}"><{_ATTRIBUTES}{attributes}/>{content}</{_INSIDE}>'
+def inside_text(number: int, key: str, attributes: str, content: str) -> str:
+    """Return an element that is not written: it adds to the element that `key` names beside it."""
+    return f'<{_INSIDE} id="{number}" key="{escaped(key)}"><{_ATTRIBUTES}{attributes}/>{content}</{_INSIDE}>'
 
 
 def _place_insides(node: XmlNode) -> None:
-    """Add what `inside_text` says to its elements, and remove it."""
+    """Move the additions that `inside_text` made to their elements."""
     faults: list[InsideError] = []
     nodes = [node]
     while nodes:

@@ -15,7 +15,8 @@ from linkforge_compile.core import (
     LinkPhysics,
     RobotModelError,
 )
-from linkforge_compile.core.fields import NOT_NEGATIVE, Number, check_numbers, written_numbers
+from linkforge_compile.core.fields import NOT_NEGATIVE, Number, check_numbers
+from linkforge_compile.formats.element import attributes_of
 from linkforge_compile.units import DAMPING, EFFORT, POSITION, SPEED, Dimension, Motion
 
 TURN_RATE = Dimension.ANGULAR_VELOCITY
@@ -47,9 +48,9 @@ def test_a_unit_has_a_name_for_people():
 
 
 def test_an_implied_number_is_written_where_the_author_wrote_it():
-    assert dict(written_numbers(JointMimic("a"))) == {}
-    assert dict(written_numbers(JointMimic("a", 2, stated=("offset",)))) == {"multiplier": 2, "offset": 0}
-    assert dict(written_numbers(JointDynamics())) == {"damping": 0, "friction": 0}
+    assert attributes_of(JointMimic("a")) == ' joint="a"'
+    assert attributes_of(JointMimic("a", 2, stated=("offset",))) == ' joint="a" multiplier="2" offset="0"'
+    assert attributes_of(JointDynamics()) == ' damping="0" friction="0"'
 
 
 @dataclass

@@ -41,6 +41,7 @@ class InertiaTensor(Element):
     """
 
     TAG = "inertia"
+    ATTRIBUTE_ORDER = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
     ixx: Annotated[float, _MOMENT]
     iyy: Annotated[float, _MOMENT]

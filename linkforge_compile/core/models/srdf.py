@@ -178,6 +178,7 @@ class EndEffector(Element):
     """
 
     TAG = "end_effector"
+    ATTRIBUTE_ORDER = ("name", "parent_link", "group", "parent_group")
 
     name: Annotated[str, Name()]
     group: Annotated[str, Reference("group", example="gripper")]
