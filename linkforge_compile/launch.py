@@ -191,12 +191,12 @@ class RobotDescription:
             raise SubstitutionFailure(f"{self.spec} has errors:\n{render_text(compilation.diagnostics)}")
         logger = launch.logging.get_logger("linkforge")
         for severity, log in ((Severity.WARNING, logger.warning), (Severity.NOTE, logger.info)):
-            if told := tuple(one for one in compilation.diagnostics if one.severity is severity):
-                log(render_text(told))
+            if selected := tuple(one for one in compilation.diagnostics if one.severity is severity):
+                log(render_text(selected))
         return compilation.robot, (*compilation.files, *compilation.unread)
 
     def _require_values(self, variant: str | None, values: Mapping[str, CliArgument]) -> None:
-        """Refuse what the compiler would tell as its commands do, which have no launch arguments."""
+        """Refuse values in words that suit launch files; the compiler's name options of the command."""
         try:
             sets = self._sets_of(variant)
         except ValueError as error:

@@ -63,7 +63,7 @@ class Limit(Enum):
         "compute what is used often once, in 'variables'",
     )
     IGNORED_CODES = _Limit(
-        "codes in comments that ask not to be told of them",
+        "codes in `linkforge: ignore` comments",
         20_000,
         "fix what is reported, or hide it with '--ignore'",
     )

@@ -54,24 +54,24 @@ EXCEPTIONS = {("core/models/robot.py", package) for package in ("diagnostics", "
 ENTRY_POINTS = {"__init__", "__main__"}
 
 
-def imported_packages(path: Path) -> Iterator[str]:
-    """Yield the package of each import from linkforge_compile in a file, also inside functions."""
+def imported_names(path: Path) -> Iterator[str]:
+    """Yield the dotted path of all that a file imports, also inside functions: `linkforge_compile.core.Robot`."""
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         match node:
             case ast.Import(names=names):
-                modules = [alias.name for alias in names]
-            case ast.ImportFrom(module="linkforge_compile", names=names, level=0):
-                modules = [f"linkforge_compile.{alias.name}" for alias in names]
-            case ast.ImportFrom(module=module, level=0):
-                modules = [module or ""]
+                yield from (alias.name for alias in names)
+            case ast.ImportFrom(module=str(module), names=names, level=0):
+                yield from (f"{module}.{alias.name}" for alias in names)
             case ast.ImportFrom():
                 pytest.fail(f"{path}:{node.lineno}: relative import; the table needs absolute ones")
-            case _:
-                continue
-        for module in modules:
-            top, _, rest = module.partition(".")
-            if top == "linkforge_compile" and rest:
-                yield rest.split(".")[0]
+
+
+def imported_packages(path: Path) -> Iterator[str]:
+    """Yield the package of each import from linkforge_compile in a file."""
+    for name in imported_names(path):
+        top, *rest = name.split(".")
+        if top == "linkforge_compile" and rest:
+            yield rest[0]
 
 
 def package_of(path: Path) -> str:
@@ -110,17 +110,14 @@ def module_of(path: Path) -> str:
     return ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
 
 
+MODULES = {module_of(path) for path in FILES}
+
+
 def imported_modules(path: Path) -> Iterator[str]:
-    """Yield the module of each import from linkforge_compile in a file, also inside functions and for types alone."""
-    modules = {module_of(file) for file in FILES}
-    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-        match node:
-            case ast.Import(names=names):
-                yield from (alias.name for alias in names if alias.name in modules)
-            case ast.ImportFrom(module=str(module), names=names) if module in modules:
-                for alias in names:
-                    submodule = f"{module}.{alias.name}"
-                    yield submodule if submodule in modules else module
+    """Yield the module of each import from linkforge_compile in a file, also for types alone."""
+    for name in imported_names(path):
+        if module := next((part for part in (name, name.rpartition(".")[0]) if part in MODULES), None):
+            yield module
 
 
 def test_no_files_import_each_other():

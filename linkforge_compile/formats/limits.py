@@ -41,10 +41,10 @@ def check_texts(robot: Robot, doubtful: Doubtful) -> Iterator[Diagnostic]:
 
 
 def check_attributes(parts: Sequence[Held], robot: Robot, render: Callable[[], str]) -> Iterator[Diagnostic]:
-    """An element has each attribute once: what a field of the language says, `extra_attributes` cannot say again.
+    """An element has each attribute once: `extra_attributes` cannot repeat one that a field writes.
 
-    Which attributes an element has, only its rendering knows; so where there are extra ones at all, it is tried.
-    The same goes for what `extra_inside` speaks of.
+    Only rendering knows the attributes of an element, so a robot that has extra ones is rendered to find out.
+    The same is true of the elements that `extra_inside` names.
     """
     extended = [part for part, *_ in parts if _is_extended(part)]
     if not (robot.extra_attributes or extended):
@@ -62,11 +62,11 @@ def check_attributes(parts: Sequence[Held], robot: Robot, render: Callable[[], s
             holder = next(holders, robot)
             yield UNWRITABLE.at(holder.source, "extra_inside", Key(fault.key), reason=fault)
     except RobotGeneratorError:
-        return  # told by what looks at the texts
+        return  # the check of texts reports it
 
 
 def _is_extended(part: Part) -> bool:
-    """Whether it has attributes beside its fields', or says what is inside it: that is of the part, none by itself."""
+    """Whether a part has extra attributes or additions to elements inside; an addition is no part by itself."""
     return not isinstance(part, Inside) and bool(part.extra_attributes or inside_of(part))
 
 
@@ -178,7 +178,7 @@ def _written_again(part: Part, where: SourceRef | None, fields: Mapping[str, str
 def _is_written(part: Part, field: str, where: SourceRef | None) -> bool:
     value = getattr(part, field)
     if isinstance(part, Joint) and where and where.at(field) == where.span:
-        return False  # what a joint lacks has a stand-in, and is told
+        return False  # the value stands in for one that is missing, which is reported
     return value.is_written if isinstance(value, Transform) else value is not None
 
 

@@ -1,4 +1,4 @@
-"""The parts of a robot that XML may be unable to write, at any depth: looked for once, for whoever looks into them."""
+"""The parts of a robot that XML may be unable to write, at any depth: found once for all checks."""
 
 from __future__ import annotations
 
@@ -189,7 +189,7 @@ def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
 
 
 def _holds_numbers(field: Field[object], spec: Spec | None) -> bool:
-    """Whether a field holds neither parts nor text: its class refuses them, or it is how a file said it, unwritten."""
+    """Whether a field holds neither parts nor text: its class refuses them, or it only records a spelling."""
     if isinstance(spec, Flag) or field.type == "bool":
         return not field.compare
     return isinstance(spec, Number | Vector) or _NUMBERS.issuperset(str(field.type).split(" | "))

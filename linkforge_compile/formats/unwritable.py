@@ -96,9 +96,9 @@ def _malformed(error: RawXmlError, where: SourceRef | None, *path: str | int) ->
     """Return the error for raw XML: at the place within its text, if the file has that as it is."""
     from linkforge_compile.source.text_place import TextPlace
 
-    told = UNWRITABLE.at(where, *path, reason=error)
-    place = TextPlace.of(error.text, told.span) if told.span else None
-    if place is None or (span := place.part(error.at, 1)) == told.span:
-        return told
+    fault = UNWRITABLE.at(where, *path, reason=error)
+    place = TextPlace.of(error.text, fault.span) if fault.span else None
+    if place is None or (span := place.part(error.at, 1)) == fault.span:
+        return fault
     begun = () if error.begun is None else (Note("the element that is open begins here", place.part(error.begun, 1)),)
     return replace(UNWRITABLE.at(where, *path, reason=error.problem, notes=begun), span=span)

@@ -1,4 +1,4 @@
-"""A user's folder of templates: documents of his own at its top, and templates that go before ours."""
+"""A user's folder of templates: documents at its top, and templates that override linkforge's."""
 
 from __future__ import annotations
 
@@ -37,6 +37,9 @@ _RENDERING_BEYOND_LIMIT = replace(
 )
 """What exceeds the limit is a user's template, and not the robot."""
 
+_MOST_FILES = 1000
+"""Files of a folder that are searched for names and includes."""
+
 _NOT_DOCUMENTS = ("_", ".")
 """How the names of templates begin at the top of a folder that others include."""
 
@@ -50,10 +53,6 @@ def own_names() -> frozenset[str]:
 def own_folders() -> list[str]:
     """Return the folders of the packaged templates that a user's may replace."""
     return sorted({name.partition("/")[0] for name in own_names()}, reverse=True)
-
-
-_MOST_FILES = 1000
-"""Files of a folder that are looked at, for what they are named or include."""
 
 
 class TemplateError(Exception):
@@ -87,7 +86,7 @@ class TemplateFolder:
         """The names of the documents that its templates make, sorted."""
 
     def require_templates(self) -> None:
-        """Refuse a folder that makes nothing: without a document, and without a template that goes before one of ours.
+        """Refuse a folder without a document, and without a template that overrides one of linkforge's.
 
         Raises:
             ValueError: with what a template is named.
@@ -98,22 +97,22 @@ class TemplateFolder:
         found = sorted(path.relative_to(self.folder).as_posix() for path in islice(self.folder.rglob("*"), _MOST_FILES))
         near = next((f"; '{name}' is like '{own}'" for name in found if (own := nearest(name, own_names()))), "")
         folders = " or ".join(f"{folder}/" for folder in own_folders())
-        has = f"NAME.j2 for a document, nor {folders} with a template that goes before one of linkforge's"
+        has = f"NAME.j2 for a document, nor {folders} with a template that overrides one of linkforge's"
         raise ValueError(f"it has no {has}{near}")
 
     @property
     def unused(self) -> tuple[Diagnostic, ...]:
-        """A warning at each file that stands where templates go before ours, and that nothing uses."""
-        return tuple(find_unused(self._environment, self._loader, own_names()))
+        """A warning at each file in the folders of overrides that overrides no template and is not included."""
+        return tuple(find_unused(self._environment, self._loader))
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """The templates that were read, those of ours among them."""
+        """The templates that were read, the packaged ones among them."""
         return tuple(map(Path, self._loader.files))
 
     @property
     def unread(self) -> tuple[Path, ...]:
-        """What was looked for in the folder and is not there: when it is, the result is another."""
+        """The files of the folder that do not exist now, but would change the result."""
         return tuple(self._loader.missing)
 
     def render(self, views: Mapping[str, object], banner: str) -> dict[str, str]:
@@ -161,9 +160,8 @@ class TemplateFolder:
             raise TemplateError((NOT_XML_FROM_TEMPLATE.at(line, problem=fault.problem),))
         try:
             return write(document_of(rendered, most_nested=MAX_NESTED_ELEMENTS), pretty=pretty)
-        except (RobotGeneratorError, RecursionError) as error:
-            reason = "its elements are nested too deeply" if isinstance(error, RecursionError) else error
-            raise TemplateError((TEMPLATE_FAILS.at(self._loader.place_of(template), reason=reason),)) from None
+        except RobotGeneratorError as error:
+            raise TemplateError((TEMPLATE_FAILS.at(self._loader.place_of(template), reason=error),)) from None
 
     def _text(self, template: str, context: Mapping[str, object]) -> str:
         try:
@@ -183,14 +181,15 @@ class TemplateFolder:
         return FolderEnvironment(self._loader, self._budget)
 
 
-def find_unused(environment: FolderEnvironment, loader: FolderLoader, ours: frozenset[str]) -> Iterator[Diagnostic]:
-    """Yield a warning at each file that replaces none of our templates, and that no template includes.
+def find_unused(environment: FolderEnvironment, loader: FolderLoader) -> Iterator[Diagnostic]:
+    """Yield a warning at each file that replaces no packaged template, and that no template includes.
 
-    `ours` are the paths of the packaged templates. Yields none where the name of an included template is computed.
+    Yields none where the name of an included template is computed.
     """
+    ours = own_names()
     found = {
         path.relative_to(loader.folder).as_posix(): path
-        for place in sorted({name.partition("/")[0] for name in ours}, reverse=True)
+        for place in own_folders()
         for path in sorted(islice((loader.folder / place).rglob("*"), _MOST_FILES))
         if path.is_file()
     }
@@ -203,13 +202,13 @@ def find_unused(environment: FolderEnvironment, loader: FolderLoader, ours: froz
 
 
 def _is_template(name: str, ours: frozenset[str]) -> bool:
-    return name.endswith(".j2") or nearest(name, ours) is not None
+    return name.endswith(SUFFIX) or nearest(name, ours) is not None
 
 
 def _included(environment: FolderEnvironment, loader: FolderLoader) -> set[str | None]:
     """Return the names of all templates that those of the folder include; None for one that is computed."""
     used: set[str | None] = set()
-    for path in islice(loader.folder.rglob("*.j2"), _MOST_FILES):
+    for path in islice(loader.folder.rglob(f"*{SUFFIX}"), _MOST_FILES):
         try:
             included = find_referenced_templates(environment.parse(loader.read(path)))
             used |= {name and "/".join(split_template_path(name)) for name in included}

@@ -123,7 +123,7 @@ def test_a_folder_without_templates_is_refused_in_python_as_by_the_command(folde
     (folder / "other" / "urdf" / "lnik.xml.j2").touch()
     robot = compile_file(folder / "arm.robot.yaml").result()
     reason = (
-        "it has no NAME.j2 for a document, nor urdf/ or srdf/ with a template that goes before one of linkforge's; "
+        "it has no NAME.j2 for a document, nor urdf/ or srdf/ with a template that overrides one of linkforge's; "
         "'urdf/lnik.xml.j2' is like 'urdf/link.xml.j2'"
     )
     for render in (render_templates, lambda robot, folder: render_urdf(robot, templates=folder)):
