@@ -69,7 +69,7 @@ TEXT_NOT_NUMBER = Code("LF3053", _E, "text with an expression inside is never a 
 # LF306x: include
 INCLUDE_NOT_PLAIN = Code("LF3060", _E, "an include is a path of a file, {reason}; found '{path}'")
 ENTRY_IN_TWO_FILES = Code("LF3061", _E, "{entry} is in two files that 'include' joins; keep it in one of them")
-SAID_BY_MAIN_FILE = Code(
+SET_BY_MAIN_FILE = Code(
     "LF3062", _E, "an included file must not set '{key}'; set it in the file that includes this one"
 )
 INCLUDE_CIRCLE = Code("LF3063", _E, "files include each other in a circle: {path}")
