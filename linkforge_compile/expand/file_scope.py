@@ -15,7 +15,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     DATA_NOT_PATH,
     INVALID_VARIABLE_NAME,
     NAME_OF_TWO_KINDS,
-    NOT_JUDGED,
+    NOT_CHECKED,
     PACKAGE_NOWHERE,
     RESERVED_NAME,
 )
@@ -147,7 +147,7 @@ class FileScope:
         elif self._unset and not self._reports_unset:
             names = ", ".join(f"'{declaration.name}'" for declaration in self._unset)
             pronoun = "it" if len(self._unset) == 1 else "them"
-            self._sink.report(NOT_JUDGED.at(self._unset[0].key.span, names=names, pronoun=pronoun))
+            self._sink.report(NOT_CHECKED.at(self._unset[0].key.span, names=names, pronoun=pronoun))
 
     def check_unused_variables(self) -> None:
         """Report faults of unused variables and of variants that do not depend on values.

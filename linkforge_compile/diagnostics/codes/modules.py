@@ -35,7 +35,7 @@ USE_TOO_DEEP = Code("LF3013", _E, "modules are used inside modules more than {li
 # LF302x: parameters and what sets them
 UNKNOWN_PARAMETER = Code("LF3020", _E, "no parameter named '{name}'")
 PARAMETER_NOT_SET = Code("LF3021", _E, "{what} no default and must be set; write {remedy}")
-NOT_JUDGED = Code("LF3022", _N, "nothing sets {names} here, so what depends on {pronoun} is not checked")
+NOT_CHECKED = Code("LF3022", _N, "nothing sets {names} here, so what depends on {pronoun} is not checked")
 PARAMETER_KIND = Code("LF3023", _E, "parameter '{parameter}' takes {expected}, found {found}", _DATA)
 PARAMETER_TOO_SMALL = Code("LF3024", _E, "parameter '{parameter}' must be at least {bound}, found {found}", _VALUE)
 PARAMETER_TOO_LARGE = Code("LF3025", _E, "parameter '{parameter}' must be at most {bound}, found {found}", _VALUE)
