@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.expressions import SEEN_IN_THE_TEXT
+from linkforge_compile.diagnostics.codes.expressions import WITHOUT_VALUES
 from linkforge_compile.diagnostics.codes.modules import (
     DATA_NOT_PATH,
     INVALID_VARIABLE_NAME,
@@ -285,7 +285,7 @@ class _TextFaultSink(Diagnostics):
         self._sink = sink
 
     def report(self, diagnostic: Diagnostic) -> None:
-        if diagnostic.code in SEEN_IN_THE_TEXT:
+        if diagnostic.code in WITHOUT_VALUES:
             self._sink.report(diagnostic)
 
 
