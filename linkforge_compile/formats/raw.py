@@ -21,7 +21,7 @@ from linkforge_compile.formats.xml_text import (
 )
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, SourceRef
-from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
+from linkforge_compile.source.malformed_xml import MalformedXmlError, find_xml_error
 from linkforge_compile.source.xml_tree import Places, XmlElement, document_of
 
 _BEGIN, _END = "<raw-xml-of-a-spec>", "</raw-xml-of-a-spec>"
@@ -92,7 +92,7 @@ def _parse(text: str) -> tuple[XmlElement, Mapping[int, int]]:
         return document_of(file, places).root, sections
     except MalformedXmlError as error:
         # As of a text that just ends: a tag that is not closed would be one that holds what stands around the text.
-        fault = fault_of(text, _BEGIN) if fault_of(file.text) else None
+        fault = find_xml_error(text, _BEGIN) if find_xml_error(file.text) else None
         raise _malformed(text, fault or MalformedXmlError(error.problem, max(error.at - len(_BEGIN), 0))) from None
 
 
@@ -129,7 +129,7 @@ def _sections(places: Places) -> Mapping[int, int]:
 
 def _refused(reason: str, places: Places, at: int, piece: re.Match[str]) -> Exception:
     """Return why raw XML is refused once a piece is read: it may be malformed before the end of that."""
-    fault = fault_of(places.text[len(_BEGIN) : piece.end()], _BEGIN, is_whole=False)
+    fault = find_xml_error(places.text[len(_BEGIN) : piece.end()], _BEGIN, is_whole=False)
     text = places.text[len(_BEGIN) : -len(_END)]
     return fault or RawXmlError(reason, text, at - len(_BEGIN))
 

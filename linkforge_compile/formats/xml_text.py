@@ -166,9 +166,9 @@ def is_xml_name(name: str) -> bool:
 def _is_read_by_all(name: str) -> bool:
     # Beyond ASCII, XML 1.0 allows fewer names in its fourth edition than in its fifth. expat, and with it xacro and
     # Python's own parsers, keeps to the fourth, so a name of the fifth would be lost on them.
-    from linkforge_compile.source.malformed_xml import fault_of
+    from linkforge_compile.source.malformed_xml import find_xml_error
 
-    return is_writable(name) and all(fault_of(f"<{local}/>") is None for local in name.split(":"))
+    return is_writable(name) and all(find_xml_error(f"<{local}/>") is None for local in name.split(":"))
 
 
 def harmless_in_comment(text: str) -> str:
