@@ -9,13 +9,13 @@ from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.formats import render_urdf
 from linkforge_compile.formats.element import parameter_elements
 from linkforge_compile.formats.raw import raw_elements
-from linkforge_compile.formats.xml_document import document_of, write
+from linkforge_compile.formats.xml_document import parse_rendered, write
 from linkforge_compile.formats.xml_text import RawXmlError
 
 
 def laid_out(text: str) -> str:
     """Return the lines that a document has of a text, as far to the left as they go."""
-    lines = write(document_of(text), pretty=True).split("\n")
+    lines = write(parse_rendered(text), pretty=True).split("\n")
     return "\n".join(line.lstrip(" ") for line in lines)
 
 

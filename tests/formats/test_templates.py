@@ -13,7 +13,7 @@ from linkforge_compile.core import Robot
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.formats import environment, render_urdf
 from linkforge_compile.formats.environment import make_environment, own_environment
-from linkforge_compile.formats.xml_document import document_of, write
+from linkforge_compile.formats.xml_document import parse_rendered, write
 from linkforge_compile.formats.xml_text import Xml
 
 ROBOT = SimpleNamespace(
@@ -29,7 +29,7 @@ def rendered(text: str, name: str = "robot.xml.j2", **others: str) -> str:
 
 def written(text: str, *, pretty: bool = True, **others: str) -> list[str]:
     """Return the lines of the document that a template makes of it."""
-    return write(document_of(rendered(text, **others)), pretty=pretty).split("\n")
+    return write(parse_rendered(rendered(text, **others)), pretty=pretty).split("\n")
 
 
 def test_lines_stand_as_deep_as_their_elements():
