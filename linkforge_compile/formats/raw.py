@@ -22,7 +22,7 @@ from linkforge_compile.formats.xml_text import (
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, SourceRef
 from linkforge_compile.source.malformed_xml import MalformedXmlError, find_xml_error
-from linkforge_compile.source.xml_tree import Places, XmlElement, document_of
+from linkforge_compile.source.xml_tree import Places, XmlElement, parse_xml
 
 _BEGIN, _END = "<raw-xml-of-a-spec>", "</raw-xml-of-a-spec>"
 """Stand around raw XML, so that any number of elements is one document and a DOCTYPE is a fault.
@@ -89,7 +89,7 @@ def _parse(text: str) -> tuple[XmlElement, Mapping[int, int]]:
     places = Places(file.text)
     try:
         sections = _sections(places)
-        return document_of(file, places).root, sections
+        return parse_xml(file, places).root, sections
     except MalformedXmlError as error:
         # As of a text that just ends: a tag that is not closed would be one that holds what stands around the text.
         fault = find_xml_error(text, _BEGIN) if find_xml_error(file.text) else None

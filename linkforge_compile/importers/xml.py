@@ -20,7 +20,7 @@ from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.source.malformed_xml import MalformedXmlError, find_xml_error
-from linkforge_compile.source.xml_tree import MARKUP, Places, XmlDocument, document_of
+from linkforge_compile.source.xml_tree import MARKUP, Places, XmlDocument, parse_xml
 
 MOST_ELEMENTS = 250_000
 MOST_INSIDE = 100_000
@@ -43,7 +43,7 @@ def read_xml(file: SourceFile, sink: Diagnostics, *, is_ours: bool = False) -> X
     bounds = _Bounds(file, is_ours=is_ours)
     try:
         bounds.require()
-        document = document_of(file, bounds.places)
+        document = parse_xml(file, bounds.places)
     except _RefusedError as refused:
         sink.report_all((*bounds.instructions_before(refused.at), refused.diagnostic))
         return None

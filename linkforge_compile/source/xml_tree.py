@@ -119,7 +119,7 @@ class XmlDocument:
 _TOO_LONG = "a text or a value in it has more than 10 MB, or a name more than 50,000 characters"
 
 
-def document_of(file: SourceFile, walked: Places | None = None) -> XmlDocument:
+def parse_xml(file: SourceFile, walked: Places | None = None) -> XmlDocument:
     """Parse a file; `walked` are the places of its text if they are known already.
 
     Raises:
