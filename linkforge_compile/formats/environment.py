@@ -129,14 +129,14 @@ def _plain(value: object) -> object:
     raise TemplateRuntimeError(f"{describe(value)} has no text in YAML; write its fields")
 
 
-def place_of(value: object) -> Xml:
+def place_attribute(value: object) -> Xml:
     """Return the attribute that says where a text was written, while a source map is made."""
     return getattr(value, "place", NOTHING)
 
 
 def element_of(value: Spellable | None, tag: str) -> Xml:
     """Return an element with a text, and where that was written while a source map is made; nothing for None."""
-    return NOTHING if value is None else Xml(f"<{tag}{place_of(value)}>{escaped(spelled(value))}</{tag}>")
+    return NOTHING if value is None else Xml(f"<{tag}{place_attribute(value)}>{escaped(spelled(value))}</{tag}>")
 
 
 FILTERS: dict[str, Callable[..., object]] = {
@@ -144,7 +144,7 @@ FILTERS: dict[str, Callable[..., object]] = {
     "vector": format_vector,
     "degrees": math.degrees,
     "to_yaml": format_yaml,
-    "place": place_of,
+    "place": place_attribute,
     "element": element_of,
 }
 """The filters that templates have beside those of Jinja2."""
