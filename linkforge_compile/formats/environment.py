@@ -38,7 +38,7 @@ XML_ENDINGS = (".xml.j2", ".urdf.j2", ".srdf.j2")
 """How the names of templates end that write XML."""
 
 _MADE_BY = "jinja2.txt"
-"""The file beside compiled templates that names the version of Jinja2 whose code they are."""
+"""The file in the folder of compiled templates that names the version of Jinja2 that compiled them."""
 
 
 def is_xml(template: str | None) -> bool:
@@ -147,7 +147,7 @@ FILTERS: dict[str, Callable[..., object]] = {
     "place": place_attribute,
     "element": element_of,
 }
-"""The filters that templates have beside those of Jinja2."""
+"""The filters that templates have in addition to Jinja2's own."""
 
 OPTIONS: dict[str, Any] = {  # Any: the keyword arguments of Environment, each of its own type
     "autoescape": is_xml,

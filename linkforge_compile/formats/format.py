@@ -181,7 +181,7 @@ class TemplateFormat(Format):
 
 
 def _head(rendering: Rendering) -> str:
-    """Return what stands above the root element: the declaration, and the banner as a comment."""
+    """Return what precedes the root element: the declaration, and the banner as a comment."""
     lines = ['<?xml version="1.0"?>', *([_comment(rendering)] if rendering.banner else [])]
     return "".join(f"{line}\n" if rendering.pretty else line for line in lines)
 

@@ -45,7 +45,7 @@ def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -
     White space alone between tags is layout, unless the element says `xml:space="preserve"` or CDATA marks it as text.
     CDATA becomes text. The text was written under `path` of what `source` points to.
 
-    Prefixes need no declaration here: it usually stands on `<robot>`.
+    Prefixes need no declaration here: it is usually on `<robot>`.
 
     Raises:
         RobotGeneratorError: for XML that is not well-formed, for text outside of elements, for a document type, and for
@@ -83,7 +83,7 @@ def well_formed_elements(text: str) -> tuple[XmlElement, ...]:
 
 
 def _parse(text: str) -> tuple[XmlElement, Mapping[int, int]]:
-    """Return the element that stands around raw XML, and the sections of CDATA in it."""
+    """Return the element that encloses raw XML, and the sections of CDATA in it."""
     require_writable(text)
     file = SourceFile("", f"{_BEGIN}{text}{_END}")
     places = Places(file.text)
@@ -91,7 +91,7 @@ def _parse(text: str) -> tuple[XmlElement, Mapping[int, int]]:
         sections = _sections(places)
         return parse_xml(file, places).root, sections
     except MalformedXmlError as error:
-        # As of a text that just ends: a tag that is not closed would be one that holds what stands around the text.
+        # Parse without the closing tag, which would be reported for a tag that is not closed.
         fault = find_xml_error(text, _BEGIN) if find_xml_error(file.text) else None
         raise _malformed(text, fault or MalformedXmlError(error.problem, max(error.at - len(_BEGIN), 0))) from None
 

@@ -41,7 +41,7 @@ _MOST_INDENTED = 32
 """Blanks a level in JSON."""
 
 _STEPS_OF_A_CALL = 10
-"""What a call or an include takes beside a round of a loop."""
+"""Steps that a call or an include costs; a round of a loop costs one."""
 
 _WIDE_FORMAT = re.compile(
     r"%(?:\([^%]*\))?[-+ #0]*(?:\*|\d{5}|\d*\.(?:\*|\d{5}))"  # of %

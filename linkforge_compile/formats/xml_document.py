@@ -181,7 +181,7 @@ def without_marks(text: str) -> str:
 
 
 def inside_text(number: int, key: str, attributes: str, content: str) -> str:
-    """Return an element that is not written: it adds to the element that `key` names beside it."""
+    """Return an element that is not written: it adds to the sibling element that `key` names."""
     return f'<{_INSIDE} id="{number}" key="{escaped(key)}"><{_ATTRIBUTES}{attributes}/>{content}</{_INSIDE}>'
 
 

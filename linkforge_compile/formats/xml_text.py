@@ -60,7 +60,7 @@ XML_BLANKS = " \t\r\n"
 
 
 class Xml(str):
-    """Text that is XML already; templates write it as it stands."""
+    """Text that is XML already; templates write it unchanged."""
 
     __slots__ = ()
 
@@ -102,7 +102,7 @@ def spelled(value: Spellable) -> str:
 
 
 def escaped(text: str) -> str:
-    """Return text as it stands in an attribute or between tags.
+    """Return text as it is written in an attribute or between tags.
 
     Raises:
         RobotGeneratorError: for a character that XML 1.0 cannot hold.

@@ -141,7 +141,8 @@ class _Bounds:
 
     def _refused(self, piece: re.Match[str], diagnostic: Diagnostic) -> Exception:
         """Return the exception for a piece: it is malformed if the text up to its end is."""
-        return find_xml_error(self.places.text[: piece.end()], is_whole=False) or _RefusedError(piece.start(), diagnostic)
+        before = self.places.text[: piece.end()]
+        return find_xml_error(before, is_whole=False) or _RefusedError(piece.start(), diagnostic)
 
     def _span(self, piece: re.Match[str], length: int) -> Span:
         return self._file.between(piece.start(), piece.start() + length)
