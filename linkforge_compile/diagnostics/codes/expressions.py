@@ -31,7 +31,7 @@ NOT_TEXT = Code("LF3131", _E, "{found} cannot be inserted into text")
 
 CIRCULAR_NAMES = Code("LF3141", _E, "'{first}' is computed from itself: {path}")
 CHAIN_TOO_LONG = Code("LF3142", _E, "'{first}' is computed through {count} other names")
-TRUTH_AS_TEXT = Code("LF3143", _E, "'{name}' is text in YAML 1.2, not true or false; write {meant}", _VALUE)
+TRUTH_AS_TEXT = Code("LF3143", _E, "'{name}' is text in YAML 1.2, not true or false; write {expected}", _VALUE)
 WIDE_LITERAL = Code(
     "LF3144",
     _W,
