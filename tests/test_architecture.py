@@ -26,20 +26,23 @@ MAY_IMPORT = {
     "expressions": "source diagnostics limits units syntax",
     "schema": "source diagnostics syntax units resources expressions",
     "core": "source units roots",
-    "importers": "banner source diagnostics limits units syntax core",
-    "expand": "source diagnostics limits units syntax schema expressions importers roots",
+    "compilation": "diagnostics core",
+    "importers": "banner source diagnostics limits units syntax core compilation",
+    "expand": "source diagnostics limits units syntax schema expressions importers roots compilation",
     "lower": "source diagnostics limits units syntax expand core roots",
     "checks": "source diagnostics units core roots",
     "formats": "source diagnostics limits units core resources roots gc_paused",
     "_build_hook": "schema formats",
     "export_spec": "source diagnostics units syntax core expand",
     "compare": "source units core formats",
-    "compilation": "diagnostics core",
     "pipeline": (
         "source diagnostics limits units syntax schema importers expand lower checks formats core roots fresh_stack "
         "gc_paused compilation"
     ),
-    "importing": "source diagnostics limits syntax importers expand core lower formats pipeline fresh_stack gc_paused",
+    "importing": (
+        "source diagnostics limits syntax core compilation importers expand lower formats pipeline fresh_stack "
+        "gc_paused"
+    ),
     "launch": "diagnostics formats core expand pipeline file_watcher",
     "editor": "diagnostics syntax schema expand lower core roots resources formats fresh_stack",
     "cli": (

@@ -34,7 +34,7 @@ from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.source import Span
 from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
-from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS, fault_of
+from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS, to_fault
 
 _FOR_AND_WHEN = frozenset({"for", "when"})
 
@@ -129,7 +129,7 @@ def _add_entry(
     # A faulty entry keeps its key as written, since its names may be those of the faulty `for`.
     key = entry.key if isinstance(entry.value, YamlFault) else evaluator.key(entry.key)
     if key is None or isinstance(entry.value, YamlFault):
-        entries.setdefault(entry.name, YamlEntry(entry.key, fault_of(entry.value)))
+        entries.setdefault(entry.name, YamlEntry(entry.key, to_fault(entry.value)))
     elif key.text in entries:
         evaluator.report_same_key(key, entries[key.text])
     else:
@@ -234,7 +234,7 @@ def _holds(condition: YamlNode | None, evaluator: Evaluator) -> bool | Fault:
     assert condition is not None, "without a condition, the value is True"
     place = evaluator.place(condition)
     if isinstance(value, str) and (truth := YAML_1_1_BOOLEANS.get(value.lower())):
-        evaluator.sink.report(TRUTH_AS_TEXT.at(place, name=value, meant=truth))
+        evaluator.sink.report(TRUTH_AS_TEXT.at(place, name=value, expected=truth))
         return FAULT
     text = condition.text if isinstance(condition, YamlScalar) else ""
     expression = as_one_expression(text, condition.span, evaluator.scope)

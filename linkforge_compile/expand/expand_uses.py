@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CIRCLE, USE_TOO_DEEP
@@ -13,7 +12,6 @@ from linkforge_compile.expand.arguments import Arguments, Unset, Variants, repor
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.file_scope import CompileState, FileScope
-from linkforge_compile.expand.files import Package
 from linkforge_compile.expand.loader import Loader, SpecFile, with_use_trace
 from linkforge_compile.expand.modules import ModuleEntry, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
@@ -39,8 +37,7 @@ from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
 if TYPE_CHECKING:
-    from linkforge_compile.expand.xacro import XacroUse
-    from linkforge_compile.importers.document import Move
+    from linkforge_compile.expand.xacro import Expansion, XacroUse
 
 MAX_DEPTH = 50
 
@@ -163,7 +160,7 @@ class _Expansion:
         spec, arguments = self._open(entry, site, used, sink)
         if spec is None or semantic is None or srdf_use is None:
             return None, arguments
-        return with_semantic(spec, semantic, srdf_use, loader, sink), arguments
+        return _with_semantic(spec, semantic, srdf_use, loader, sink), arguments
 
     def _open(
         self, entry: ModuleEntry, site: PathSite, used: frozenset[str] | None, sink: Diagnostics
@@ -249,57 +246,31 @@ def _places(node: YamlNode) -> Iterator[Span]:
                 yield from _places(entry.value)
 
 
-class Semantic(NamedTuple):
-    """The text of an SRDF, expanded if it is a xacro, in a folder that was reached through `package`.
-
-    `moved` gives its elements the places where they were written in `files`, None for a text that was not expanded.
-    `arguments` are the names of those that a xacro uses.
-    """
-
-    text: SourceFile
-    files: tuple[SourceFile, ...]
-    folder: Path
-    package: Package | None = None
-    moved: Move | None = None
-    arguments: frozenset[str] = frozenset()
-
-
-def open_semantic(use: XacroUse, loader: Loader, sink: Diagnostics) -> Semantic | None:
+def open_semantic(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:
     """Read an SRDF, expanded if it is a xacro; None after a reported error."""
-    folder = use.path.parent
-    if use.path.suffix.lower() != XACRO:
-        file = loader.open_xml(use.path, sink, use.used if use.used.where else None)
-        return Semantic(file, (file,), folder, use.package) if file else None
-    from linkforge_compile.expand.xacro import expand_xacro
+    from linkforge_compile.expand.xacro import Expansion, expand_xacro
 
-    # The URDF, which is read next, reports arguments that neither of the two uses.
-    expansion = expand_xacro(replace(use, used_elsewhere=None), loader, sink)
-    if expansion is None:
-        return None
-    return Semantic(expansion.text, expansion.files, folder, use.package, expansion.moved, expansion.arguments)
+    if use.path.suffix.lower() == XACRO:
+        # The URDF, which is read next, reports arguments that neither of the two uses.
+        return expand_xacro(replace(use, used_elsewhere=None), loader, sink)
+    file = loader.open_xml(use.path, sink, use.used if use.used.where else None)
+    return Expansion(file, (file,)) if file else None
 
 
-def with_semantic(
-    spec: SpecFile, semantic: Semantic, use: XacroUse, loader: Loader, sink: Diagnostics
+def _with_semantic(
+    spec: SpecFile, semantic: Expansion, use: XacroUse, loader: Loader, sink: Diagnostics
 ) -> SpecFile | None:
     """Return a robot with its SRDF merged; None after a reported error. `use` names the SRDF."""
     from linkforge_compile.importers.document import Comments, Imported
     from linkforge_compile.importers.srdf_with_urdf import with_srdf
 
     def merged(tree: YamlMap) -> SpecFile:
-        parts = {file: SpecFile(file, tree, semantic.folder, semantic.package) for file in semantic.files}
+        parts = {file: SpecFile(file, tree, use.path.parent, use.package) for file in semantic.files}
         return replace(spec, tree=tree, included={**spec.included, **parts})
-
-    def checked(tree: YamlMap) -> _Checked:
-        return _Checked(loader.check_spec(merged(tree), loader))
 
     imported = Imported(spec.tree, Comments({}, {}))
     inside = with_use_trace(sink, (use.used.where,))
-    read = with_srdf(imported, semantic.text, checked, inside, semantic.moved)
+    read = with_srdf(
+        imported, semantic.text, lambda tree: loader.check_spec(merged(tree), loader), inside, semantic.moved
+    )
     return merged(read[0].tree) if read else None
-
-
-class _Checked(NamedTuple):
-    """The errors of a robot with its SRDF, as `with_srdf` needs them."""
-
-    faults: tuple[Diagnostic, ...]

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
+from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
 from linkforge_compile.expand.files import as_typed, names_in, searched_note
@@ -61,8 +62,8 @@ class ImportSite:
     where: Span | None
 
 
-CheckSpec: TypeAlias = Callable[[SpecFile, "Loader"], tuple[Diagnostic, ...]]
-"""Returns the errors of a spec compiled by itself."""
+CheckSpec: TypeAlias = Callable[[SpecFile, "Loader"], Compilation]
+"""Compiles a spec by itself and returns its errors."""
 
 
 class Loader:
@@ -79,7 +80,7 @@ class Loader:
         """
         self.packages = dict(packages or {})
         self.roots = roots
-        self.check_spec: CheckSpec = lambda _spec, _loader: ()
+        self.check_spec: CheckSpec = lambda _spec, _loader: Compilation(None, ())
         self.runs_xacro = True
         self.nearby_packages: NearbyPackages = {}
         self.budget = budget or Budget()
