@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
@@ -19,9 +20,9 @@ from linkforge_compile.expand.uses import (
     SPEC_ENDINGS,
     XACRO,
     Instance,
-    MakeSite,
     NameReference,
     PathSite,
+    Writers,
     charge_entries,
     locate,
     mesh_base,
@@ -62,7 +63,7 @@ class _Use:
     bound: BoundArguments
     entry: ModuleEntry | None = None
     outer: _Use | None = None
-    outer_sites: Mapping[SourceFile, MakeSite] = field(default_factory=dict)
+    outer_writers: Writers = field(default_factory=dict)
 
     @property
     def chain(self) -> tuple[_Use, ...]:
@@ -82,9 +83,10 @@ class _Use:
         """The `use` of this file and of those around it, the innermost first."""
         return tuple(use.bound.use for use in self.chain if use.bound.use)
 
-    def sites(self, scope: FileScope) -> dict[SourceFile, MakeSite]:
-        """Return how to read paths that this use's files or those around it wrote."""
-        return {**self.outer_sites, **dict.fromkeys((self.spec.file, *self.spec.included), scope.builtins.site)}
+    def writers(self, packages: Mapping[str, Path]) -> Writers:
+        """Return the files that may have written a path here: its own, which know these packages, and those around."""
+        files = {self.spec.file: self.spec, **self.spec.included}
+        return {**self.outer_writers, **{file: (part, packages) for file, part in files.items()}}
 
 
 class _Expansion:
@@ -115,18 +117,20 @@ class _Expansion:
             tree, entries, removed = body.tree, body.entries, body.removed
         charge_entries(tree, len(use.chain), self._state.loader.budget, use.bound.use)
         modules = tuple(self._expand_module(entry, use, scope) for entry in entries)
-        files = [part for one in reversed(use.chain) for part in (one.spec, *one.spec.included.values())]
+        writers, compiled = use.writers(scope.packages), self._state.compiled
         scope.check_unused_variables()
         return Instance(
             use.entry.name if use.entry else own_name(tree),
             tree,
             entry=use.entry.ref if use.entry else None,
             prefix=use.entry.prefix if use.entry else "",
-            mesh_bases={part.file: mesh_base(part, self._state.compiled) for part in files if part.folder is not None},
+            mesh_bases={
+                file: mesh_base(part, compiled) for file, (part, _) in writers.items() if part.folder is not None
+            },
             include_stack=stack,
             modules=modules,
             references=references,
-            find_mesh=mesh_finder(use.sites(scope), self._state.loader),
+            find_mesh=mesh_finder(writers, self._state.loader),
             removed=removed,
             packages=scope.packages,
             defaults=defaults,
@@ -140,7 +144,7 @@ class _Expansion:
         if spec is None:
             return _unread(entry)
         bound = BoundArguments(arguments, sink, entry.evaluator, entry.use.span)
-        use = _Use(spec, bound, entry, outer, outer.sites(scope))
+        use = _Use(spec, bound, entry, outer, outer.writers(scope.packages))
         instance = self.expand(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
 

@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
-from linkforge_compile.roots import Roots, as_walked, is_file, is_folder, package_name
+from linkforge_compile.roots import Roots, as_walked, is_file, is_folder, package_name, search_path
 from linkforge_compile.source import Span
 from linkforge_compile.source.span import Located
 from linkforge_compile.syntax import YamlScalar
@@ -133,7 +133,7 @@ def _in_source_tree(name: str, start: Path | None, roots: Roots) -> Iterator[Pat
 
 
 def _in_ament(name: str) -> Iterator[Path]:
-    for prefix in _search_path("AMENT_PREFIX_PATH"):
+    for prefix in search_path("AMENT_PREFIX_PATH"):
         folder = prefix / "share" / name
         if is_folder(folder):
             yield folder
@@ -141,7 +141,7 @@ def _in_ament(name: str) -> Iterator[Path]:
 
 def _in_ros_1(name: str, roots: Roots) -> Iterator[Path]:
     """Yield matches of ROS_PACKAGE_PATH, which lists packages, folders of packages and folders of repositories."""
-    for root in _search_path("ROS_PACKAGE_PATH"):
+    for root in search_path("ROS_PACKAGE_PATH"):
         if package_name(root, roots) == name:
             yield root
         # Links in an untrusted repository may lead out of the roots; do not reveal whether they lead to a package.
@@ -216,7 +216,3 @@ def _shortest(folder: Path) -> str:
         return min(str(folder), os.path.relpath(folder), key=len)
     except ValueError:  # another drive of Windows
         return str(folder)
-
-
-def _search_path(variable: str) -> Iterator[Path]:
-    return (Path(entry) for entry in os.environ.get(variable, "").split(os.pathsep) if entry)
