@@ -22,12 +22,29 @@ STDIN = "<stdin>"
 """The name of standard input in diagnostics."""
 
 
+_POSITIONAL = "\0"
+"""Marks a word as positional; no word of a command line can contain it."""
+
+
 class Parser(argparse.ArgumentParser):
     """Parses the arguments of one command; its errors cannot send control characters to a terminal."""
 
+    def parse_words(self, words: Sequence[str]) -> argparse.Namespace:
+        """Parse options and positional words in any order; what comes after `--` is positional."""
+        # Python 3.11 parses intermixed words twice and forgets the `--` in between.
+        end = words.index("--") if "--" in words else len(words)
+        marked = [_POSITIONAL + word if word.startswith("-") and word != "-" else word for word in words[end + 1 :]]
+        arguments = self.parse_intermixed_args([*words[:end], *words[end : end + 1], *marked])
+        for name, value in vars(arguments).items():
+            if isinstance(value, str):
+                setattr(arguments, name, value.removeprefix(_POSITIONAL))
+            elif isinstance(value, list):
+                value[:] = [word.removeprefix(_POSITIONAL) if isinstance(word, str) else word for word in value]
+        return arguments
+
     def error(self, message: str) -> NoReturn:
         # The message quotes words, which a script may have taken from names of files.
-        super().error(on_one_line(message))
+        super().error(on_one_line(message.replace(_POSITIONAL, "")))
 
 
 class StoreOnce(argparse.Action):

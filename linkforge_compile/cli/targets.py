@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import argparse
 
 _SPEC_ENDINGS = (".yaml", ".yml")
-_STANDARD_OUTPUT = ("-", "/dev/stdout", "/dev/fd/1")
+_STANDARD_OUTPUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of standard output; as a file it could not be resolved if it is a pipe, and would be replaced if it is one."""
 
 
