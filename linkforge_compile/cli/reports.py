@@ -128,9 +128,14 @@ def format_diagnostics(diagnostics: tuple[Diagnostic, ...], arguments: argparse.
         case "sarif":
             from linkforge_compile._version import __version__
             from linkforge_compile.diagnostics.render_forms import render_sarif
+            from linkforge_compile.resources import manual_folder
 
             return render_sarif(
-                diagnostics, root=root, version=__version__, manual=lambda code: manual_page(code.id, styled=False)
+                diagnostics,
+                root=root,
+                version=__version__,
+                manual=lambda code: manual_page(code.id, styled=False),
+                pages=manual_folder(),
             )
     return _format_text(diagnostics, arguments.color)
 
