@@ -170,7 +170,11 @@ def test_lines_that_name_a_file_spell_it_out(tmp_path: Path):
     expanded = linkforge("expand", HOSTILE, cwd=tmp_path).stdout
     assert SPELT in expanded
     assert "\n::error" not in expanded
-    for words in (("diff", HOSTILE, HOSTILE), ("compile", HOSTILE, HOSTILE), ("where", f"build/{urdf.name}", "base")):
+    for words in (
+        ("diff", HOSTILE, HOSTILE),
+        ("compile", HOSTILE, HOSTILE, "-o", "b/"),
+        ("where", f"build/{urdf.name}", "base"),
+    ):
         run = linkforge(*words, cwd=tmp_path)
         assert r"\n::error" in run.stdout + run.stderr
         assert (run.stdout + run.stderr).replace("\n", "").isprintable()

@@ -28,7 +28,7 @@ def test_words_after_two_dashes_are_no_options(tmp_path: Path, words: tuple[str,
 
 
 def test_a_file_whose_name_begins_with_a_dash_is_quoted_as_written(tmp_path: Path):
-    run = linkforge("compile", "--", "-arm.robot.yaml", "-b.robot.yaml", cwd=tmp_path)
+    run = linkforge("deps", "--", "-arm.robot.yaml", "-b.robot.yaml", cwd=tmp_path)
     assert run.returncode == 2
     assert "takes one spec, found 2: -arm.robot.yaml, -b.robot.yaml" in run.stderr
 

@@ -433,7 +433,10 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
     [
         ((), "usage: linkforge"),
         (("compile",), "required: SPEC"),
-        (("compile", "a.robot.yaml", "b.robot.yaml"), "takes one spec, found 2"),
+        (
+            ("compile", "a.robot.yaml", "b.robot.yaml"),
+            "-o takes one folder for the outputs of several specs, found none",
+        ),
         (("compile", ""), "takes one spec, found '': is a variable of the shell empty?"),
         (("compile", "a.robot.yaml", "-o", ""), "-o takes a file or a folder, found '': is a variable of the shell"),
         (("compile", "swing.robot.yaml", "--package", "arm"), "--package takes NAME=PATH"),

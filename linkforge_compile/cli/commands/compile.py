@@ -1,4 +1,4 @@
-"""`linkforge compile`: compiles a spec to standard output or to files."""
+"""`linkforge compile`: compiles a spec to standard output or to files, or several specs into a folder."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import UsageError
-from linkforge_compile.cli.build import BuildRequest, compile_request, write_outputs
+from linkforge_compile.cli.build import Build, BuildRequest, compile_request, render_request
+from linkforge_compile.cli.delivery import deliver
 from linkforge_compile.cli.options import (
     add_spec_and_values,
     add_spec_options,
@@ -14,11 +15,21 @@ from linkforge_compile.cli.options import (
     require_one_spec,
     split_assignments,
 )
-from linkforge_compile.cli.reports import add_report_options
-from linkforge_compile.cli.targets import Targets, add_target_options, targets_of, targets_of_documents
+from linkforge_compile.cli.reports import add_report_options, progress
+from linkforge_compile.cli.specs import SpecReport, find_parts, find_specs_of, is_folder
+from linkforge_compile.cli.targets import (
+    Targets,
+    add_target_options,
+    is_folder_of_outputs,
+    targets_of,
+    targets_of_documents,
+)
+from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET
+from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Collection, Mapping, Sequence
 
     from linkforge_compile.formats.user_templates import TemplateFolder
 
@@ -34,6 +45,7 @@ examples:
   linkforge compile arm.robot.yaml -o urdf/ --check     write nothing; fail if urdf/arm.urdf is out of date
   linkforge compile arm.robot.yaml -o arm.urdf --depfile arm.urdf.d     and its dependencies, for Make and Ninja
   linkforge compile - < arm.robot.yaml                  from standard input
+  linkforge compile robots/*.robot.yaml -o build/       several specs, or every spec below a folder: robots/ -o build/
   linkforge compile arm.robot.yaml --template docs/templates -o docs/     docs/joints.md, of docs/templates/joints.md.j2
 
 --template FOLDER writes NAME for each Jinja2 template NAME.j2 at the top of FOLDER, instead of URDF and SRDF. With
@@ -43,7 +55,7 @@ FOLDER/urdf/ and FOLDER/srdf/ replace linkforge's own. docs/templates.md describ
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.usage = "linkforge compile [options] SPEC [NAME:=VALUE ...]"
+    parser.usage = "linkforge compile [options] SPEC ... [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     add_build_arguments(parser)
     parser.add_argument(
@@ -80,14 +92,39 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    request = parse_request(arguments)
-    return write_outputs(request, compile_request(request, arguments), arguments)
+    words, assignments = split_assignments(arguments.words)
+    if len(words) == 1 and not is_folder(words[0]):
+        request = parse_request(arguments)
+        return deliver([_build(request, arguments)], arguments)
+    found = find_specs_of(_require_specs(words), arguments)
+    requests = _parse_several(found.specs, assignments, arguments)
+    builds = {request.spec: _build(request, arguments) for request in progress(requests, "compiled", arguments)}
+    parts = _parts_in_folders(builds, found.in_folders)
+    return deliver([build for spec, build in builds.items() if spec not in parts], arguments, found.faults)
 
 
 def parse_request(arguments: argparse.Namespace) -> BuildRequest:
-    """Return what to build; UsageError for options that contradict each other."""
+    """Return what to build of one spec; UsageError for options that contradict each other."""
     specs, assignments = split_assignments(arguments.words)
-    spec = require_one_spec(specs)
+    return _parse_request(require_one_spec(specs), assignments, arguments)
+
+
+def _parse_several(specs: Sequence[str], assignments: list[str], arguments: argparse.Namespace) -> list[BuildRequest]:
+    """Return what to build of each spec; UsageError if two would have the same output."""
+    if len(arguments.outputs) != 1 or not is_folder_of_outputs(arguments.outputs[0]):
+        found = " ".join(f"-o {output}" for output in arguments.outputs) or "none"
+        raise UsageError(f"-o takes one folder for the outputs of several specs, found {found}")
+    requests = [_parse_request(spec, assignments, arguments) for spec in specs]
+    spec_of: dict[Path | None, str] = {}
+    for request in requests:
+        for path in request.targets.paths.values():
+            if (other := spec_of.setdefault(path, request.spec)) != request.spec:
+                both = f"that of '{other}' and of '{request.spec}'"
+                raise UsageError(f"'{path}' would be {both}; rename one, or compile it into another folder")
+    return requests
+
+
+def _parse_request(spec: str, assignments: list[str], arguments: argparse.Namespace) -> BuildRequest:
     templates = None if arguments.template is None else _template_folder(arguments)
     targets = _targets(spec, templates, arguments)
     if arguments.source_map:
@@ -101,6 +138,28 @@ def parse_request(arguments: argparse.Namespace) -> BuildRequest:
         if arguments.check:
             raise UsageError("--check writes nothing, so there is no --depfile with it")
     return BuildRequest(spec, assignments, targets, templates)
+
+
+def _build(request: BuildRequest, arguments: argparse.Namespace) -> Build:
+    return render_request(request, compile_request(request, arguments), arguments)
+
+
+def _require_specs(words: list[str]) -> list[str]:
+    """Return words that may be specs; UsageError for those that are a mistake, or for none."""
+    if not words:
+        raise UsageError("takes one spec or more, found none")
+    if "" in words:
+        raise UsageError("takes specs, found '': is a variable of the shell empty?")
+    # A file may have such a name.
+    if assignment := next((word for word in words if "=" in word and not Path(word).exists()), None):
+        raise UsageError(f"there is no spec '{assignment}'; write '-p {assignment}' to set a parameter")
+    return words
+
+
+def _parts_in_folders(builds: Mapping[str, Build], in_folders: Collection[str]) -> frozenset[str]:
+    """Return the specs found in folders that are modules of others and cannot be compiled by themselves."""
+    reports = {spec: SpecReport(build.diagnostics, build.sources) for spec, build in builds.items()}
+    return find_parts(reports, (MISSING_NAME, PARAMETER_NOT_SET)).intersection(in_folders)
 
 
 def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:
@@ -120,8 +179,8 @@ def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:
 
 
 def _targets(spec: str, templates: TemplateFolder | None, arguments: argparse.Namespace) -> Targets:
-    if templates is not None and templates.documents and arguments.format is None:
+    if templates is not None and templates.documents and not arguments.formats:
         documents = targets_of_documents(templates.documents, arguments.outputs)
         if documents is not None:
             return documents
-    return targets_of(spec, arguments.outputs, arguments.format)
+    return targets_of(spec, arguments.outputs, arguments.formats)
