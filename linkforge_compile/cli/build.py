@@ -38,24 +38,29 @@ class Output(NamedTuple):
 
 
 class Build(NamedTuple):
-    """The outputs of one spec, the files that they were made from, and all diagnostics.
+    """The outputs of one spec in a variant (None: the defaults), the files that they were made from, and diagnostics.
 
     There are no outputs if one of them cannot be made.
     """
 
     spec: str
+    variant: str | None
     outputs: tuple[Output, ...]
     sources: tuple[Path, ...]
     diagnostics: tuple[Diagnostic, ...]
 
 
 class BuildRequest(NamedTuple):
-    """What to build: a spec with assignments to its parameters, the targets, and the user's templates if any."""
+    """What to build: a spec with assignments to its parameters, the targets, and the user's templates if any.
+
+    `variant` is the one of the spec, None for the defaults.
+    """
 
     spec: str
     assignments: list[str]
     targets: Targets
     templates: TemplateFolder | None = None
+    variant: str | None = None
 
     @property
     def template_files(self) -> tuple[Path, ...]:
@@ -87,7 +92,9 @@ def _place(target: Path, name: str) -> Path:
 def compile_request(request: BuildRequest, arguments: argparse.Namespace) -> Compilation:
     """Compile the spec of a request with the options of `linkforge compile`."""
     folder = request.targets.folder if arguments.installed_in is None else Path(arguments.installed_in)
-    return compile_spec(request.spec, request.assignments, arguments, output=folder, formats=request.targets.formats)
+    formats, variant = request.targets.formats, request.variant
+    spec, assignments = request.spec, request.assignments
+    return compile_spec(spec, assignments, arguments, output=folder, formats=formats, variant=variant)
 
 
 def render_request(request: BuildRequest, compilation: Compilation, arguments: argparse.Namespace) -> Build:
@@ -97,7 +104,8 @@ def render_request(request: BuildRequest, compilation: Compilation, arguments: a
     if faults:
         diagnostics = tuple(sorted((*diagnostics, *faults), key=lambda one: one.order))
     stale = tuple(_find_stale(outputs, request, compilation.robot)) if arguments.check else ()
-    return Build(request.spec, outputs, (*compilation.files, *request.template_files), (*diagnostics, *stale))
+    sources = (*compilation.files, *request.template_files)
+    return Build(request.spec, request.variant, outputs, sources, (*diagnostics, *stale))
 
 
 def _render(

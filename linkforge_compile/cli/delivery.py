@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -43,11 +43,16 @@ def deliver(builds: Sequence[Build], arguments: argparse.Namespace, faults: tupl
 
 
 def _diagnostics_of(builds: Sequence[Build], faults: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of all builds, each once; those of some variants of a spec say of which."""
     if len(builds) == 1:
         return (*faults, *builds[0].diagnostics)
-    from linkforge_compile.diagnostics.reports import without_repeats
+    from linkforge_compile.diagnostics.reports import merge_reports, without_repeats
 
-    return without_repeats((*faults, *(one for build in builds for one in build.diagnostics)))
+    runs = defaultdict[str, dict[str, tuple[Diagnostic, ...]]](dict)
+    for build in builds:
+        runs[build.spec][f"variant '{build.variant}'"] = build.diagnostics
+    of_specs = (one for of_variants in runs.values() for one in merge_reports(of_variants))
+    return without_repeats((*faults, *of_specs))
 
 
 def _print_status(

@@ -81,10 +81,10 @@ def add_output_option(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def targets_of(spec: str, outputs: Sequence[str], chosen: Sequence[str] = ()) -> Targets:
+def targets_of(spec: str, outputs: Sequence[str], chosen: Sequence[str] = (), variant: str = "") -> Targets:
     """Return the target of each format of a spec; UsageError for outputs that contradict each other.
 
-    `chosen` are the formats of `--format`; without it, the outputs decide.
+    `chosen` are the formats of `--format`; without it, the outputs decide. `variant` is part of the names in a folder.
     """
     if "" in outputs:
         raise UsageError("-o takes a file or a folder, found '': is a variable of the shell empty?")
@@ -95,7 +95,7 @@ def targets_of(spec: str, outputs: Sequence[str], chosen: Sequence[str] = ()) ->
     (output,) = outputs
     if not is_folder_of_outputs(output):
         return Targets({_format_of_file(output, _only(chosen)): Path(output)})
-    folder, name = Path(output), name_of(spec)
+    folder, name = Path(output), "_".join(filter(None, (name_of(spec), variant)))
     written = [one for one in formats.FORMATS if (one.name in chosen if chosen else one.is_default)]
     return Targets({one.name: folder / f"{name}{one.suffix}" for one in written}, is_requested=bool(chosen))
 

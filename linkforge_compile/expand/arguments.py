@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from pathlib import Path
@@ -157,19 +157,25 @@ _MAX_LISTED = 8
 
 
 class Variants(NamedTuple):
-    """The settings of each variant of a file, and the name of the selected one, None for the defaults."""
+    """The settings of each variant of a file, and the names of the selected ones, of which the last one decides."""
 
     by_name: Mapping[str, YamlMap] = MappingProxyType({})
-    selected: str | None = None
+    selected: tuple[str, ...] = ()
 
-    def value_of(self, parameter: str) -> YamlNode | None:
-        """Return what the selected variant sets a parameter to, None for nothing."""
-        variant = None if self.selected is None else self.by_name.get(self.selected)
-        return None if variant is None else variant.get(parameter)
+    @classmethod
+    def of(cls, spec: SpecFile, variant: str | None) -> Variants:
+        """Return the variants of a file with those selected by `--variant`, None for the defaults."""
+        by_name = variants_of(spec)
+        return cls(by_name, tuple(name for name in names_in_variant(variant, by_name) if name in by_name))
+
+    def values_of(self, parameter: str) -> tuple[tuple[str, YamlNode], ...]:
+        """Return the selected variants that set a parameter, with the values; the one that decides comes first."""
+        values = ((name, self.by_name[name].get(parameter)) for name in reversed(self.selected))
+        return tuple((name, value) for name, value in values if value is not None)
 
     def other_values_of(self, parameter: str) -> tuple[YamlNode, ...]:
         """Return what the other variants set a parameter to."""
-        others = (variant.get(parameter) for name, variant in self.by_name.items() if name != self.selected)
+        others = (variant.get(parameter) for name, variant in self.by_name.items() if name not in self.selected)
         return tuple(value for value in others if value is not None)
 
     def entries(self) -> Iterator[YamlEntry]:
@@ -187,6 +193,13 @@ def variants_of(spec: SpecFile) -> dict[str, YamlMap]:
     }
 
 
+def names_in_variant(variant: str | None, known: Container[str]) -> tuple[str, ...]:
+    """Return the names in `a+b`, each once; a variant may have such a name itself."""
+    if variant is None:
+        return ()
+    return (variant,) if variant in known else tuple(dict.fromkeys(variant.split("+")))
+
+
 def names_of_variants(path: Path, loader: Loader) -> Iterable[str]:
     """Return the names of the variants of a file; none if it cannot be read, which its compile reports."""
     if path.suffix.lower() == XACRO:
@@ -198,11 +211,17 @@ def names_of_variants(path: Path, loader: Loader) -> Iterable[str]:
     return variants_of(spec) if spec else ()
 
 
-def report_unknown_variant(name: str, spec: SpecFile, sink: Diagnostics) -> None:
-    """Report a `--variant` that the compiled file does not have."""
-    text = f"--variant {name}"
-    file = SourceFile(COMMAND_LINE, text)
-    where = Span(file, 1, len(text) - len(name) + 1, 1, len(text) + 1)
+def report_unknown_variants(variant: str | None, spec: SpecFile, sink: Diagnostics) -> bool:
+    """Report each name in `--variant` that the compiled file does not have; return whether there is one."""
+    known = variants_of(spec)
+    unknown = [name for name in names_in_variant(variant, known) if name not in known]
+    for name in unknown:
+        _report_unknown_variant(name, f"--variant {variant}", spec, sink)
+    return bool(unknown)
+
+
+def _report_unknown_variant(name: str, text: str, spec: SpecFile, sink: Diagnostics) -> None:
+    where = _span(SourceFile(COMMAND_LINE, text), text.index(name, len("--variant ")), len(name))
     known = variants_of(spec)
     names = [f"'{each}'" for each in known]
     shown = [*names[:_MAX_LISTED], f"{len(names) - _MAX_LISTED} more"] if len(names) > _MAX_LISTED else names

@@ -19,7 +19,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     PACKAGE_NOWHERE,
     RESERVED_NAME,
 )
-from linkforge_compile.expand.arguments import Unset, Variants, variants_of
+from linkforge_compile.expand.arguments import Unset, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.files import follow
@@ -53,7 +53,7 @@ _KINDS = {"parameters": "parameter", "variables": "variable", "data": "data name
 
 @dataclass(frozen=True)
 class CompileState:
-    """What all uses in one compile share; `variant` is the one selected for the compiled file."""
+    """What all uses in one compile share; `variant` selects one of the compiled file, or several: `a+b`."""
 
     compiled: SpecFile
     loader: Loader
@@ -82,7 +82,7 @@ class FileScope:
         self._loader = state.loader
         self._packages: dict[str, Path] | None = None
         self._reports_unset = state.unset is Unset.ERROR or bound.use is not None
-        self._variants = Variants() if bound.use else Variants(variants_of(spec), state.variant)
+        self._variants = Variants() if bound.use else Variants.of(spec, state.variant)
         self.declared = declarations(spec.tree.get("parameters"))
         self._unset: list[Declaration] = []
         self._sink = sink

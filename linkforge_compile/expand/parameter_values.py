@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_NOT_SET,
     UNFIT_CONSTRAINT,
     UNKNOWN_PARAMETER,
+    VARIANTS_DISAGREE,
 )
 from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_number
@@ -121,8 +122,11 @@ def parameter_value(
     parameter = make_parameter(declaration, type_, evaluator)
     result, settings = _argument_value(parameter, bound, spec, evaluator, declaration.key.span)
     noted = _declared_here(evaluator.sink, declaration.key.span)
+    selected = variants.values_of(declaration.name)
+    if result is None:
+        _report_other_settings(declaration.name, selected, evaluator.sink)
     for node, sink, by in (
-        (variants.value_of(declaration.name), noted, f"variant '{variants.selected}'"),
+        *((value, noted, f"variant '{name}'") for name, value in selected),
         *((other, noted, "") for other in variants.other_values_of(declaration.name)),
         (declaration.default, evaluator.sink, "the default"),
     ):
@@ -134,6 +138,15 @@ def parameter_value(
         if node is not None and by and result is not None:
             settings.append(Setting(by, node, evaluator))
     return result, replace(settings[0], instead_of=tuple(settings[1:])) if settings else None
+
+
+def _report_other_settings(parameter: str, selected: Sequence[tuple[str, YamlNode]], sink: Diagnostics) -> None:
+    """Report a parameter that a selected variant sets to another value than the one that decides, which is first."""
+    for name, node in selected[1:]:
+        by, used = selected[0]
+        if plain_value(node) != plain_value(used):
+            notes = [Note(f"variant '{name}' sets it here", node.span)]
+            sink.report(VARIANTS_DISAGREE.at(used.span, name=parameter, by=by, other=name, notes=notes))
 
 
 def make_parameter(declaration: Declaration, type_: ParameterType, evaluator: Evaluator) -> Parameter:

@@ -217,3 +217,37 @@ def test_a_folder_without_specs_is_an_error(robots: Path):
         "error: there is no spec, NAME.robot.yaml, in the folder 'empty/' or below it [LF3067]",
         "compiled no specs: 1 error",
     ]
+
+
+VARIED = """\
+linkforge: 1
+name: arm
+parameters: {size: 1 m}
+variants: {small: {size: 10 cm}, large: {size: 9 m}}
+links: {base: {visual: {box: [$(size), 1, 1]}}}
+"""
+
+
+def test_each_of_several_variants_has_outputs_of_its_own(robots: Path):
+    (robots / "robots" / "arm.robot.yaml").write_text(VARIED)
+    words = ("compile", "robots/arm.robot.yaml", "-o", "build/", "--variant", "small")
+    run = linkforge(*words, "--variant", "small+large", cwd=robots)
+    assert (run.returncode, run.stderr.splitlines()[-1]) == (
+        0,
+        "compiled 1 spec, 2 files written: 1 warning",
+    )
+    assert "note: with variant 'small+large' only" in run.stderr
+    sizes = {name: text.partition('box size="')[2][:3] for name, text in files(robots / "build").items()}
+    assert sizes == {"arm_small.urdf": "0.1", "arm_small+large.urdf": "9 1"}
+    run = linkforge(*words, "--variant", "small", cwd=robots)
+    assert run.returncode == 2
+    both = "that of 'robots/arm.robot.yaml' with variant 'small' and of 'robots/arm.robot.yaml' with variant 'small'"
+    assert f"'build/arm_small.urdf' would be {both}" in run.stderr
+    run = linkforge(*words[:2], *words[4:], "--variant", "large", cwd=robots)
+    assert "-o takes one folder for the outputs of several variants, found none" in run.stderr
+
+
+def test_check_reports_several_variants_together(robots: Path):
+    (robots / "robots" / "arm.robot.yaml").write_text(VARIED.replace("9 m}", "0 m}"))
+    run = linkforge("check", "robots/arm.robot.yaml", "--variant", "small", "--variant", "large", cwd=robots)
+    assert "note: with variant 'large' only" in run.stderr

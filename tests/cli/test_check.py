@@ -73,7 +73,7 @@ def test_a_fault_of_a_shared_module_is_told_once(tmp_path: Path):
 
 
 def test_of_two_variants_none_is_forgotten_in_silence(tmp_path: Path):
-    run = linkforge("check", "arm.robot.yaml", "--variant", "sim", "--variant", "real", cwd=tmp_path)
+    run = linkforge("deps", "arm.robot.yaml", "--variant", "sim", "--variant", "real", cwd=tmp_path)
     assert run.returncode == 2
     assert "argument --variant: may be given once, found 'sim' and 'real'" in run.stderr
 

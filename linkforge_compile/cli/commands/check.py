@@ -43,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--all-variants", action="store_true", help="check the defaults and every variant of each spec, in one report"
     )
-    add_spec_options(parser)
+    add_spec_options(parser, variants_help="once more for another one, in the same report")
     add_report_options(parser, is_product=True)
 
 
@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     words, assignments = split_assignments(arguments.words)
     found = find_specs_of(words or ["."], arguments)
-    if arguments.all_variants and arguments.variant is not None:
+    if arguments.all_variants and arguments.variants:
         raise UsageError("takes --variant or --all-variants, not both")
     if arguments.all_variants and "-" in found.specs:
         raise UsageError("--all-variants takes files, not standard input")
@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _check(spec: str, assignments: list[str], arguments: argparse.Namespace) -> _Compilations:
     """Return the results by variant, where None means the defaults."""
     if not arguments.all_variants:
-        return {arguments.variant: check_spec(spec, assignments, arguments)}
+        return {variant: check_spec(spec, assignments, arguments, variant) for variant in arguments.variants or [None]}
     from linkforge_compile.pipeline import check_each_variant
 
     return check_each_variant(Path(spec), check_settings_of(assignments, arguments))

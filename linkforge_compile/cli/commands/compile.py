@@ -29,7 +29,7 @@ from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Collection, Mapping, Sequence
+    from collections.abc import Collection, Sequence
 
     from linkforge_compile.formats.user_templates import TemplateFolder
 
@@ -41,6 +41,8 @@ examples:
   linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
   linkforge compile arm.robot.yaml --gazebo classic     with sensors for Gazebo Classic
   linkforge compile arm.robot.yaml --variant sim        with the values of one of its variants
+  linkforge compile arm.robot.yaml --variant sim --variant lab -o build/    build/arm_sim.urdf and build/arm_lab.urdf
+  linkforge compile arm.robot.yaml --variant sim+lab    with the values of two variants; the last one decides
   linkforge compile arm.robot.yaml -o build/ --source-map   and the source of each line, in build/arm.urdf.map.json
   linkforge compile arm.robot.yaml -o urdf/ --check     write nothing; fail if urdf/arm.urdf is out of date
   linkforge compile arm.robot.yaml -o arm.urdf --depfile arm.urdf.d     and its dependencies, for Make and Ninja
@@ -87,46 +89,57 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         help="the final folder of the output, from which relative paths of meshes start (default: that of -o)",
     )
-    add_spec_options(parser)
+    add_spec_options(
+        parser, variants_help="once more for another one, each with outputs NAME_VARIANT in the folder of -o"
+    )
     add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     words, assignments = split_assignments(arguments.words)
-    if len(words) == 1 and not is_folder(words[0]):
+    if len(words) == 1 and not is_folder(words[0]) and len(arguments.variants) < 2:
         request = parse_request(arguments)
         return deliver([_build(request, arguments)], arguments)
     found = find_specs_of(_require_specs(words), arguments)
     requests = _parse_several(found.specs, assignments, arguments)
-    builds = {request.spec: _build(request, arguments) for request in progress(requests, "compiled", arguments)}
+    builds = [_build(request, arguments) for request in progress(requests, "compiled", arguments)]
     parts = _parts_in_folders(builds, found.in_folders)
-    return deliver([build for spec, build in builds.items() if spec not in parts], arguments, found.faults)
+    return deliver([build for build in builds if build.spec not in parts], arguments, found.faults)
 
 
 def parse_request(arguments: argparse.Namespace) -> BuildRequest:
     """Return what to build of one spec; UsageError for options that contradict each other."""
     specs, assignments = split_assignments(arguments.words)
-    return _parse_request(require_one_spec(specs), assignments, arguments)
+    if len(arguments.variants) > 1:
+        raise UsageError(f"--variant may be given once, found {' and '.join(arguments.variants)}")
+    variant = next(iter(arguments.variants), None)
+    return _parse_request(require_one_spec(specs), variant, assignments, arguments)
 
 
 def _parse_several(specs: Sequence[str], assignments: list[str], arguments: argparse.Namespace) -> list[BuildRequest]:
     """Return what to build of each spec; UsageError if two would have the same output."""
     if len(arguments.outputs) != 1 or not is_folder_of_outputs(arguments.outputs[0]):
         found = " ".join(f"-o {output}" for output in arguments.outputs) or "none"
-        raise UsageError(f"-o takes one folder for the outputs of several specs, found {found}")
-    requests = [_parse_request(spec, assignments, arguments) for spec in specs]
-    spec_of: dict[Path | None, str] = {}
+        several = "specs" if len(specs) > 1 else "variants"
+        raise UsageError(f"-o takes one folder for the outputs of several {several}, found {found}")
+    variants = arguments.variants or [None]
+    requests = [_parse_request(spec, variant, assignments, arguments) for spec in specs for variant in variants]
+    names: dict[Path | None, str] = {}
     for request in requests:
+        name = f"'{request.spec}'" + (f" with variant '{request.variant}'" if request.variant else "")
         for path in request.targets.paths.values():
-            if (other := spec_of.setdefault(path, request.spec)) != request.spec:
-                both = f"that of '{other}' and of '{request.spec}'"
+            if path in names:
+                both = f"that of {names[path]} and of {name}"
                 raise UsageError(f"'{path}' would be {both}; rename one, or compile it into another folder")
+            names[path] = name
     return requests
 
 
-def _parse_request(spec: str, assignments: list[str], arguments: argparse.Namespace) -> BuildRequest:
+def _parse_request(
+    spec: str, variant: str | None, assignments: list[str], arguments: argparse.Namespace
+) -> BuildRequest:
     templates = None if arguments.template is None else _template_folder(arguments)
-    targets = _targets(spec, templates, arguments)
+    targets = _targets(spec, templates, arguments, variant or "" if len(arguments.variants) > 1 else "")
     if arguments.source_map:
         targets.require_files("--source-map", "writes its map beside the output")
         if templates is not None:
@@ -137,7 +150,7 @@ def _parse_request(spec: str, assignments: list[str], arguments: argparse.Namesp
         targets.require_files("--depfile", "tells what files are made from")
         if arguments.check:
             raise UsageError("--check writes nothing, so there is no --depfile with it")
-    return BuildRequest(spec, assignments, targets, templates)
+    return BuildRequest(spec, assignments, targets, templates, variant)
 
 
 def _build(request: BuildRequest, arguments: argparse.Namespace) -> Build:
@@ -156,9 +169,9 @@ def _require_specs(words: list[str]) -> list[str]:
     return words
 
 
-def _parts_in_folders(builds: Mapping[str, Build], in_folders: Collection[str]) -> frozenset[str]:
+def _parts_in_folders(builds: Sequence[Build], in_folders: Collection[str]) -> frozenset[str]:
     """Return the specs found in folders that are modules of others and cannot be compiled by themselves."""
-    reports = {spec: SpecReport(build.diagnostics, build.sources) for spec, build in builds.items()}
+    reports = {build.spec: SpecReport(build.diagnostics, build.sources) for build in builds}
     return find_parts(reports, (MISSING_NAME, PARAMETER_NOT_SET)).intersection(in_folders)
 
 
@@ -178,9 +191,9 @@ def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:
     return templates
 
 
-def _targets(spec: str, templates: TemplateFolder | None, arguments: argparse.Namespace) -> Targets:
+def _targets(spec: str, templates: TemplateFolder | None, arguments: argparse.Namespace, variant: str) -> Targets:
     if templates is not None and templates.documents and not arguments.formats:
         documents = targets_of_documents(templates.documents, arguments.outputs)
         if documents is not None:
             return documents
-    return targets_of(spec, arguments.outputs, arguments.formats)
+    return targets_of(spec, arguments.outputs, arguments.formats, variant)
