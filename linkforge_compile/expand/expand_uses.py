@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CIRCLE, USE_TOO_DEEP
 from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
@@ -107,7 +107,8 @@ class _Expansion:
         scope.check_parameters()
         tree, defaults = _robot_tree(use.spec, scope.evaluator)
         entries = tuple(read_modules(use.spec, scope.evaluator, stack))
-        removed, references = scope.evaluator.disabled.deleted, scope.builtins.references
+        removed = DeletedNames(scope.evaluator.disabled, scope.evaluator.disabled_prefixes)
+        references = scope.builtins.references
         if use.entry and use.entry.overrides:
             from linkforge_compile.expand.modules import ModuleBody
 
