@@ -519,12 +519,9 @@ def test_what_no_key_says_of_an_element_inside_stands_beside_what_keys_say(read)
         links:
           a:
             visual:
-              box: [1, 1, 1]
+              box: {size: [1, 1, 1], extra_attributes: {unit: m}}
               material: red
-              extra_inside:
-                geometry:
-                  extra_attributes: {by: me}
-                  extra_inside: {box: {extra_attributes: {unit: m}}}
+              extra_inside: {geometry: {extra_attributes: {by: me}}}
             inertial:
               mass: 1
               inertia: {ixx: 1, iyy: 1, izz: 1}
