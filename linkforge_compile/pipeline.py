@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from linkforge_compile.checks import check
 from linkforge_compile.compilation import Compilation, CompileError
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
-from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED, VARIANTS_BEYOND_LIMIT
+from linkforge_compile.diagnostics.codes.modules import NOT_CHECKED, VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import (
     XACRO,
@@ -269,7 +269,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
         suppressions = loader.suppressions
     except BeyondLimitError as beyond:
         sink.abort(beyond)
-    if sink.has_errors or any(diagnostic.code is NOT_JUDGED for diagnostic in sink):
+    if sink.has_errors or any(diagnostic.code is NOT_CHECKED for diagnostic in sink):
         robot = None
     report = sink.sorted()
     if suppressions:

@@ -70,7 +70,7 @@ WITHOUT_A_CASE = {
 
 
 @pytest.mark.parametrize("path", BAD, ids=lambda path: path.name)
-def test_a_bad_spec_is_told_at_its_line(path: Path):
+def test_a_bad_spec_is_reported_at_its_line(path: Path):
     check_case(path)
 
 
@@ -82,7 +82,7 @@ def test_a_case_is_named_after_a_code_that_it_expects(path: Path):
 
 
 @pytest.mark.parametrize("path", BAD_URDF, ids=lambda path: path.name)
-def test_a_bad_urdf_is_told_at_its_line(path: Path):
+def test_a_bad_urdf_is_reported_at_its_line(path: Path):
     check_urdf_case(path)
 
 
@@ -98,7 +98,7 @@ def test_every_code_has_a_case():
 
 
 @pytest.mark.parametrize(("code", "file"), WITHOUT_A_CASE.items())
-def test_a_code_without_a_case_is_told_in_its_test(code: str, file: str):
+def test_a_code_without_a_case_is_in_its_test(code: str, file: str):
     """By its id, its name, or the longest run of its words."""
     one = REGISTER[code]
     words = max(re.split(r"\{\w+\}", one.message), key=len).strip()

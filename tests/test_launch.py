@@ -165,7 +165,7 @@ def test_a_node_gets_texts_and_no_yaml(ros: Ros, spec: Path):
     assert etree.fromstring(srdf.encode()).find("group").get("name") == "all"
 
 
-def test_a_fault_fails_the_launch_and_is_told_at_its_place(ros: Ros, spec: Path):
+def test_a_fault_fails_the_launch_and_is_reported_at_its_place(ros: Ros, spec: Path):
     robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
     context = launched(ros, robot, reach="3 m")
     failure = importlib.import_module("launch.substitutions").SubstitutionFailure
@@ -180,7 +180,9 @@ def test_a_fault_fails_the_launch_and_is_told_at_its_place(ros: Ros, spec: Path)
         ({"serial": "A1", "reach": 3}, "<launch file>:1:8: error: parameter 'reach'"),
     ],
 )
-def test_a_wrong_value_is_told_as_whoever_launches_says_it(ros: Ros, spec: Path, given: dict[str, object], said: str):
+def test_a_wrong_value_is_reported_in_the_form_of_a_launch_argument(
+    ros: Ros, spec: Path, given: dict[str, object], said: str
+):
     robot = ros.ours.RobotDescription(spec, given, argument_prefix="left_")
     failure = importlib.import_module("launch.substitutions").SubstitutionFailure
     with pytest.raises(failure) as caught:
@@ -207,12 +209,12 @@ def test_a_list_with_a_number_is_a_vector(ros: Ros, tmp_path: Path):
     assert box_of(robot.urdf.perform(launched(ros, robot, height="0.25"))) == "2 0.5 0.25"
 
 
-def test_a_value_that_no_launch_file_has_is_told_with_its_parameter(ros: Ros, spec: Path):
+def test_an_invalid_launch_value_is_reported_with_its_parameter(ros: Ros, spec: Path):
     with pytest.raises(TypeError, match=r"'reach' takes text, a number, .*; found {'a': 1}"):
         ros.ours.RobotDescription(spec, {"reach": {"a": 1}})
 
 
-def test_a_launch_compiles_once_and_logs_what_is_told(
+def test_a_launch_compiles_once_and_logs_diagnostics(
     ros: Ros, spec: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ):
     warned = SPEC.replace("sphere: 0.1", "capsule: {radius: 0.1, length: 1}")
@@ -265,7 +267,7 @@ def test_a_launch_that_is_over_is_let_go(ros: Ros, spec: Path):
     assert over() is None
 
 
-def test_a_variant_that_is_not_there_is_told_where_it_is_said(ros: Ros, spec: Path):
+def test_an_unknown_variant_is_reported_where_it_is_named(ros: Ros, spec: Path):
     with pytest.raises(ValueError, match=r"arm.robot.yaml has no variant named 'lnog'; did you mean 'long'\?$"):
         ros.ours.RobotDescription(spec, variant="lnog")
     with pytest.raises(ValueError, match=r"no variant named 'simulation'; its variants are long$"):
@@ -276,7 +278,7 @@ def test_a_variant_that_is_not_there_is_told_where_it_is_said(ros: Ros, spec: Pa
         robot.urdf.perform(launched(ros, robot, size="logn"))
 
 
-def test_a_parameter_that_is_not_there_is_told_where_it_is_said(ros: Ros, spec: Path):
+def test_an_unknown_parameter_is_reported_where_it_is_set(ros: Ros, spec: Path):
     with pytest.raises(ValueError, match=r"arm.robot.yaml has no parameter named 'raech'; did you mean 'reach'\?$"):
         ros.ours.RobotDescription(
             spec, {"raech": importlib.import_module("launch.substitutions").LaunchConfiguration("r")}
@@ -292,7 +294,7 @@ def test_no_text_is_no_variant(ros: Ros, spec: Path):
     assert box_of(robot.urdf.perform(launched(ros, robot))).startswith("0.5 ")
 
 
-def test_an_argument_without_a_value_is_told_as_one_of_a_launch(ros: Ros, spec: Path):
+def test_an_argument_without_a_value_is_reported_as_a_launch_argument(ros: Ros, spec: Path):
     robot = ros.ours.RobotDescription(spec, argument_prefix="left_")
     failure = importlib.import_module("launch.substitutions").SubstitutionFailure
     with pytest.raises(failure, match=r"launch arguments that have no value: 'left_serial'; the 'arguments' of"):

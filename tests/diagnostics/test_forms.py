@@ -65,7 +65,7 @@ def test_json_says_all_and_fits_its_schema():
     }
 
 
-def test_github_is_told_of_no_file_where_there_is_none():
+def test_github_annotations_have_no_file_where_there_is_none():
     assert render_github([UNKNOWN.at(Span(STDIN, 1, 1, 1, 2), name="tool")], root=CHECKOUT) == (
         "::error title=LF4102::<stdin>:1:1: no link named 'tool'\n"
     )
@@ -82,7 +82,7 @@ def test_the_schema_refuses_what_is_no_diagnostic():
     assert not jsonschema.Draft7Validator(schema).is_valid(whole)
 
 
-def test_github_is_told_the_worst_first_with_escaped_words():
+def test_github_annotations_are_escaped_with_the_worst_first():
     place = "file=robots/a%2C b.robot.yaml"
     assert render_github(EVERY, root=CHECKOUT).splitlines() == [
         f"::error {place},line=2,col=18,endLine=2,endColumn=22,title=LF4102"

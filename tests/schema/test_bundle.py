@@ -37,7 +37,7 @@ def test_the_bundle_needs_no_other_file():
     assert {f"#/definitions/{name}" for name in bundle()["definitions"]} >= set(references)
 
 
-def test_the_bundle_is_a_schema_that_takes_a_robot_as_any_tool_reads_it():
+def test_the_bundle_is_a_schema_that_accepts_a_robot_in_any_tool():
     Draft7Validator.check_schema(bundle())
     assert [error.message for error in Draft7Validator(bundle()).iter_errors(SPEC)] == []
 
